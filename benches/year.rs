@@ -4,11 +4,14 @@
 //! `cargo bench --bench year`. Before the times the largest deviation of hours from the ordinary computation of their
 //! moments is printed, with what was stated.
 
-use cfs::compute::estimate::Silent;
+use cfs::compute::estimate::{Estimate, Silent};
+use cfs::compute::rank::{Better, Objective};
 use cfs::compute::sky::{Outside, Sun};
+use cfs::study::rank::{Found, List, Parts, Row, Shortlist};
 use cfs::study::year::{Climate, climate, scene_at, year_in};
 use cfs::study::{Coefficients, Library, Scene, SceneFile, Session};
 use divan::Bencher;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -126,4 +129,31 @@ fn hours(bencher: Bencher<'_, '_>) {
         };
         skies.iter().map(hour).sum::<f64>()
     });
+}
+
+/// Other weights for a hundred products of three figures, to the list that a window shows: nothing of the years is computed.
+#[divan::bench]
+fn weights(bencher: Bencher<'_, '_>) {
+    let objective = |worst, best| Objective { better: Better::More, worst, best, weight: 1.0 };
+    let row = |k: usize| {
+        let share = |step: f64| (step * k as f64).fract();
+        let figures: Vec<f64> = [0.618_034, 0.754_878, 0.569_840].map(share).to_vec();
+        let parts = |e: &f64| Parts { zones: vec!["front".to_owned(), "rear".to_owned()], values: vec![e / 16.0; 16] };
+        let found = Found {
+            parts: figures.iter().map(parts).collect(),
+            figures: figures.into_iter().map(|e| Estimate::new(e, 0.005)).collect(),
+            approximate: Vec::new(),
+        };
+        Row { product: format!("p{k:03}"), key: String::new(), outcome: Ok(found) }
+    };
+    let list = List {
+        number: 0,
+        scene: String::new(),
+        climate: String::new(),
+        azimuth: 180.0,
+        figures: ["a", "b", "c"].map(str::to_owned).to_vec(),
+        objectives: vec![objective(0.0, 1.0), objective(0.2, 0.8), objective(0.0, 0.5)],
+        rows: (0..100).map(row).collect(),
+    };
+    bencher.bench(|| Shortlist::of(list.clone(), &BTreeMap::new(), &BTreeSet::new()).entries.len());
 }

@@ -21,7 +21,7 @@ use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
 use crate::study::luminaire_set::{LuminaireSet, Wish, make, tile_name};
-use crate::study::rank::{Answer, Group, Item, run as rank};
+use crate::study::rank::{Answer, Group, Item, Stage, run as rank};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
 use crate::study::year::{Annual, year};
@@ -367,7 +367,7 @@ impl Engine for StudyEngine {
         progress: &dyn Progress,
     ) -> Result<(), AppError> {
         let library = WindowLibrary { files: &self.files, shelf, progress };
-        rank(groups, items, &library, &self.ranking, true, told, progress)?;
+        rank(groups, items, &library, &self.ranking, &[Stage::Coarse, Stage::Full], told, progress)?;
         Ok(())
     }
 

@@ -1,18 +1,20 @@
 //! `cfs accuracy`: error against run time of a scene, by method and effort.
 
-use super::accuracy_year;
 use super::output::{number, print};
 use super::progress::TerminalProgress;
+use super::rank::asked;
 use super::writing::Over;
+use super::{accuracy_rank, accuracy_year};
 use crate::compute::incidence::schemes::SunScheme;
 use crate::drawing::chart;
 use crate::formats::FileKind;
 use crate::study::accuracy::annual::annual;
+use crate::study::accuracy::ranking::ranking;
 use crate::study::accuracy::words::{self, percent, quantity};
 use crate::study::accuracy::{Accuracy, Coverage, Origin, Reference, Rung, Series, Truth, ladder_against};
 use crate::study::accuracy_plot::{name, plots};
 use crate::study::leaving_out::LeavingOut;
-use crate::study::{load_scene, read_scene_file, system::SystemLibrary};
+use crate::study::{Library, load_scene, read_scene_file};
 use anyhow::Context as _;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -25,6 +27,7 @@ use std::path::{Path, PathBuf};
   cfs accuracy office.toml --csv ladder.csv --plot ladder.svg
   cfs accuracy office.toml --reference measured.csv          true errors, against a file
   cfs accuracy office.toml --year                            of its year: hours and figures against the finest year
+  cfs accuracy rank.toml --rank --products blind             of its ranking: worth and pairs against the finest ranking
 
 Every method computes the scene with rising effort; the ordinary one by error targets, which a scene asks for by
 compute.error_target. Methods that a scene chooses by compute.near_field are compared by their direct component.
@@ -44,7 +47,9 @@ direction is left out and foretold from those around it, by responses and by the
 Columns of the CSV: method, quantity, against (finest run, or the file), setting, setup_s, sky_s, sun_s, stated_max,
 error_rms, error_max, sensors, share_held, share_padded_10, data_open, remark. With --year: setting,
 seconds, stated_mean, error_rms, error_max, values (hours × places that are not dark), share_held, share_padded_10, then of every
-figure its value, its stated error and its distance from the finest year's.")]
+figure its value, its stated error and its distance from the finest year's. With --rank: setting, seconds, stated_mean, error_rms,
+error_max (of what products are worth, 0 to 1), products, share_held, share_padded_10, pairs, and of these pairs_apart (in the
+finest, by more than twice what it states of both), pairs_told (told apart here, too) and pairs_reversed.")]
 pub struct AccuracyArgs {
     /// Scene file (TOML)
     pub scene: PathBuf,
@@ -60,6 +65,12 @@ pub struct AccuracyArgs {
     /// Of the scene's year instead: all its hours, and the figures they come to
     #[arg(long, conflicts_with_all = ["reference", "plot"])]
     pub year: bool,
+    /// Of the scene's ranking instead: what products are worth, and which of them are told apart
+    #[arg(long, conflicts_with_all = ["reference", "plot", "year"])]
+    pub rank: bool,
+    /// Words as in the window's search, instead of rank.products
+    #[arg(long, value_name = "WORDS", requires = "rank")]
+    pub products: Option<String>,
     /// What may be written over.
     #[command(flatten)]
     pub over: Over,
@@ -72,9 +83,12 @@ pub struct AccuracyArgs {
 const SIZE: [f64; 2] = [1280.0, 560.0];
 
 /// Runs the command.
-pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     if args.year {
         return of_year(args, library);
+    }
+    if args.rank {
+        return of_rank(args, library);
     }
     // Before the work, so that a wrong name costs no minute.
     let picture = args.plot.as_deref().map(|path| Ok::<_, anyhow::Error>((path, is_png(path)?))).transpose()?;
@@ -103,8 +117,20 @@ pub fn run(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<(
     if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
 }
 
+/// Of the scene's ranking.
+fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
+    args.over.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
+    let groups = asked(std::slice::from_ref(&args.scene), args.products.as_deref(), library)?;
+    let accuracy =
+        ranking(&groups, library, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
+    if let Some(path) = args.csv.as_deref() {
+        args.over.write(path, FileKind::Csv, accuracy_rank::csv(&accuracy)?.as_bytes())?;
+    }
+    accuracy_rank::tell(&accuracy, args.json)
+}
+
 /// Of the scene's year.
-fn of_year(args: &AccuracyArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
+fn of_year(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     args.over.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
     let file = read_scene_file(&args.scene)?;
     let base = args.scene.parent().unwrap_or(Path::new("."));

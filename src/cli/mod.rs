@@ -6,6 +6,7 @@ macro_rules! tell {
 }
 
 pub mod accuracy;
+mod accuracy_rank;
 mod accuracy_year;
 mod args;
 mod builtin;

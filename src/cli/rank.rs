@@ -9,7 +9,9 @@ use super::writing::Over;
 use crate::compute::rank::Place;
 use crate::drawing::ticks;
 use crate::formats::FileKind;
-use crate::study::rank::{Group, List, Shard, csv_text, groups, keys, lists_of, ranked_table, run as compute, run_key};
+use crate::study::rank::{
+    Group, List, Shard, Stage, csv_text, groups, keys, lists_of, ranked_table, run as compute, run_key,
+};
 use crate::study::{Library, Session, StudyError, read_scene_file};
 use anyhow::{anyhow, bail};
 use std::fmt::Write as _;
@@ -60,7 +62,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
         let (lists, figures) = merged(&args.merge)?;
         return tell(args, &lists, &figures);
     }
-    let groups = asked(args, library)?;
+    let groups = asked(&args.scenes, args.products.as_deref(), library)?;
     let figures = figures_of(&groups);
     let counts: Vec<usize> = groups.iter().map(|group| group.products.len()).collect();
     let items = args.shard.unwrap_or(Shard::WHOLE).items(&counts);
@@ -77,7 +79,8 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
         [one] => anyhow!("{}: {error}", one.display()),
         _ => anyhow!("{error}"),
     };
-    let outcomes = compute(&groups, &items, library, &Session::passing(), false, &|_| (), &progress).map_err(name)?;
+    let outcomes =
+        compute(&groups, &items, library, &Session::passing(), &[Stage::Full], &|_| (), &progress).map_err(name)?;
     drop(progress);
     let mut lists = lists_of(&groups, &items, outcomes, &keys);
     lists.iter_mut().for_each(List::sort);
@@ -91,11 +94,11 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     }
 }
 
-/// The lists that the scenes ask for.
-fn asked(args: &RankArgs, library: &Library) -> anyhow::Result<Vec<Group>> {
+/// The lists that the scenes ask for, of products found by words instead of the scenes' own.
+pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Library) -> anyhow::Result<Vec<Group>> {
     let mut all = Vec::new();
-    for (place, path) in args.scenes.iter().enumerate() {
-        if args.scenes[..place].contains(path) {
+    for (place, path) in scenes.iter().enumerate() {
+        if scenes[..place].contains(path) {
             bail!("{}: named twice; expected each scene once", path.display());
         }
         let file = read_scene_file(path)?;
@@ -107,7 +110,7 @@ fn asked(args: &RankArgs, library: &Library) -> anyhow::Result<Vec<Group>> {
             }
             Ok(products)
         };
-        let own = groups(&path.display().to_string(), &file, base, args.products.as_deref(), &find);
+        let own = groups(&path.display().to_string(), &file, base, products, &find);
         all.extend(own.map_err(|error| anyhow!("{}: {error}", path.display()))?);
     }
     Ok(all)

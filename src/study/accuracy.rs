@@ -9,6 +9,7 @@
 
 pub mod annual;
 mod ladder;
+pub mod ranking;
 mod truth;
 pub mod words;
 

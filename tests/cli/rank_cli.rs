@@ -331,6 +331,40 @@ fn rankings_that_cannot_be_are_refused_in_one_line() {
 }
 
 #[test]
+fn the_accuracy_of_a_ranking_is_told_by_effort() {
+    let folder = prepared();
+    let folder = folder.path();
+    let text = done(folder, &["accuracy", "scene.toml", "--rank", "--csv", "ranks.csv", "--json"]);
+    let found: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(
+        ["lists", "products", "ranked"].map(|key| found[key].as_u64()),
+        [Some(2), Some(10), Some(8)],
+        "one cannot follow the scene's rule"
+    );
+    let rankings = found["rankings"].as_array().unwrap();
+    let settings: Vec<&str> = rankings.iter().map(|one| one["setting"].as_str().unwrap()).collect();
+    let targets = [10, 3, 1].map(|percent| format!("error target {percent} %"));
+    assert_eq!(settings[..2], ["typical days", "as the scene has it"]);
+    assert_eq!(settings[2..5], targets);
+    let (finest, others) = rankings.split_last().unwrap();
+    assert!(finest["error_target"] == 0.003 && finest["error_rms"].is_null() && finest["coverage"].is_null());
+    // Four products in two lists.
+    let apart = finest["pairs"]["apart"].as_u64().unwrap();
+    assert!(finest["pairs"]["all"] == 12 && (8..=12).contains(&apart), "{finest}");
+    for one in others {
+        assert!(one["seconds"].as_f64().unwrap() > 0.0 && one["stated_mean"].as_f64().unwrap() > 0.0, "{one}");
+        assert!(one["pairs"]["apart"] == apart && one["pairs"]["reversed"] == 0, "{one}");
+        let typical = one["setting"] == "typical days";
+        assert!(typical || (one["pairs"]["told"] == apart && one["coverage"]["held"] == 1.0), "{one}");
+    }
+    let table = String::from_utf8(bytes(folder, "ranks.csv")).unwrap();
+    assert_eq!(table.lines().count(), 7);
+    assert!(table.starts_with("setting,seconds,stated_mean,error_rms,error_max,products,share_held,"), "{table}");
+    let error = refused(folder, &["accuracy", "scene.toml", "--rank", "--products", "no such thing"]);
+    assert!(error.contains("rank.products"), "{error}");
+}
+
+#[test]
 fn states_from_a_table_hold_until_the_next_row() {
     let folder = prepared();
     let folder = folder.path();

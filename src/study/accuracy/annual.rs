@@ -84,7 +84,7 @@ pub struct YearAccuracy {
 }
 
 /// Hands on that the work is not wanted any more; its own steps are the ladder's.
-struct Inner<'a>(&'a dyn Progress);
+pub(super) struct Inner<'a>(pub &'a dyn Progress);
 
 impl Progress for Inner<'_> {
     fn cancelled(&self) -> bool {
@@ -104,14 +104,7 @@ pub fn annual(
     progress: &dyn Progress,
 ) -> Result<YearAccuracy, StudyError> {
     let climate = climate(file, base)?;
-    // As it stands, beside the targets: where the scene names one, that is a line of its own, too.
-    let own = file.compute.error_target;
-    let mut targets: Vec<Option<f64>> = TARGETS.into_iter().map(Some).collect();
-    if !targets.contains(&own) {
-        let place = own.map_or(0, |own| TARGETS.iter().filter(|target| **target > own).count());
-        // The last is what all are measured by.
-        targets.insert(place.min(TARGETS.len() - 1), own);
-    }
+    let targets = targets(file.compute.error_target);
     let mut years = Vec::with_capacity(targets.len());
     for (k, target) in targets.iter().enumerate() {
         if progress.cancelled() {
@@ -139,6 +132,17 @@ pub fn annual(
         .collect();
     let steps = [finest.chosen.len(), finest.chosen.len() - finest.light.dark];
     Ok(YearAccuracy { rungs, steps, places: finest.light.places, threads: rayon::current_num_threads() })
+}
+
+/// Error targets by rising effort. The scene's own, where it names one, is a line of its own; so is none.
+pub(super) fn targets(own: Option<f64>) -> Vec<Option<f64>> {
+    let mut targets: Vec<Option<f64>> = TARGETS.into_iter().map(Some).collect();
+    if !targets.contains(&own) {
+        let place = own.map_or(0, |own| TARGETS.iter().filter(|target| **target > own).count());
+        // The last is what all are measured by.
+        targets.insert(place.min(TARGETS.len() - 1), own);
+    }
+    targets
 }
 
 fn timed(

@@ -1,4 +1,4 @@
-//! All products of all lists, side by side: first by typical days, then by whole years.
+//! All products of all lists, side by side, stage by stage: by typical days, by whole years.
 
 use super::figures::{Outcome, Setting, Stage};
 use super::list::{List, Row};
@@ -40,8 +40,8 @@ struct Ready {
     grouping: Grouping,
 }
 
-/// Computes items, those of few states first. Results do not depend on the number of threads. `coarse`: by
-/// typical days first, all of them before any whole year; `told` hears of every result when it is there, from any thread.
+/// Computes items, those of few states first. Results do not depend on the number of threads. All of them come
+/// through a stage before any enters the next; `told` hears of every result when it is there, from any thread.
 ///
 /// # Errors
 /// A climate that cannot be read, a figure that no year has; cancelled. What is wrong with a product is its outcome.
@@ -50,7 +50,7 @@ pub fn run(
     items: &[Item],
     library: &dyn SystemLibrary,
     session: &Session,
-    coarse: bool,
+    stages: &[Stage],
     told: &(dyn Fn(Answer<'_>) + Sync),
     progress: &dyn Progress,
 ) -> Result<Vec<Outcome>, StudyError> {
@@ -93,7 +93,7 @@ pub fn run(
     let mut order: Vec<usize> = (0..items.len()).collect();
     order.sort_by_key(states);
     let mut outcomes = Vec::new();
-    for stage in if coarse { &[Stage::Coarse, Stage::Full][..] } else { &[Stage::Full] } {
+    for stage in stages {
         outcomes = side_by_side(items, &order, *stage, &one, told, progress)?;
     }
     Ok(outcomes)

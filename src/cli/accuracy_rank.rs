@@ -1,0 +1,131 @@
+//! `cfs accuracy SCENE --rank`: error against run time of a ranking.
+
+use super::output::{number, print};
+use crate::study::accuracy::ranking::{Effort, RankAccuracy, RankRung};
+use serde_json::json;
+use std::fmt::Write as _;
+
+/// Prints it, as a table or for programs.
+pub(super) fn tell(accuracy: &RankAccuracy, as_json: bool) -> anyhow::Result<()> {
+    if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
+}
+
+/// The effort of a ranking in words.
+fn setting(rung: &RankRung) -> String {
+    match rung.effort {
+        Effort::TypicalDays => "typical days".to_owned(),
+        Effort::Cells => "data on their cells".to_owned(),
+        Effort::Target(None) => "as the scene has it".to_owned(),
+        Effort::Target(Some(target)) => format!("error target {} %", 100.0 * target),
+    }
+}
+
+/// One line a ranking.
+pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
+    let mut writer = ::csv::Writer::from_writer(Vec::new());
+    writer.write_record([
+        "setting",
+        "seconds",
+        "stated_mean",
+        "error_rms",
+        "error_max",
+        "products",
+        "share_held",
+        "share_padded_10",
+        "pairs",
+        "pairs_apart",
+        "pairs_told",
+        "pairs_reversed",
+    ])?;
+    for rung in &accuracy.rungs {
+        // The finest has nothing to be measured by.
+        let coverage = rung.coverage();
+        let told = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
+        let pairs = rung.pairs;
+        writer.write_record([
+            setting(rung),
+            number(rung.seconds),
+            number(rung.stated),
+            told(rung.rms()),
+            told(rung.max()),
+            rung.errors.len().to_string(),
+            coverage.map_or_else(String::new, |one| number(one.kept)),
+            coverage.map_or_else(String::new, |one| number(one.padded)),
+            pairs.all.to_string(),
+            pairs.apart.to_string(),
+            pairs.told.to_string(),
+            pairs.reversed.to_string(),
+        ])?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
+}
+
+fn table(accuracy: &RankAccuracy) -> String {
+    let mut text = String::from("Ranking, what products are worth (0 to 1): errors against the finest ranking\n");
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        "  {:<22} {:>9} {:>12} {:>10} {:>10} {:>7} {:>7} {:>10} {:>9} {:>9}",
+        "effort",
+        "time",
+        "stated mean",
+        "error RMS",
+        "error max",
+        "held",
+        "> 10×",
+        "told apart",
+        "left open",
+        "reversed"
+    );
+    for rung in &accuracy.rungs {
+        let _ = write!(text, "  {:<22} {:>7.2} s {:>12.5} ", setting(rung), rung.seconds, rung.stated);
+        let pairs = rung.pairs;
+        let open = pairs.apart - pairs.told - pairs.reversed;
+        let _ = match rung.coverage() {
+            None => writeln!(text, "{:>10}", "finest"),
+            Some(one) => writeln!(
+                text,
+                "{:>10.5} {:>10.5} {:>5.1} % {:>5.1} % {:>10} {:>9} {:>9}",
+                rung.rms(),
+                rung.max(),
+                100.0 * one.kept,
+                100.0 * one.padded,
+                pairs.told,
+                open,
+                pairs.reversed
+            ),
+        };
+    }
+    let [all, ranked] = accuracy.products;
+    let pairs = accuracy.rungs.last().map(|rung| rung.pairs).unwrap_or_default();
+    let _ = writeln!(
+        text,
+        "{ranked} of {all} products ranked in {} list(s). The finest has {} of {} pairs apart by more than twice what it states \
+         of both: these are told apart by the others, left open or reversed. Times of {} thread(s), nothing known before.",
+        accuracy.lists, pairs.apart, pairs.all, accuracy.threads
+    );
+    text
+}
+
+fn to_json(accuracy: &RankAccuracy) -> serde_json::Value {
+    let rung = |rung: &RankRung| {
+        let coverage = rung.coverage();
+        let told = |value: f64| coverage.is_some().then_some(value);
+        let target = if let Effort::Target(target) = rung.effort { target } else { None };
+        let pairs = rung.pairs;
+        json!({
+            "setting": setting(rung), "error_target": target, "seconds": rung.seconds, "stated_mean": rung.stated,
+            "error_rms": told(rung.rms()), "error_max": told(rung.max()),
+            "coverage": coverage.map(|one| json!({"values": one.count, "held": one.kept, "padded_10": one.padded})),
+            "pairs": {"all": pairs.all, "apart": pairs.apart, "told": pairs.told, "reversed": pairs.reversed},
+        })
+    };
+    json!({
+        "against": "finest ranking",
+        "rankings": accuracy.rungs.iter().map(rung).collect::<Vec<_>>(),
+        "lists": accuracy.lists,
+        "products": accuracy.products[0],
+        "ranked": accuracy.products[1],
+        "threads": accuracy.threads,
+    })
+}

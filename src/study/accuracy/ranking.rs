@@ -1,0 +1,220 @@
+//! Error against run time of a ranking: the same products with rising effort, each list beside the finest.
+//!
+//! Of interest is what products are worth, 0 … 1, and whether lists say the same of two of them. Where the finest list has two
+//! further apart than twice what it states of both, every other has to tell them apart, and not the other way round. Each is
+//! timed by itself in a room of its own, on all processors; the catalogue's files may be read already.
+
+use super::annual::{Inner, targets};
+use super::{Coverage, Errors};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::rank::{surely_above, utility};
+use crate::study::error::StudyError;
+use crate::study::rank::{Group, List, Shard, Stage, lists_of, run};
+use crate::study::scene_file::Interpolation;
+use crate::study::session::Session;
+use crate::study::system::SystemLibrary;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What a ranking is computed by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Effort {
+    /// Typical days alone: what a window shows first.
+    TypicalDays,
+    /// Whole years of data constant on their cells, as of `compute.interpolation = "patch"`.
+    Cells,
+    /// Whole years by this error target; `None`: as the scene has it.
+    Target(Option<f64>),
+}
+
+/// What a ranking says of the pairs that the finest has apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Pairs {
+    /// All that were ranked in both.
+    pub all: usize,
+    /// Further apart in the finest than twice what it states of both.
+    pub apart: usize,
+    /// Of these, told apart in the same order.
+    pub told: usize,
+    /// Of these, told apart the other way round; the rest is left open.
+    pub reversed: usize,
+}
+
+/// One ranking.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankRung {
+    /// By what.
+    pub effort: Effort,
+    /// From nothing to the last product. \[s\]
+    pub seconds: f64,
+    /// Mean of the errors that are stated of what products are worth.
+    pub stated: f64,
+    /// Of what every product is worth, as parts of 1; none in the finest itself.
+    pub errors: Vec<Errors>,
+    /// Against the finest; in that itself against its own statement.
+    pub pairs: Pairs,
+}
+
+impl RankRung {
+    /// Root of the mean square of the distances from the finest.
+    pub fn rms(&self) -> f64 {
+        (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
+    }
+
+    /// Largest distance from the finest.
+    pub fn max(&self) -> f64 {
+        self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
+    }
+
+    /// What the stated errors are worth; `None` of the finest itself.
+    pub fn coverage(&self) -> Option<Coverage> {
+        (!self.errors.is_empty()).then(|| Coverage::of(&self.errors))
+    }
+}
+
+/// The whole comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankAccuracy {
+    /// By rising effort; the last one is what the others are measured by.
+    pub rungs: Vec<RankRung>,
+    /// Lists, and the products of all of them.
+    pub lists: usize,
+    /// Products of all lists, and those of them that have figures in the finest.
+    pub products: [usize; 2],
+    /// Threads that the times are of.
+    pub threads: usize,
+}
+
+/// A ranking by rising effort. Takes as long as six or seven.
+///
+/// # Errors
+/// As [`run`].
+pub fn ranking(
+    groups: &[Group],
+    library: &dyn SystemLibrary,
+    progress: &dyn Progress,
+) -> Result<RankAccuracy, StudyError> {
+    let efforts = efforts(groups);
+    let mut found = Vec::with_capacity(efforts.len());
+    for (k, effort) in efforts.iter().enumerate() {
+        if progress.cancelled() {
+            return Err(Cancelled.into());
+        }
+        progress.advance("accuracy", k, efforts.len());
+        let clock = Instant::now();
+        let lists = lists(groups, *effort, library, &Inner(progress))?;
+        found.push((worth(&lists), clock.elapsed().as_secs_f64()));
+    }
+    let Some((finest, _)) = found.last() else { return Err(Cancelled.into()) };
+    let last = found.len() - 1;
+    let rungs = found
+        .iter()
+        .zip(&efforts)
+        .enumerate()
+        .map(|(k, ((own, seconds), &effort))| {
+            let stated: Vec<f64> = own.iter().flatten().flatten().map(|one| one.error).collect();
+            RankRung {
+                effort,
+                seconds: *seconds,
+                stated: stated.iter().sum::<f64>() / stated.len().max(1) as f64,
+                errors: if k == last { Vec::new() } else { errors(own, finest) },
+                pairs: pairs(own, finest),
+            }
+        })
+        .collect();
+    let all = finest.iter().map(Vec::len).sum();
+    let products = [all, finest.iter().flatten().flatten().count()];
+    Ok(RankAccuracy { rungs, lists: finest.len(), products, threads: rayon::current_num_threads() })
+}
+
+fn efforts(groups: &[Group]) -> Vec<Effort> {
+    let compute = groups.first().map(|group| &group.file.compute);
+    let by_cells = compute.is_some_and(|own| own.interpolation == Interpolation::Patch);
+    let cells = if by_cells { None } else { Some(Effort::Cells) };
+    let targets = targets(compute.and_then(|own| own.error_target)).into_iter().map(Effort::Target);
+    std::iter::once(Effort::TypicalDays).chain(cells).chain(targets).collect()
+}
+
+/// The lists by an effort, all of them with the same products in the same order.
+fn lists(
+    groups: &[Group],
+    effort: Effort,
+    library: &dyn SystemLibrary,
+    progress: &dyn Progress,
+) -> Result<Vec<List>, StudyError> {
+    let mut groups = groups.to_vec();
+    for group in &mut groups {
+        let compute = &mut Arc::make_mut(&mut group.file).compute;
+        match effort {
+            Effort::TypicalDays => {}
+            Effort::Cells => compute.interpolation = Interpolation::Patch,
+            Effort::Target(target) => compute.error_target = target,
+        }
+    }
+    let stage = if effort == Effort::TypicalDays { Stage::Coarse } else { Stage::Full };
+    let items = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
+    let outcomes = run(&groups, &items, library, &Session::passing(), &[stage], &|_| (), progress)?;
+    Ok(lists_of(&groups, &items, outcomes, &vec![String::new(); items.len()]))
+}
+
+/// What products are worth, by list; `None` of those that are left out.
+type Worth = Vec<Vec<Option<Estimate>>>;
+
+fn worth(lists: &[List]) -> Worth {
+    let of = |list: &List| {
+        let own = |found: &crate::study::rank::Found| utility(&list.objectives, &found.figures);
+        list.rows.iter().map(|row| row.outcome.as_ref().ok().map(own)).collect()
+    };
+    lists.iter().map(of).collect()
+}
+
+fn errors(own: &Worth, finest: &Worth) -> Vec<Errors> {
+    let both = own.iter().flatten().zip(finest.iter().flatten());
+    both.filter_map(|(own, last)| {
+        let (own, last) = ((*own)?, (*last)?);
+        Some(Errors { stated: own.error, real: (own.value - last.value).abs(), open: last.error })
+    })
+    .collect()
+}
+
+fn pairs(own: &Worth, finest: &Worth) -> Pairs {
+    let mut pairs = Pairs::default();
+    for (own, finest) in own.iter().zip(finest) {
+        let known: Vec<(Estimate, Estimate)> =
+            own.iter().zip(finest).filter_map(|(own, last)| Some(((*own)?, (*last)?))).collect();
+        for (k, a) in known.iter().enumerate() {
+            for b in &known[k + 1..] {
+                pairs.all += 1;
+                let (above, below) = if a.1.value > b.1.value { (a, b) } else { (b, a) };
+                if above.1.value - below.1.value > 2.0 * (above.1.error + below.1.error) {
+                    pairs.apart += 1;
+                    pairs.told += usize::from(surely_above(above.0, below.0));
+                    pairs.reversed += usize::from(surely_above(below.0, above.0));
+                }
+            }
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_judged_by_the_finest() {
+        let of = |list: &[(f64, f64)]| -> Worth {
+            vec![list.iter().map(|&(value, error)| Some(Estimate::new(value, error))).collect()]
+        };
+        let mut finest = of(&[(0.2, 0.01), (0.22, 0.01), (0.5, 0.01), (0.9, 0.01)]);
+        let all = |apart, told, reversed| Pairs { all: 6, apart, told, reversed };
+        assert_eq!(pairs(&finest, &finest), all(5, 5, 0));
+        // The third may be the last; the first is said to be above the second, of which the finest knows nothing.
+        assert_eq!(pairs(&of(&[(0.2, 0.0), (0.1, 0.0), (0.8, 0.2), (0.9, 0.01)]), &finest), all(5, 4, 0));
+        assert_eq!(pairs(&of(&[(0.2, 0.01), (0.22, 0.01), (0.9, 0.01), (0.5, 0.01)]), &finest), all(5, 4, 1));
+        // What either leaves out is nobody's pair.
+        finest[0][3] = None;
+        assert_eq!(pairs(&of(&[(0.2, 0.0); 4]), &finest), Pairs { all: 3, apart: 2, told: 0, reversed: 0 });
+        assert_eq!(errors(&of(&[(0.3, 0.05); 4]), &finest).len(), 3);
+    }
+}
