@@ -9,7 +9,6 @@ use cfs::study::{Library, SceneFile, Session, StudyError};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 
 const SCENE: &str = r#"
 [room]
@@ -90,7 +89,8 @@ fn typical_days_come_first_and_their_errors_hold_the_year() {
     let told = |answer: cfs::study::rank::Answer<'_>| {
         heard.lock().unwrap().push((answer.stage, answer.item, answer.outcome.clone().unwrap()));
     };
-    let outcomes = run(&groups, &items, &library, &Session::new(), true, &told, &Silent).unwrap();
+    let outcomes =
+        run(&groups, &items, &library, &Session::new(), &[Stage::Coarse, Stage::Full], &told, &Silent).unwrap();
     let heard = heard.into_inner().unwrap();
     assert_eq!(heard.len(), 6);
     assert!(heard[..3].iter().all(|(stage, ..)| *stage == Stage::Coarse), "all of them before any whole year");
@@ -115,7 +115,7 @@ fn typical_days_come_first_and_their_errors_hold_the_year() {
     let keys = keys(&groups, &items);
     assert!(keys[0] != keys[1] && keys[1] != keys[2]);
     for (item, outcome) in items.iter().zip(&outcomes) {
-        let alone = run(&groups, &[*item], &library, &Session::new(), false, &|_| (), &Silent).unwrap();
+        let alone = run(&groups, &[*item], &library, &Session::new(), &[Stage::Full], &|_| (), &Silent).unwrap();
         assert_eq!(&alone[0], outcome);
     }
     let lists = lists_of(&groups, &items, outcomes, &keys);
@@ -135,9 +135,28 @@ fn a_shade_that_stands_in_for_blinds_is_told() {
         [("cDA300", vec![]), ("sDA300_50_LM83_12", vec!["LM-83: a shade of 5 % stands in for blinds"])]
     {
         let (library, groups) = prepared(folder.path(), &SCENE.replace("cDA300", figure), &[0.3]);
-        let outcomes = run(&groups, &all(&groups), &library, &Session::new(), false, &|_| (), &Silent).unwrap();
+        let outcomes =
+            run(&groups, &all(&groups), &library, &Session::new(), &[Stage::Full], &|_| (), &Silent).unwrap();
         assert_eq!(outcomes[0].as_ref().unwrap().approximate, told);
     }
+}
+
+/// On another machine they may wait to be computed: the same row has to come of it.
+#[test]
+fn whether_data_of_a_description_are_there_yet_is_not_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = Library::with_catalogue(Some(&folder.path().join("catalogue.cfsdb")));
+    let scene = SceneFile::parse(&SCENE.replace("reflectance = 0.0\n", "")).unwrap();
+    let asked = || {
+        let find = |words: &str| library.search(words).map(|(products, _)| products);
+        let groups = groups("scene", &scene, folder.path(), Some("egg-crate-white"), &find).unwrap();
+        let found = run(&groups, &all(&groups), &library, &Session::new(), &[Stage::Coarse], &|_| (), &Silent).unwrap();
+        let missed = groups[0].products[0].findings.iter().any(|finding| finding.code == "error-target-missed");
+        (missed, found.into_iter().next().unwrap().unwrap(), keys(&groups, &all(&groups)))
+    };
+    let (before, after) = (asked(), asked());
+    assert_eq!((before.0, after.0), (false, true), "the first asking computes the data");
+    assert_eq!((before.1, before.2), (after.1, after.2));
 }
 
 /// Withdrawn when the first product is finished.
@@ -160,12 +179,12 @@ impl Progress for Impatient {
 fn a_ranking_can_be_withdrawn() {
     let folder = tempfile::tempdir().unwrap();
     let (library, groups) = prepared(folder.path(), SCENE, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
-    let answer = run(&groups, &all(&groups), &library, &Session::new(), false, &|_| (), &Impatient::default());
+    let answer = run(&groups, &all(&groups), &library, &Session::new(), &[Stage::Full], &|_| (), &Impatient::default());
     assert!(matches!(answer, Err(StudyError::Cancelled(_))), "{answer:?}");
 }
 
 #[test]
-fn other_weights_cost_no_year() {
+fn other_weights_order_anew() {
     let objective = |better, worst, best| Objective { better, worst, best, weight: 1.0 };
     let objectives = vec![objective(Better::Less, 12.0, 2.0), objective(Better::More, 0.0, 1.0)];
     // Figures of a hundred products, spread evenly.
@@ -189,10 +208,7 @@ fn other_weights_cost_no_year() {
     let first = |weight: f64| {
         let mut other = objectives.clone();
         other[0].weight = weight;
-        let clock = Instant::now();
         let ranking = list.ranking(&other);
-        // A tenth of this where the program is compiled for use.
-        assert!(clock.elapsed() < Duration::from_millis(500), "{:?}", clock.elapsed());
         assert_eq!(ranking.list.len(), 100);
         ranking.order[0]
     };
