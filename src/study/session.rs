@@ -40,6 +40,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
+use crate::compute::sky::Outside;
 use landed::Landed;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
@@ -147,6 +148,7 @@ pub struct Session {
     landed: Cache<Landed>,
     sky_years: Cache<SkyYear>,
     exact_skies: Cache<Vec<f64>>,
+    trial_skies: Cache<Vec<Outside>>,
     by_cells: Cache<ByCells>,
     sides: Cache<RoomSide>,
     falling: Cache<Vec<Vec<f64>>>,
@@ -187,6 +189,7 @@ impl Session {
             landed: Cache::new(6 / part),
             sky_years: Cache::new(6),
             exact_skies: Cache::new(18),
+            trial_skies: Cache::new(3),
             by_cells: Cache::new(12 / part),
             sides: Cache::new(12 / part),
             falling: Cache::new(24 / part),

@@ -81,21 +81,21 @@ impl Beam {
 
     /// Adds the mean illuminance of every patch. \[lx\]
     pub fn add_to(&self, mesh: &Mesh, illuminance: &mut [f64]) {
+        let (mut strip, mut part, mut spare) = (Vec::new(), Vec::new(), Vec::new());
         for lit in self.lit(mesh) {
             let wall = &mesh.walls[lit.wall];
-            let width = wall.lines[1].len() - 1;
-            let touched = [0, 1].map(|side| {
-                let [low, high] = limits(&lit.corners, side);
-                let lines = &wall.lines[side];
+            let touched = |corners: &[DVec2], side: usize| {
+                let ([low, high], lines) = (limits(corners, side), &wall.lines[side]);
                 let from = lines.partition_point(|line| *line <= low).max(1) - 1;
                 from..lines.partition_point(|line| *line < high).min(lines.len() - 1)
-            });
-            for i in touched[0].clone() {
-                for at in touched[1].clone().map(|j| wall.first + i * width + j) {
-                    let patch = &mesh.patches[at];
-                    let part = overlap(&lit.corners, patch.extent);
+            };
+            for i in touched(&lit.corners, 0) {
+                let row = wall.first + i * (wall.lines[1].len() - 1);
+                within(&lit.corners, 0, [wall.lines[0][i], wall.lines[0][i + 1]], &mut strip, &mut spare);
+                for j in touched(&strip, 1) {
+                    within(&strip, 1, [wall.lines[1][j], wall.lines[1][j + 1]], &mut part, &mut spare);
                     if part.len() >= 3 {
-                        illuminance[at] += lit.illuminance * area(&part).abs() / patch.area;
+                        illuminance[row + j] += lit.illuminance * area(&part).abs() / mesh.patches[row + j].area;
                     }
                 }
             }
@@ -152,6 +152,14 @@ fn set_in(mesh: &Mesh, wall: &Wall) -> Vec<([[f64; 2]; 2], f64)> {
 fn limits(corners: &[DVec2], side: usize) -> [f64; 2] {
     let along = corners.iter().map(|p| p[side]);
     [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)]
+}
+
+/// What of a convex polygon lies between two limits of one coordinate. `spare` is room to work in.
+fn within(polygon: &[DVec2], axis: usize, [low, high]: [f64; 2], kept: &mut Vec<DVec2>, spare: &mut Vec<DVec2>) {
+    kept.clear();
+    kept.extend_from_slice(polygon);
+    let borders = [(low, 1.0), (high, -1.0)].map(|(limit, sign)| move |p: DVec2| sign * (p[axis] - limit));
+    cut_by_all(kept, borders, spare);
 }
 
 /// A convex polygon inside a rectangle.

@@ -60,6 +60,22 @@ const OTHER_SKIES: f64 = 2.0;
 /// Altitude of the sun of the steep sky among these. \[rad\]
 const STEEP: f64 = 0.5;
 
+/// Skies without a ground that fixed directions are tried under: two clear ones, and a steep one.
+fn trial_skies(facade: Bearing) -> Vec<Outside> {
+    let under = |of: &dyn Fn(Dir<World>) -> Option<Distribution>, altitude: f64, turn: f64| {
+        let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade.radians() + turn));
+        Outside::new(of(sun)?, 1e4).ok()
+    };
+    // The steepest of those that weather brings: a strong sun and little light from the sky.
+    let steep = |sun| Some(Distribution::perez(&PerezState::new(STEEP, 500.0, 60.0, 1.0)?, sun));
+    let skies = [
+        under(&|sun| Distribution::cie(12, sun), 0.5, 0.4),
+        under(&|sun| Distribution::cie(2, sun), 0.9, -0.7),
+        under(&steep, STEEP, 0.2),
+    ];
+    skies.into_iter().flatten().collect()
+}
+
 impl Coefficients {
     /// Prepares a scene. Its own sky and sun do not matter, but for how finely the room is meshed.
     ///
@@ -129,25 +145,16 @@ impl Coefficients {
     /// Largest relative difference between the fixed directions and integrals, on the scene's sky, two clear
     /// ones and a steep one.
     fn gap_of_directions(&self, session: &Session) -> f64 {
-        let facade = self.scene.facade.radians();
-        let clear = |of: &dyn Fn(Dir<World>) -> Option<Distribution>, altitude: f64, turn: f64| {
-            let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade + turn));
-            let outside = Outside::new(of(sun)?, 1e4).ok()?;
-            if let Some(around) = self.scene.outside.surroundings() {
-                return Some(outside.behind(Arc::new(around.clone())));
-            }
-            outside.with_skyline(self.scene.outside.skyline_altitude(), self.scene.outside.skyline_luminance()).ok()
+        let around = self.scene.outside.surroundings().map(|around| Arc::new(around.clone()));
+        let own = &self.scene.outside;
+        let before = |open: &Outside| match &around {
+            Some(around) => Some(open.clone().behind(Arc::clone(around))),
+            None => open.clone().with_skyline(own.skyline_altitude(), own.skyline_luminance()).ok(),
         };
-        // The steepest of those that weather brings: a strong sun and little light from the sky.
-        let steep = |sun| Some(Distribution::perez(&PerezState::new(STEEP, 500.0, 60.0, 1.0)?, sun));
-        let skies = [
-            Some(self.scene.outside.clone()),
-            clear(&|sun| Distribution::cie(12, sun), 0.5, 0.4),
-            clear(&|sun| Distribution::cie(2, sun), 0.9, -0.7),
-            clear(&steep, STEEP, 0.2),
-        ];
+        let trial = session.trial_skies(self.scene.facade, || trial_skies(self.scene.facade));
+        let skies = std::iter::once(Some(own.clone())).chain(trial.iter().map(before));
         let mut largest: f64 = 0.0;
-        for outside in skies.into_iter().flatten().filter(|outside| self.is_smooth(outside)) {
+        for outside in skies.flatten().filter(|outside| self.is_smooth(outside)) {
             let (fixed, exact) =
                 (self.diffuse(&outside, Way::Fixed), self.diffuse(&outside, Way::Exact(Some(session))));
             let mean = exact.iter().sum::<f64>() / exact.len().max(1) as f64;

@@ -24,6 +24,7 @@ use crate::study::session::sky_year::SkyYear;
 use crate::study::system::VerySystem;
 use glam::DVec3;
 use rayon::prelude::*;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 /// Accuracy of the constant columns.
@@ -53,6 +54,8 @@ pub(super) struct AperturePart {
     /// How the very sun comes through.
     pub sun: SunWay,
     seen: Vec<SensorView>,
+    /// The luminances that the sensors see in the hours of a year, where they are kept.
+    seen_year: Option<Arc<SkyYear>>,
     /// Mean relative gap of flux of the regular part.
     pub gap: f64,
     /// Share of the light that frame and dirt leave.
@@ -207,6 +210,7 @@ impl AperturePart {
             sun,
             regular: btdf.regular.clone(),
             seen,
+            seen_year: None,
             gap: straight.map_or(0.0, |(_, views)| views.gap),
             clear: scene.apertures[index].clear,
         })
@@ -225,6 +229,10 @@ impl AperturePart {
     /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
         self.year = session.sky_year(year, self.fingerprint, self.samples.cells().len());
+        let mut hasher = DefaultHasher::new();
+        let seen = self.seen.iter().flat_map(|seen| &seen.directions);
+        seen.clone().for_each(|(d, _)| d.vector().to_array().map(f64::to_bits).hash(&mut hasher));
+        self.seen_year = session.sky_year(year, hasher.finish(), seen.count());
     }
 
     /// Illuminance through every patch, then the luminances of ground and skyline.
@@ -237,7 +245,7 @@ impl AperturePart {
                     self.samples.illuminances(outside, &mut e);
                     e
                 };
-                e.extend_from_slice(year.hour(hour, find));
+                e.extend(year.hour(hour, find));
             }
             (Way::Fixed | Way::Hour(_), _) => self.samples.illuminances(outside, &mut e),
             (Way::Exact(session), _) => {
@@ -260,14 +268,25 @@ impl AperturePart {
         for (sum, row) in out.iter_mut().zip(self.total.chunks_exact(light.len())) {
             *sum += dot(row, &light);
         }
-        self.add_seen(scene, index, outside, !matches!(way, Way::Exact(_)), out);
+        self.add_seen(scene, index, outside, way, out);
     }
 
-    fn add_seen(&self, scene: &Scene, index: usize, outside: &Outside, smooth: bool, out: &mut [f64]) {
+    fn add_seen(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
         let Some(tau) = &self.regular else { return };
-        if smooth {
+        if !matches!(way, Way::Exact(_)) {
+            let find = || {
+                let all = self.seen.iter().flat_map(|seen| &seen.directions);
+                all.map(|(d, _)| outside.luminance(*d)).collect::<Vec<f64>>()
+            };
+            let luminances: Vec<f64> = match (way, &self.seen_year) {
+                (Way::Hour(hour), Some(year)) => year.hour(hour, find).collect(),
+                _ => find(),
+            };
+            let mut luminances = luminances.as_slice();
             for (sum, seen) in out.iter_mut().zip(&self.seen) {
-                let sky: f64 = seen.directions.iter().map(|(d, weight)| weight * outside.luminance(*d)).sum();
+                let (own, others) = luminances.split_at(seen.directions.len());
+                luminances = others;
+                let sky: f64 = seen.directions.iter().zip(own).map(|((_, weight), luminance)| weight * luminance).sum();
                 let seen = sky + seen.ground * outside.ground_luminance() + seen.skyline * far::luminance(outside);
                 *sum += self.clear * seen;
             }
@@ -292,7 +311,7 @@ impl AperturePart {
         ] {
             to.iter_mut().zip(table.chunks_exact(light.len())).for_each(|(sum, row)| *sum += dot(row, &light));
         }
-        self.add_seen(scene, index, outside, !matches!(way, Way::Exact(_)), &mut sums.total);
+        self.add_seen(scene, index, outside, way, &mut sums.total);
     }
 }
 

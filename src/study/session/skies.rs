@@ -1,31 +1,47 @@
-//! Skies on the patches before an aperture: the hours of a year, found once for all systems that are known by the same
-//! patches; and single skies that many systems are tried under.
+//! Skies before an aperture: the hours of a year, found once for all systems that ask for the same directions; and single
+//! skies that many systems are tried under.
 
 use super::Session;
 use super::sky_year::SkyYear;
+use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::Outside;
 use crate::study::cache::Key;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Most patches that years are kept of: 8,760 hours of so many are 40 MB.
-const MOST_PATCHES: usize = 600;
+/// Most numbers an hour that years are kept of: 4,400 hours with light of so many are 21 MB.
+const MOST_NUMBERS: usize = 1200;
 
 impl Session {
-    /// The hours of a year that has a number of its own, for patches of some fingerprint; `None` for more patches than
-    /// are worth keeping.
+    /// The hours of a year that has a number of its own, for directions of some fingerprint that give so many numbers; `None`
+    /// for more than are worth keeping.
     pub(in crate::study) fn sky_year(
         &self,
         year: (u64, usize),
         fingerprint: u64,
-        patches: usize,
+        numbers: usize,
     ) -> Option<Arc<SkyYear>> {
         let nothing = || Ok::<_, std::convert::Infallible>(SkyYear::nothing(year.1));
-        (patches <= MOST_PATCHES).then(|| match self.sky_years.get(vec![year.0, year.1 as u64, fingerprint], nothing) {
+        (1..=MOST_NUMBERS).contains(&numbers).then(|| {
+            match self.sky_years.get(vec![year.0, year.1 as u64, fingerprint], nothing) {
+                Ok(kept) => kept,
+                Err(never) => match never {},
+            }
+        })
+    }
+
+    /// Skies that the directions of a façade's patches are tried under.
+    pub(in crate::study) fn trial_skies(
+        &self,
+        facade: Bearing,
+        find: impl FnOnce() -> Vec<Outside>,
+    ) -> Arc<Vec<Outside>> {
+        let key = vec![facade.radians().to_bits()];
+        match self.trial_skies.get(key, || Ok::<_, std::convert::Infallible>(find())) {
             Ok(kept) => kept,
             Err(never) => match never {},
-        })
+        }
     }
 
     /// What a sky gives on patches of some fingerprint, found anew or kept.

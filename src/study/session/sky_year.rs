@@ -1,9 +1,9 @@
-//! Illuminances of an aperture's patches in the hours of a year.
+//! What a sky is in the hours of a year: illuminances of an aperture's patches, luminances that sensors see.
 
 use std::sync::OnceLock;
 
-/// By hour, each found when it is first asked for. \[lx\]
-pub(in crate::study) struct SkyYear(Vec<OnceLock<Box<[f64]>>>);
+/// By hour, each found when it is first asked for; in half the digits, 6 · 10⁻⁸ of each. \[lx\]
+pub(in crate::study) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
 
 impl SkyYear {
     /// Nothing known of so many hours.
@@ -12,7 +12,8 @@ impl SkyYear {
     }
 
     /// Of an hour.
-    pub fn hour(&self, hour: usize, find: impl FnOnce() -> Vec<f64>) -> &[f64] {
-        self.0[hour].get_or_init(|| find().into_boxed_slice())
+    pub fn hour(&self, hour: usize, find: impl FnOnce() -> Vec<f64>) -> impl Iterator<Item = f64> {
+        let kept = self.0[hour].get_or_init(|| find().into_iter().map(|e| e as f32).collect());
+        kept.iter().map(|&e| f64::from(e))
     }
 }
