@@ -99,7 +99,7 @@ impl Holes {
 fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, factor) in of.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
-        sums.iter_mut().zip(matrix.col(j).iter()).for_each(|(sum, value)| *sum += factor * value);
+        sums.iter_mut().zip(matrix.col_as_slice(j)).for_each(|(sum, value)| *sum += factor * value);
     }
     sums
 }

@@ -129,16 +129,19 @@ impl Flows {
         [inwards, outwards]
     }
 
-    /// Adds what a matrix makes of light; `own`: the matrix has the names of the light.
+    /// Adds what a matrix makes of light; `own`: the matrix has the names of the light. Else what comes and what it becomes
+    /// change theirs, row by row the matrix stays as it lies.
     fn add(&self, to: &mut [f64], matrix: &[f64], light: &[f64], own: bool) {
         let n = self.turn.len();
-        for (i, &flux) in light.iter().enumerate().filter(|(_, flux)| **flux != 0.0) {
-            if own {
-                to.iter_mut().zip(&matrix[i * n..]).for_each(|(to, share)| *to += flux * share);
-            } else {
-                let row = &matrix[self.turn[i] * n..];
-                to.iter_mut().zip(&self.turn).for_each(|(to, &o)| *to += flux * row[o]);
+        if own {
+            for (&flux, row) in light.iter().zip(matrix.chunks_exact(n)).filter(|(flux, _)| **flux != 0.0) {
+                to.iter_mut().zip(row).for_each(|(to, share)| *to += flux * share);
             }
+            return;
         }
+        let mut turned = vec![0.0; n];
+        let light: Vec<f64> = self.turn.iter().map(|&i| light[i]).collect();
+        self.add(&mut turned, matrix, &light, true);
+        to.iter_mut().zip(&self.turn).for_each(|(to, &o)| *to += turned[o]);
     }
 }
