@@ -11,6 +11,7 @@ mod lights;
 mod outside_seen;
 mod part;
 pub(super) mod responses;
+mod results;
 mod seen;
 mod skies;
 pub(super) mod sky_year;
@@ -29,7 +30,7 @@ use super::scene_file::Interpolation;
 use super::system::VerySystem;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
-use crate::compute::estimate::{Estimate, Progress, largest_relative_error};
+use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::peaks::Peaks;
 use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
@@ -44,6 +45,8 @@ use crate::compute::sky::Outside;
 use landed::Landed;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
+use results::all_numbers;
+pub use results::{LidResult, RoomResult, SensorResult};
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
 use sky_year::SkyYear;
 use std::borrow::Cow;
@@ -59,84 +62,6 @@ const DIRECT: &str = "direct light";
 
 /// Steps that a room reports: emission, direct light, two meshes.
 const STEPS: usize = 4;
-
-/// What one sensor gets.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SensorResult {
-    /// Where.
-    pub sensor: Sensor,
-    /// Straight from the apertures, sun included. \[lx\]
-    pub direct: Estimate,
-    /// After at least one reflection. \[lx\]
-    pub interreflected: Estimate,
-    /// The part of `direct` that is the sun's light come through as beams: straight on, deflected, mirrored. \[lx\]
-    pub beam: f64,
-    /// How far all may be off for what the data do not tell apart, beside what the computation may be. \[lx\]
-    pub data_error: f64,
-}
-
-impl SensorResult {
-    /// Direct and interreflected light together, with both kinds of error. \[lx\]
-    pub fn total(&self) -> Estimate {
-        self.direct + self.interreflected + Estimate::new(0.0, self.data_error)
-    }
-
-    /// Error of the computation alone, were the data exact. \[lx\]
-    pub fn numerical_error(&self) -> f64 {
-        (self.direct + self.interreflected).error
-    }
-}
-
-/// Illuminances of a scene.
-#[derive(Debug, Clone)]
-pub struct RoomResult {
-    /// In the order of the scene.
-    pub sensors: Vec<SensorResult>,
-    /// Flux that enters through all apertures. \[lm\]
-    pub flux: Estimate,
-    /// Largest relative gap between the flux that leaves an aperture and the flux found on the surfaces, before it
-    /// was closed; 0 without interreflection.
-    pub flux_gap: f64,
-    /// How the sun's beams were found, aperture by aperture, and what is to be said of it.
-    pub beams: Vec<(BeamSource, String)>,
-    /// How the apertures saw what stands outside; empty where nothing does.
-    pub outside: Vec<OutsideSeen>,
-    /// What ran, what was left out, and how long it took.
-    pub plan: Plan,
-}
-
-impl RoomResult {
-    /// Share of all light at the sensors that the data leave open.
-    pub fn data_share(&self) -> f64 {
-        let all: f64 = self.sensors.iter().map(|s| s.total().value).sum();
-        let open: f64 = self.sensors.iter().map(|s| s.data_error).sum();
-        if all > 0.0 { open / all } else { 0.0 }
-    }
-
-    /// The largest relative error stated among the sensors that are not in the dark (1 % of the mean); 0 without light.
-    pub fn reached(&self) -> f64 {
-        largest_relative_error(self.sensors.iter().map(SensorResult::total))
-    }
-}
-
-/// The light of one aperture.
-#[derive(Debug, Clone)]
-pub struct LidResult {
-    /// Its luminous-intensity distribution.
-    pub lid: Lid,
-    /// Luminous flux into the room. \[lm\]
-    pub flux: Estimate,
-    /// Illuminance of the outside face: diffuse, and by the sun. \[lx\]
-    pub incident: (Estimate, f64),
-}
-
-impl LidResult {
-    /// The same if its light is numbers.
-    fn checked(self) -> Result<Self, StudyError> {
-        all_numbers(&[], self.flux)?;
-        Ok(self)
-    }
-}
 
 /// Caches. One for the life of a program; shared between threads.
 pub struct Session {
@@ -433,18 +358,6 @@ impl Session {
             }
         }
         Ok(sums)
-    }
-}
-
-/// Nothing leaves that is no number.
-fn all_numbers(sensors: &[SensorResult], flux: Estimate) -> Result<(), StudyError> {
-    let number = |one: Estimate| one.value.is_finite() && one.error.is_finite();
-    if !number(flux) {
-        return Err(StudyError::NoNumber("the apertures".to_owned()));
-    }
-    match sensors.iter().position(|one| !(number(one.total()) && one.beam.is_finite())) {
-        Some(at) => Err(StudyError::NoNumber(format!("sensor {}", at + 1))),
-        None => Ok(()),
     }
 }
 
