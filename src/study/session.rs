@@ -32,7 +32,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::peaks::Peaks;
-use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, Lid, SkyThrough, SunThrough};
+use crate::compute::lid::{BandLight, BeamSource, Emission, Interpolator, SkyThrough, SunThrough};
 use crate::compute::quadrature::Tolerance;
 use crate::compute::room::back_reflection::RoomSide;
 use crate::compute::room::band_weights::BandWeights;
