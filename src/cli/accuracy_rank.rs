@@ -13,7 +13,6 @@ pub(super) fn tell(accuracy: &RankAccuracy, as_json: bool) -> anyhow::Result<()>
 /// The effort of a ranking in words.
 fn setting(rung: &RankRung) -> String {
     match rung.effort {
-        Effort::TypicalDays => "typical days".to_owned(),
         Effort::Cells => "data on their cells".to_owned(),
         Effort::Target(None) => "as the scene has it".to_owned(),
         Effort::Target(Some(target)) => format!("error target {} %", 100.0 * target),

@@ -44,7 +44,7 @@ texts! {
     const FIND_FIGURE = "Compute" | "Rechnen";
     const FIND_FIGURE_TIP = "The figure of an objective is not known of all products yet" | "Der Kennwert eines Ziels ist noch nicht von allen Produkten bekannt";
     fn done(done, all) = "{done} of {all} products" | "{done} von {all} Produkten";
-    fn typical(done, all) = "{done} of {all} products by typical days" | "{done} von {all} Produkten nach typischen Tagen";
+    fn by_cells(done, all) = "{done} of {all} products by data on cells" | "{done} von {all} Produkten nach Daten auf Feldern";
     fn left(done, seconds) = "{done}, {seconds} s left" | "{done}, noch {seconds} s";
 
     // Table and plot.
@@ -76,8 +76,8 @@ texts! {
     fn worth(value, error) = "worth {value} ± {error}" | "Wert {value} ± {error}";
     const LESS_IS_BETTER = "less is better" | "weniger ist besser";
     const MORE_IS_BETTER = "more is better" | "mehr ist besser";
-    const MARKS_TIP = "◆ no other is better in every objective · ≈ approximate · ⌂ in the room; pale: by typical days so far" | "◆ keines in jedem Ziel besser · ≈ Näherung · ⌂ im Raum; blass: bisher nach typischen Tagen";
-    const COARSE_TIP = "By typical days so far; the whole year follows" | "Bisher nach typischen Tagen; das ganze Jahr folgt";
+    const MARKS_TIP = "◆ no other is better in every objective · ≈ approximate · ⌂ in the room; pale: by data on cells so far" | "◆ keines in jedem Ziel besser · ≈ Näherung · ⌂ im Raum; blass: bisher nach Daten auf Feldern";
+    const COARSE_TIP = "By data on cells so far, which blur the sun; beams as they are follow" | "Bisher nach Daten auf Feldern, die die Sonne verwischen; Strahlen, wie sie sind, folgen";
     fn approximate_since(reasons) = "Approximate: {reasons}" | "Näherung: {reasons}";
 
     // Why, and the ways out.

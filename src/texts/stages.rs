@@ -20,7 +20,7 @@ texts! {
     const OUTSIDE = "outside" | "außen";
     const PACKAGES = "packages" | "Pakete";
     const PRODUCTS = "products" | "Produkte";
-    const TYPICAL_DAYS = "products, typical days" | "Produkte, typische Tage";
+    const PRODUCTS_COARSE = "products, coarse" | "Produkte, grob";
     const ROOM = "room" | "Raum";
     const SCENE = "scene" | "Szene";
     const STATES = "states" | "Stellungen";

@@ -100,11 +100,11 @@ fn coarse_results_come_first_a_stop_keeps_them_and_it_goes_on_from_there() {
     let (mut harness, engine) = window();
     engine.hold.store(true, Ordering::Relaxed);
     harness.state_mut().apply(Command::Choose(ChooseAct::Rank));
-    step_until(&mut harness, "typical days", |app| {
+    step_until(&mut harness, "data on cells", |app| {
         app.results.rank.value.as_ref().is_some_and(|figures| figures.known.len() == 5)
     });
     harness.run_steps(2);
-    assert!(harness.state().works_in(Lane::Rank), "whole years are still to come");
+    assert!(harness.state().works_in(Lane::Rank), "beams as they are are still to come");
     assert_eq!(order(&harness).len(), 4);
     let figures = harness.state().results.rank.value.clone().unwrap();
     assert_eq!(figures.unfinished(), 5);

@@ -10,7 +10,6 @@ use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::rank::{surely_above, utility};
 use crate::study::error::StudyError;
 use crate::study::rank::{Group, List, Shard, Stage, lists_of, run};
-use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use std::sync::Arc;
@@ -19,11 +18,9 @@ use std::time::Instant;
 /// What a ranking is computed by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Effort {
-    /// Typical days alone: what a window shows first.
-    TypicalDays,
-    /// Whole years of data constant on their cells, as of `compute.interpolation = "patch"`.
+    /// Data constant on their cells: what a window shows first.
     Cells,
-    /// Whole years by this error target; `None`: as the scene has it.
+    /// By this error target; `None`: as the scene has it.
     Target(Option<f64>),
 }
 
@@ -85,7 +82,7 @@ pub struct RankAccuracy {
     pub threads: usize,
 }
 
-/// A ranking by rising effort. Takes as long as six or seven.
+/// A ranking by rising effort. The last two take several times as long as an ordinary one.
 ///
 /// # Errors
 /// As [`run`].
@@ -128,11 +125,8 @@ pub fn ranking(
 }
 
 fn efforts(groups: &[Group]) -> Vec<Effort> {
-    let compute = groups.first().map(|group| &group.file.compute);
-    let by_cells = compute.is_some_and(|own| own.interpolation == Interpolation::Patch);
-    let cells = if by_cells { None } else { Some(Effort::Cells) };
-    let targets = targets(compute.and_then(|own| own.error_target)).into_iter().map(Effort::Target);
-    std::iter::once(Effort::TypicalDays).chain(cells).chain(targets).collect()
+    let own = groups.first().and_then(|group| group.file.compute.error_target);
+    std::iter::once(Effort::Cells).chain(targets(own).into_iter().map(Effort::Target)).collect()
 }
 
 /// The lists by an effort, all of them with the same products in the same order.
@@ -143,15 +137,13 @@ fn lists(
     progress: &dyn Progress,
 ) -> Result<Vec<List>, StudyError> {
     let mut groups = groups.to_vec();
-    for group in &mut groups {
-        let compute = &mut Arc::make_mut(&mut group.file).compute;
-        match effort {
-            Effort::TypicalDays => {}
-            Effort::Cells => compute.interpolation = Interpolation::Patch,
-            Effort::Target(target) => compute.error_target = target,
+    let stage = match effort {
+        Effort::Cells => Stage::Coarse,
+        Effort::Target(target) => {
+            groups.iter_mut().for_each(|group| Arc::make_mut(&mut group.file).compute.error_target = target);
+            Stage::Full
         }
-    }
-    let stage = if effort == Effort::TypicalDays { Stage::Coarse } else { Stage::Full };
+    };
     let items = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
     let outcomes = run(&groups, &items, library, &Session::passing(), &[stage], &|_| (), progress)?;
     Ok(lists_of(&groups, &items, outcomes, &vec![String::new(); items.len()]))

@@ -1,4 +1,4 @@
-//! Figures of a product in a list, with their errors: of typical days first, then of the whole year.
+//! Figures of a product in a list, with their errors: by data on their cells first, then with beams as they are.
 
 use super::candidate::with_product;
 use super::parts::{Grouping, Parts};
@@ -7,9 +7,10 @@ use crate::catalogue::{Origin, Product};
 use crate::compute::btdf::{Severity, SolarSource};
 use crate::compute::estimate::{Estimate, Progress};
 use crate::study::error::StudyError;
+use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Dgp, Light, SHADE, Step, Way, Year, figures, metrics, year_in};
+use crate::study::year::{Climate, Dgp, Light, SHADE, Way, Year, figures, metrics, year_in};
 use serde_json::Value;
 
 /// Figures of a product: valid whatever weights and anchors are.
@@ -29,14 +30,15 @@ pub type Outcome = Result<Found, String>;
 /// How far the work on a product has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// Typical days: two of each month. Errors hold what they leave open.
+    /// A year by data that are constant on their cells, as `compute.interpolation = "patch"` has them. Errors hold what that
+    /// leaves open.
     Coarse,
-    /// The whole year.
+    /// As the scene has it.
     Full,
 }
 
-/// Days of every month that stand for it while results are coarse; what they differ by tells how well they do.
-const TYPICAL: [i8; 2] = [8, 22];
+/// What light behind data on cells may be off for the beams that they blur. By `cfs accuracy --rank` of the catalogue's products.
+const BLURRED: f64 = 0.05;
 /// What a figure that a year does not have is told under.
 const NO_FIGURE: &str = "rank.objective";
 /// Says how well data were computed of a description. They may be waiting to be computed on one machine and be there on
@@ -54,6 +56,8 @@ pub(super) fn as_written(value: f64) -> f64 {
 pub(super) struct Setting<'a> {
     pub group: &'a Group,
     pub climate: &'a Climate,
+    /// The same without glare, which blurred light does not tell.
+    pub without_glare: &'a Climate,
     pub grouping: &'a Grouping,
     pub library: &'a dyn SystemLibrary,
     pub session: &'a Session,
@@ -66,24 +70,30 @@ impl Setting<'_> {
     /// Of the product's data or control; a figure that the year does not have; cancelled.
     pub fn product(&self, product: &Product, stage: Stage, progress: &dyn Progress) -> Result<Found, StudyError> {
         let group = self.group;
-        let file = with_product(&group.file, product, group.control)?;
-        let wanted = |step: &Step| stage == Stage::Full || TYPICAL.contains(&step.time.day());
-        let year = year_in(self.climate, &file, &group.base, self.library, self.session, &wanted, progress)?;
-        let area = group.file.room.width * group.file.room.depth;
-        let all = three(&year, area);
-        let pairs = if stage == Stage::Coarse { pairs(&year, area) } else { Vec::new() };
+        let mut file = with_product(&group.file, product, group.control)?;
+        let coarse = stage == Stage::Coarse && file.compute.interpolation != Interpolation::Patch;
+        if coarse {
+            file.compute.interpolation = Interpolation::Patch;
+        }
+        let climate = if coarse { self.without_glare } else { self.climate };
+        let mut year = year_in(climate, &file, &group.base, self.library, self.session, &|_| true, progress)?;
+        if coarse {
+            blur(&mut year);
+        }
+        let all = three(&year, group.file.room.width * group.file.room.depth);
         let mut found = Found { approximate: doubts(product, &year), ..Found::default() };
         for (key, objective) in group.figures.iter().zip(&group.objectives) {
-            let figure = match stage {
-                Stage::Full => figure(&year, &all, key)?,
-                // What typical days do not tell may be anything between the anchors.
-                Stage::Coarse => coarse(&year, &all, &pairs, key).or_else(|| nought(&year, key)).unwrap_or_else(|| {
-                    let (a, b) = (objective.worst, objective.best);
-                    Estimate { value: 0.5 * (a + b), error: 0.5 * (b - a).abs() }
-                }),
+            // What blurred light does not tell may be anything between the anchors.
+            let between = || {
+                let (a, b) = (objective.worst, objective.best);
+                Estimate { value: 0.5 * (a + b), error: 0.5 * (b - a).abs() }
+            };
+            let figure = match figure(&year, &all, key) {
+                Err(_) if coarse => between(),
+                found => found?,
             };
             found.figures.push(Estimate { value: as_written(figure.value), error: as_written(figure.error) });
-            let mut parts = if stage == Stage::Full { self.grouping.parts(&year, key) } else { Parts::default() };
+            let mut parts = self.grouping.parts(&year, key);
             parts.values.iter_mut().for_each(|part| *part = as_written(*part));
             found.parts.push(parts);
         }
@@ -107,6 +117,20 @@ impl Setting<'_> {
             Err(_) => Err(error),
             Ok(_) => Ok(()),
         }
+    }
+}
+
+/// Adds to the errors of a year what its data on cells may have blurred.
+fn blur(year: &mut Year) {
+    let add = |values: &[f64], errors: &mut [f64]| {
+        errors.iter_mut().zip(values).for_each(|(error, value)| *error += BLURRED * value);
+    };
+    add(&year.light.values, &mut year.light.errors);
+    if let Some(own) = &mut year.lm83 {
+        add(&own.values, &mut own.errors);
+    }
+    if let Some(own) = &mut year.solar {
+        add(&own.watts, &mut own.errors);
     }
 }
 
@@ -174,76 +198,6 @@ fn read(three: &[Value; 3], key: &str) -> Option<Estimate> {
     let [own, less, more] = three.each_ref().map(|one| metrics::number(one, key));
     let (own, less, more) = (own?, less?, more?);
     Some(Estimate { value: own, error: (less - own).abs().max((more - own).abs()) })
-}
-
-/// A figure of the year by typical days; `None` where days do not tell it. Its error has twice the standard error of a mean
-/// over months of each two days added: (Σ (a − b)²/4)^½ / number of months.
-fn coarse(year: &Year, three: &[Value; 3], pairs: &[[Value; 2]], key: &str) -> Option<Estimate> {
-    // Sums are of a year, whatever was computed of it.
-    let (key, sum) = match key {
-        "lighting.LENI_kWh_m2" => ("lighting.kWh_m2", true),
-        "lighting.kWh_m2" | "lighting.kWh" => (key, true),
-        key => (key, false),
-    };
-    let all = year.steps.list.len() as f64 * year.steps.length;
-    let scale = |metrics: &Value| Some(if sum { all / metrics::number(metrics, "hours")? } else { 1.0 });
-    let own = read(three, key)? * scale(&three[0])?;
-    let at = |metrics: &Value| Some(metrics::number(metrics, key)? * scale(metrics)?);
-    let squares: Option<f64> = pairs.iter().map(|[a, b]| Some((at(a)? - at(b)?).powi(2) / 4.0)).sum();
-    let spread = squares?.sqrt() / pairs.len().max(1) as f64;
-    Some(Estimate { value: own.value, error: own.error + 2.0 * spread })
-}
-
-/// Metrics of the typical days alone, in pairs by month, of the months that have both.
-fn pairs(year: &Year, area: f64) -> Vec<[Value; 2]> {
-    let day = |month: u8, day: i8| {
-        let on = |row: &usize| {
-            let step = &year.steps.list[year.chosen[*row]];
-            step.month == month && step.time.day() == day
-        };
-        let rows: Vec<usize> = (0..year.chosen.len()).filter(on).collect();
-        let part = part(year, &rows);
-        (!rows.is_empty()).then(|| metrics::metrics(&part, &figures(&part)[0], area))
-    };
-    (1..=12).filter_map(|month| Some([day(month, TYPICAL[0])?, day(month, TYPICAL[1])?])).collect()
-}
-
-/// Some rows of a year, with what figures ask of it.
-fn part(year: &Year, rows: &[usize]) -> Year {
-    let places = year.light.places;
-    let of = |values: &[f64]| -> Vec<f64> {
-        rows.iter().flat_map(|row| values[row * places..][..places].iter().copied()).collect()
-    };
-    Year {
-        settings: year.settings.clone(),
-        steps: year.steps.clone(),
-        moving: year.moving.clone(),
-        states: Vec::new(),
-        movements: year.movements.clone(),
-        indoor: None,
-        chosen: rows.iter().map(|&row| year.chosen[row]).collect(),
-        light: Light {
-            places,
-            values: of(&year.light.values),
-            errors: of(&year.light.errors),
-            sun: year.light.sun.as_deref().map(of),
-            way: year.light.way,
-            sets: year.light.sets,
-            dark: year.light.dark,
-        },
-        lm83: year.lm83.as_ref().map(|lm83| lm83.only(rows)),
-        solar: year.solar.clone().map(|mut solar| {
-            solar.watts = rows.iter().map(|&row| solar.watts[row]).collect();
-            solar.errors = rows.iter().map(|&row| solar.errors[row]).collect();
-            solar
-        }),
-        dgp: year.dgp.clone().map(|mut dgp| {
-            dgp.values = rows.iter().flat_map(|&row| dgp.row(row).to_vec()).collect();
-            dgp
-        }),
-        notes: Vec::new(),
-        spent: Vec::new(),
-    }
 }
 
 /// Why figures are approximate beyond their errors.

@@ -1,4 +1,4 @@
-//! All products of all lists, side by side, stage by stage: by typical days, by whole years.
+//! All products of all lists, side by side, stage by stage: by data on their cells, with beams as they are.
 
 use super::figures::{Outcome, Setting, Stage};
 use super::list::{List, Row};
@@ -37,6 +37,7 @@ pub struct Answer<'a> {
 /// What is known of a list before any product is.
 struct Ready {
     climate: Climate,
+    without_glare: Climate,
     grouping: Grouping,
 }
 
@@ -69,13 +70,17 @@ pub fn run(
             climate.settings.keys.lm83 = asks("LM83") || asks("blinds_closed");
             climate.settings.keys.dgp &= asks("DGP_");
             let grouping = Grouping::of(&group.file, &climate)?;
-            ready.insert(item.group, Ready { climate, grouping });
+            let mut without_glare = climate.clone();
+            without_glare.settings.keys.dgp = false;
+            ready.insert(item.group, Ready { climate, without_glare, grouping });
         }
     }
+    let setting = |item: &Item| {
+        let (group, Ready { climate, without_glare, grouping }) = (&groups[item.group], &ready[&item.group]);
+        Setting { group, climate, without_glare, grouping, library, session }
+    };
     let one = |item: &Item, stage: Stage| {
-        let (group, ready) = (&groups[item.group], &ready[&item.group]);
-        let setting = Setting { group, climate: &ready.climate, grouping: &ready.grouping, library, session };
-        setting.product(&group.products[item.product], stage, &Withdrawn(progress))
+        setting(item).product(&groups[item.group].products[item.product], stage, &Withdrawn(progress))
     };
     // What is wrong with a scene is told once, before its products are computed in vain.
     let mut asked: Vec<&str> = Vec::new();
@@ -83,9 +88,7 @@ pub fn run(
         let group = &groups[item.group];
         if !asked.contains(&group.scene.as_str()) {
             asked.push(&group.scene);
-            let ready = &ready[&item.group];
-            let setting = Setting { group, climate: &ready.climate, grouping: &ready.grouping, library, session };
-            setting.check(&group.products[item.product], &Withdrawn(progress))?;
+            setting(item).check(&group.products[item.product], &Withdrawn(progress))?;
         }
     }
     // Those that stand still first: they are quick, and whoever waits sees a list.
@@ -111,7 +114,7 @@ fn side_by_side(
 ) -> Result<Vec<Outcome>, StudyError> {
     let (next, done, stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
     let results: Mutex<Vec<Option<Outcome>>> = Mutex::new(vec![None; items.len()]);
-    let name = if stage == Stage::Coarse { "products, typical days" } else { "products" };
+    let name = if stage == Stage::Coarse { "products, coarse" } else { "products" };
     let work = || {
         loop {
             let Some(&at) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { return };

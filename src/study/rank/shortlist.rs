@@ -85,7 +85,7 @@ pub struct Entry {
     pub place: Option<Place>,
     /// Why its figures are approximate beyond their errors; empty where they are not.
     pub approximate: Vec<String>,
-    /// Of typical days alone so far.
+    /// By data on their cells so far.
     pub coarse: bool,
     /// Why it is left out.
     pub excluded: Option<String>,
@@ -130,7 +130,7 @@ pub struct Shortlist {
 const PARTS: (usize, f64) = (2, 0.15);
 
 impl Shortlist {
-    /// Puts a list in order by its own objectives. `names` of products; `coarse`: those of typical days so far.
+    /// Puts a list in order by its own objectives. `names` of products; `coarse`: those by data on their cells so far.
     pub fn of(list: List, names: &BTreeMap<String, String>, coarse: &BTreeSet<String>) -> Self {
         let name = |product: &str| names.get(product).cloned().unwrap_or_else(|| product.to_owned());
         let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));

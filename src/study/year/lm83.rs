@@ -61,20 +61,6 @@ pub struct Lm83 {
     pub errors: Vec<f64>,
 }
 
-impl Lm83 {
-    /// Some of the chosen steps, by their places among them.
-    pub fn only(&self, rows: &[usize]) -> Self {
-        let sensors = self.values.len() / self.worked.len().max(1);
-        let of = |all: &[f64]| rows.iter().flat_map(|row| all[row * sensors..][..sensors].iter().copied()).collect();
-        Self {
-            groups: self.groups.clone(),
-            worked: rows.iter().map(|&row| self.worked[row].clone()).collect(),
-            values: of(&self.values),
-            errors: of(&self.errors),
-        }
-    }
-}
-
 /// What is asked.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,

@@ -36,7 +36,7 @@ pub struct Offer {
 /// Products that are being computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Running {
-    /// By typical days, not yet the whole year?
+    /// By data on their cells, beams to come?
     pub coarse: bool,
     /// How many are done.
     pub done: usize,

@@ -63,7 +63,7 @@ pub(super) fn term(list: &Shortlist, term: &Term) -> String {
 /// How far it is: `34 of 113 products, 12 s left`.
 pub(super) fn running(running: &Running) -> String {
     let all =
-        if running.coarse { say::typical(running.done, running.all) } else { say::done(running.done, running.all) };
+        if running.coarse { say::by_cells(running.done, running.all) } else { say::done(running.done, running.all) };
     match running.left {
         Some(left) => say::left(all, fixed(left.max(1.0), 0)),
         None => all,
