@@ -77,11 +77,11 @@ impl Setting<'_> {
         }
         let climate = if coarse { self.without_glare } else { self.climate };
         let mut year = year_in(climate, &file, &group.base, self.library, self.session, &|_| true, progress)?;
+        let mut found = Found { approximate: doubts(product, &year), ..Found::default() };
         if coarse {
             blur(&mut year);
         }
         let all = three(&year, group.file.room.width * group.file.room.depth);
-        let mut found = Found { approximate: doubts(product, &year), ..Found::default() };
         for (key, objective) in group.figures.iter().zip(&group.objectives) {
             // What blurred light does not tell may be anything between the anchors.
             let between = || {
