@@ -217,15 +217,14 @@ fn table() -> Vec<Offer> {
             .menu(EDIT, 21),
     );
     list.extend(tiles().map(|tile| offer(CopyTile(tile), words::copy_tile(tile.name), words::COPY_TILE_TIP)));
-    list.extend(
-        ThemeChoice::ALL
-            .map(|choice| offer(Theme(choice), words::theme_is(choice.word()), words::THEME_TIP).menu(VIEW, 30)),
-    );
-    list.extend(
-        LanguageChoice::ALL.map(|choice| {
-            offer(Language(choice), shell::language_is(choice.word()), shell::LANGUAGE_TIP).menu(VIEW, 31)
-        }),
-    );
+    list.extend(ThemeChoice::ALL.map(|choice| {
+        offer(Theme(choice), words::theme_is(choice.word()), words::THEME_TIP).menu(VIEW, 30).within(words::THEME)
+    }));
+    list.extend(LanguageChoice::ALL.map(|choice| {
+        offer(Language(choice), shell::language_is(choice.word()), shell::LANGUAGE_TIP)
+            .menu(VIEW, 31)
+            .within(shell::LANGUAGE)
+    }));
     list.extend([
         offer(TextSize(Size::Larger), words::LARGER, words::LARGER_TIP)
             .keys(CTRL, Key::Plus)

@@ -8,6 +8,7 @@ texts! {
     const HELP = "Help" | "Hilfe";
     const ARRANGE_TILES = "Arrange tiles" | "Kacheln anordnen";
     const LAYOUT = "Layout" | "Anordnung";
+    const THEME = "Theme" | "Farben";
     const ROOM = "Room" | "Raum";
     const EXPORT_TILE = "Export tile" | "Kachel ausgeben";
     const TEXT_SIZE = "Text size" | "Schriftgröße";

@@ -3,6 +3,7 @@
 texts! {
     const AS_THE_DESKTOP = "as the desktop" | "wie der Desktop";
     const LANGUAGE_TIP = "The language of the window, its pictures and its reports" | "Die Sprache des Fensters, seiner Bilder und Berichte";
+    const LANGUAGE = "Language" | "Sprache";
     fn language_is(name) = "Language: {name}" | "Sprache: {name}";
     const NO_LARGER = "The window has no room for larger text: make it larger first" | "Das Fenster hat keinen Platz für größere Schrift: zuerst das Fenster vergrößern";
     const OPENING_CATALOGUE = "opening the catalogue…" | "Katalog wird geöffnet…";
