@@ -191,7 +191,7 @@ impl Figures {
         Self { asked, head, products: Arc::clone(&group.products), known: BTreeMap::new() }
     }
 
-    /// Products whose whole year is not known.
+    /// Products whose figures are coarse, or not known.
     pub fn unfinished(&self) -> usize {
         self.products.len() - self.known.values().filter(|one| one.stage == Stage::Full).count()
     }

@@ -47,7 +47,7 @@ pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
             number(rung.stated),
             told(rung.rms()),
             told(rung.max()),
-            rung.errors.len().to_string(),
+            coverage.map_or_else(String::new, |one| one.count.to_string()),
             coverage.map_or_else(String::new, |one| number(one.kept)),
             coverage.map_or_else(String::new, |one| number(one.padded)),
             pairs.all.to_string(),
@@ -100,7 +100,8 @@ fn table(accuracy: &RankAccuracy) -> String {
     let _ = writeln!(
         text,
         "{ranked} of {all} products ranked in {} list(s). The finest has {} of {} pairs apart by more than twice what it states \
-         of both: these are told apart by the others, left open or reversed. Times of {} thread(s), nothing known before.",
+         of both: these are told apart by the others, left open or reversed. Times of {} thread(s), each in a room of its own; the first computes \
+         data of built-in products where they are missing.",
         accuracy.lists, pairs.apart, pairs.all, accuracy.threads
     );
     text

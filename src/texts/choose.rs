@@ -24,7 +24,7 @@ texts! {
     const CHOOSE_ABOUT = "Products of the catalogue in this room, through a year, by objectives and weights. What the errors cannot tell apart shares a rank. Weights and anchors order anew what is known; nothing is computed again.\nA diamond: no other is better in every objective. A double tilde: approximate figures. A roof: in the room now.\nSource: weighted sum of objectives between anchors, with intervals; Pareto front; IEA SHC Task 31 report (2005), figure 18." | "Produkte des Katalogs in diesem Raum, durch ein Jahr, nach Zielen und Gewichten. Was die Unsicherheiten nicht trennen, teilt einen Rang. Gewichte und Anker ordnen neu, was bekannt ist; nichts wird noch einmal gerechnet.\nEine Raute: keines ist in jedem Ziel besser. Eine doppelte Tilde: Kennwerte als Näherung. Ein Dach: jetzt im Raum.\nQuelle: gewichtete Summe der Ziele zwischen Ankern, mit Intervallen; Pareto-Front; Bericht IEA SHC Task 31 (2005), Bild 18.";
 
     // Before there is a ranking.
-    const INVITATION = "Which of the catalogue's systems suits this façade? Each works a year in this room, under its own control; what counts is yours to say. The first results are coarse and come soon, exact ones follow." | "Welches System des Katalogs passt zu dieser Fassade? Jedes arbeitet ein Jahr in diesem Raum, mit eigener Regelung; was zählt, lässt sich festlegen. Erste, grobe Ergebnisse kommen bald, genaue folgen.";
+    const INVITATION = "Which of the catalogue's systems suits this façade? Each works a year in this room, under its own control; what counts is yours to say. The first results are coarse and come soon, finer ones follow." | "Welches System des Katalogs passt zu dieser Fassade? Jedes arbeitet ein Jahr in diesem Raum, mit eigener Regelung; was zählt, lässt sich festlegen. Erste, grobe Ergebnisse kommen bald, feinere folgen.";
     const RANK_CATALOGUE = "Rank the catalogue for this façade" | "Den Katalog für diese Fassade reihen";
     const RANK_TIP = "Goes on beside your work, and can be stopped; what was found stays" | "Läuft neben der Arbeit her und lässt sich anhalten; Gefundenes bleibt";
     fn would_count(names) = "What counts: {names}" | "Was zählt: {names}";
@@ -40,7 +40,7 @@ texts! {
     const AGAIN = "Rank again" | "Neu reihen";
     const AGAIN_TIP = "Room, place, weather, control, catalogue or search have changed; only products whose figures are not known yet are computed" | "Raum, Ort, Wetter, Regelung, Katalog oder Suche haben sich geändert; gerechnet werden nur Produkte, deren Kennwerte noch nicht bekannt sind";
     const GO_ON = "Go on" | "Weiter";
-    fn unfinished(left) = "Whole years of {left} products are still to be computed" | "Ganze Jahre von {left} Produkten sind noch zu rechnen";
+    fn unfinished(left) = "{left} products are still to be computed with beams as they are" | "{left} Produkte sind noch mit Strahlen, wie sie sind, zu rechnen";
     const FIND_FIGURE = "Compute" | "Rechnen";
     const FIND_FIGURE_TIP = "The figure of an objective is not known of all products yet" | "Der Kennwert eines Ziels ist noch nicht von allen Produkten bekannt";
     fn done(done, all) = "{done} of {all} products" | "{done} von {all} Produkten";

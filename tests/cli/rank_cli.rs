@@ -334,6 +334,9 @@ fn rankings_that_cannot_be_are_refused_in_one_line() {
 fn the_accuracy_of_a_ranking_is_told_by_effort() {
     let folder = prepared();
     let folder = folder.path();
+    // By default beams are as they are.
+    let scene = SCENE.replace("[compute]\ninterpolation = \"patch\"\n", "");
+    std::fs::write(folder.join("scene.toml"), scene).unwrap();
     let text = done(folder, &["accuracy", "scene.toml", "--rank", "--csv", "ranks.csv", "--json"]);
     let found: Value = serde_json::from_str(&text).unwrap();
     assert_eq!(
@@ -354,7 +357,8 @@ fn the_accuracy_of_a_ranking_is_told_by_effort() {
     for one in others {
         assert!(one["seconds"].as_f64().unwrap() > 0.0 && one["stated_mean"].as_f64().unwrap() > 0.0, "{one}");
         assert!(one["pairs"]["apart"] == apart && one["pairs"]["reversed"] == 0, "{one}");
-        assert!(one["pairs"]["told"] == apart && one["coverage"]["held"] == 1.0, "{one}");
+        let coarse = one["setting"] == "data on their cells";
+        assert!(coarse || (one["pairs"]["told"] == apart && one["coverage"]["held"] == 1.0), "{one}");
     }
     let table = String::from_utf8(bytes(folder, "ranks.csv")).unwrap();
     assert_eq!(table.lines().count(), 7);

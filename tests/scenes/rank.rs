@@ -126,6 +126,32 @@ fn data_on_cells_come_first_and_their_errors_hold_what_follows() {
     );
 }
 
+/// Prisms are the worst of the built-in products: their fans are as wide as cells.
+#[test]
+fn what_beams_change_is_within_the_errors_of_data_on_cells() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = Library::with_catalogue(Some(&folder.path().join("catalogue.cfsdb")));
+    let text = SCENE.replace("reflectance = 0.0\n", "").replace("EN17037.minimum.target.time_by_hour", "UDI_x").replace(
+        "[year]\nweather = \"builtin:renton\"\n",
+        "[year]\nweather = \"builtin:renton\"\neyes = [{ point = [2.0, 2.5, 1.2], direction = [0.0, -1.0, 0.0] }]\n",
+    );
+    let scene = SceneFile::parse(&text.replace("ASE1000_250", "glare.Ev_1.share_above_0.40")).unwrap();
+    for words in ["prismatic-45-45", "laser-cut-panel-100"] {
+        let find = |words: &str| library.search(words).map(|(products, _)| products);
+        let groups = groups("scene", &scene, folder.path(), Some(words), &find).unwrap();
+        let item = all(&groups).into_iter().find(|item| groups[0].products[item.product].key == words).unwrap();
+        let of = |stage| {
+            let found = run(&groups, &[item], &library, &Session::new(), &[stage], &|_| (), &Silent).unwrap();
+            found.into_iter().next().unwrap().unwrap().figures
+        };
+        let (coarse, full) = (of(Stage::Coarse), of(Stage::Full));
+        assert_ne!(coarse, full, "beams change something");
+        for (k, (coarse, full)) in coarse.iter().zip(&full).enumerate() {
+            assert!((coarse.value - full.value).abs() <= coarse.error + full.error, "{words} {k}: {coarse:?} {full:?}");
+        }
+    }
+}
+
 #[test]
 fn a_shade_that_stands_in_for_blinds_is_told() {
     let folder = tempfile::tempdir().unwrap();

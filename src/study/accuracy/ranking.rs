@@ -2,7 +2,7 @@
 //!
 //! Of interest is what products are worth, 0 … 1, and whether lists say the same of two of them. Where the finest list has two
 //! further apart than twice what it states of both, every other has to tell them apart, and not the other way round. Each is
-//! timed by itself in a room of its own, on all processors; the catalogue's files may be read already.
+//! timed by itself in a room of its own, on all processors; the first computes data of built-in products that are missing.
 
 use super::annual::{Inner, targets};
 use super::{Coverage, Errors};
@@ -10,6 +10,7 @@ use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::rank::{surely_above, utility};
 use crate::study::error::StudyError;
 use crate::study::rank::{Group, List, Shard, Stage, lists_of, run};
+use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use std::time::Instant;
 pub enum Effort {
     /// Data constant on their cells: what a window shows first.
     Cells,
-    /// By this error target; `None`: as the scene has it.
+    /// By this error target with beams as they are; `None`: all as the scene has it.
     Target(Option<f64>),
 }
 
@@ -139,11 +140,18 @@ fn lists(
     let mut groups = groups.to_vec();
     let stage = match effort {
         Effort::Cells => Stage::Coarse,
-        Effort::Target(target) => {
-            groups.iter_mut().for_each(|group| Arc::make_mut(&mut group.file).compute.error_target = target);
-            Stage::Full
-        }
+        Effort::Target(_) => Stage::Full,
     };
+    if effort != Effort::Target(None) {
+        for group in &mut groups {
+            let compute = &mut Arc::make_mut(&mut group.file).compute;
+            // What is measured by has beams as they are, also where the scene takes data on their cells.
+            compute.interpolation = Interpolation::Auto;
+            if let Effort::Target(target) = effort {
+                compute.error_target = target;
+            }
+        }
+    }
     let items = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
     let outcomes = run(&groups, &items, library, &Session::passing(), &[stage], &|_| (), progress)?;
     Ok(lists_of(&groups, &items, outcomes, &vec![String::new(); items.len()]))

@@ -232,7 +232,7 @@ impl AperturePart {
         let mut hasher = DefaultHasher::new();
         let seen = self.seen.iter().flat_map(|seen| &seen.directions);
         seen.clone().for_each(|(d, _)| d.vector().to_array().map(f64::to_bits).hash(&mut hasher));
-        self.seen_year = session.sky_year(year, hasher.finish(), seen.count());
+        self.seen_year = session.seen_year(year, hasher.finish(), seen.count());
     }
 
     /// Illuminance through every patch, then the luminances of ground and skyline.

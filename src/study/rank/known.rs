@@ -59,7 +59,7 @@ pub fn list_of(head: &List, known: &[Arc<Known>], figures: &[String], objectives
     list
 }
 
-/// Products whose whole years were computed, by what they were made from. Shared by threads.
+/// Products that are not coarse any more, by what they were made from. Shared by threads.
 #[derive(Debug, Default)]
 pub struct Store(Mutex<BTreeMap<String, Arc<Known>>>);
 

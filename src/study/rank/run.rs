@@ -7,6 +7,7 @@ use super::question::Group;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::study::error::StudyError;
 use crate::study::goniophotometer::Withdrawn;
+use crate::study::scene_file::{Interpolation, SceneFile};
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use crate::study::year::{Climate, climate};
@@ -37,7 +38,7 @@ pub struct Answer<'a> {
 /// What is known of a list before any product is.
 struct Ready {
     climate: Climate,
-    without_glare: Climate,
+    by_cells: Climate,
     grouping: Grouping,
 }
 
@@ -70,14 +71,14 @@ pub fn run(
             climate.settings.keys.lm83 = asks("LM83") || asks("blinds_closed");
             climate.settings.keys.dgp &= asks("DGP_");
             let grouping = Grouping::of(&group.file, &climate)?;
-            let mut without_glare = climate.clone();
-            without_glare.settings.keys.dgp = false;
-            ready.insert(item.group, Ready { climate, without_glare, grouping });
+            let mut by_cells = climate.clone();
+            (by_cells.settings.keys.dgp, by_cells.settings.keys.lm83) = (false, false);
+            ready.insert(item.group, Ready { climate, by_cells, grouping });
         }
     }
     let setting = |item: &Item| {
-        let (group, Ready { climate, without_glare, grouping }) = (&groups[item.group], &ready[&item.group]);
-        Setting { group, climate, without_glare, grouping, library, session }
+        let (group, Ready { climate, by_cells, grouping }) = (&groups[item.group], &ready[&item.group]);
+        Setting { group, climate, by_cells, grouping, library, session }
     };
     let one = |item: &Item, stage: Stage| {
         setting(item).product(&groups[item.group].products[item.product], stage, &Withdrawn(progress))
@@ -97,9 +98,18 @@ pub fn run(
     order.sort_by_key(states);
     let mut outcomes = Vec::new();
     for stage in stages {
-        outcomes = side_by_side(items, &order, *stage, &one, told, progress)?;
+        let mut own = order.clone();
+        if *stage == Stage::Coarse && stages.contains(&Stage::Full) {
+            own.retain(|&at| is_quicker_by_cells(&groups[items[at].group].file));
+        }
+        outcomes = side_by_side(items, &own, *stage, &one, told, progress)?;
     }
-    Ok(outcomes)
+    Ok(outcomes.into_iter().flatten().collect())
+}
+
+/// Do data on cells come sooner than what the scene asks for? With boxes outside every hour is a room either way.
+fn is_quicker_by_cells(file: &SceneFile) -> bool {
+    file.compute.interpolation != Interpolation::Patch && file.outside.is_empty()
 }
 
 /// Threads of their own, each of which shares the computing of its product with all processors: work that waits for a lock
@@ -111,7 +121,7 @@ fn side_by_side(
     one: &(dyn Fn(&Item, Stage) -> Result<super::figures::Found, StudyError> + Sync),
     told: &(dyn Fn(Answer<'_>) + Sync),
     progress: &dyn Progress,
-) -> Result<Vec<Outcome>, StudyError> {
+) -> Result<Vec<Option<Outcome>>, StudyError> {
     let (next, done, stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
     let results: Mutex<Vec<Option<Outcome>>> = Mutex::new(vec![None; items.len()]);
     let name = if stage == Stage::Coarse { "products, coarse" } else { "products" };
@@ -132,7 +142,7 @@ fn side_by_side(
             };
             told(Answer { item: *item, stage, outcome: &outcome });
             results.lock().unwrap_or_else(PoisonError::into_inner)[at] = Some(outcome);
-            progress.advance(name, done.fetch_add(1, Ordering::Relaxed) + 1, items.len());
+            progress.advance(name, done.fetch_add(1, Ordering::Relaxed) + 1, order.len());
         }
     };
     std::thread::scope(|scope| {
@@ -142,7 +152,7 @@ fn side_by_side(
         work();
     });
     let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
-    results.into_iter().collect::<Option<Vec<Outcome>>>().ok_or_else(|| Cancelled.into())
+    if order.iter().any(|&at| results[at].is_none()) { Err(Cancelled.into()) } else { Ok(results) }
 }
 
 /// Lists of what was computed; `keys` of the items' rows.

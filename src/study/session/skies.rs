@@ -6,29 +6,43 @@ use super::sky_year::SkyYear;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::Outside;
-use crate::study::cache::Key;
+use crate::study::cache::{Cache, Key};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// Most numbers an hour that years are kept of: 4,400 hours with light of so many are 21 MB.
-const MOST_NUMBERS: usize = 1200;
+/// Most numbers of a year that are kept: 1,200 in each of 8,784 hours. Half of these are dark, which leaves 21 MB.
+const MOST_NUMBERS: usize = 1200 * 8784;
+
+/// The hours of a year that has a number of its own, for directions of some fingerprint that give so many numbers; `None` for
+/// more than are worth keeping.
+fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
+    let nothing = || Ok::<_, std::convert::Infallible>(SkyYear::nothing(year.1));
+    let worth = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
+    worth.then(|| match cache.get(vec![year.0, year.1 as u64, fingerprint], nothing) {
+        Ok(kept) => kept,
+        Err(never) => match never {},
+    })
+}
 
 impl Session {
-    /// The hours of a year that has a number of its own, for directions of some fingerprint that give so many numbers; `None`
-    /// for more than are worth keeping.
+    /// The hours of a year on so many patches.
     pub(in crate::study) fn sky_year(
         &self,
         year: (u64, usize),
         fingerprint: u64,
-        numbers: usize,
+        patches: usize,
     ) -> Option<Arc<SkyYear>> {
-        let nothing = || Ok::<_, std::convert::Infallible>(SkyYear::nothing(year.1));
-        (1..=MOST_NUMBERS).contains(&numbers).then(|| {
-            match self.sky_years.get(vec![year.0, year.1 as u64, fingerprint], nothing) {
-                Ok(kept) => kept,
-                Err(never) => match never {},
-            }
-        })
+        year_of(&self.sky_years, year, fingerprint, patches)
+    }
+
+    /// The hours of a year in so many directions that sensors see.
+    pub(in crate::study) fn seen_year(
+        &self,
+        year: (u64, usize),
+        fingerprint: u64,
+        directions: usize,
+    ) -> Option<Arc<SkyYear>> {
+        year_of(&self.seen_years, year, fingerprint, directions)
     }
 
     /// Skies that the directions of a façade's patches are tried under.

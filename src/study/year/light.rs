@@ -128,9 +128,7 @@ pub(super) fn light(
 /// How the light was found, where that is out of the ordinary.
 pub(super) fn tell(light: &Light, notes: &mut Vec<String>) {
     if light.way == Way::Rooms {
-        notes.push(
-            "every hour was computed as a room: its beams, boxes or skyline are not known by coefficients".to_owned(),
-        );
+        notes.push("every hour was computed as a room: boxes outside are not known by coefficients".to_owned());
     }
 }
 

@@ -227,7 +227,7 @@ fn row(
     if Some(&entry.product) == input.look.against.as_ref() {
         painter.rect_stroke(rect.shrink(1.0), 2, Stroke::new(1.0, palette.second), egui::StrokeKind::Inside);
     }
-    // What stands for the whole year only so far is paler.
+    // What is coarse so far is paler.
     let pale = entry.coarse || entry.excluded.is_some();
     let colour = match (chosen, pale) {
         (true, _) => ui.visuals().selection.stroke.color,
