@@ -37,9 +37,9 @@ pub enum Stage {
     Full,
 }
 
-/// What light behind data on cells may be off for the beams that they blur. With it `cfs accuracy --rank` finds the worth of all
-/// built-in prisms, the worst of the catalogue, within what is stated.
-const BLURRED: f64 = 0.05;
+/// What light behind data on cells may be off for the beams that they blur. Seen on the built-in prisms, whose fans are as wide
+/// as cells: hours above 3000 lx of two sensors, 0.289 by cells where beams make 0.267, are what 8 % more light make.
+const BLURRED: f64 = 0.1;
 /// What a figure that a year does not have is told under.
 const NO_FIGURE: &str = "rank.objective";
 /// Says how well data were computed of a description. They may be waiting to be computed on one machine and be there on
