@@ -35,7 +35,7 @@ fn text(system: &str) -> String {
          reflectance = {{ floor = 0.2, walls = 0.5, ceiling = 0.7 }}\n\
          [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\nsystem = {keys}\n\
          [site]\nazimuth = 180.0\nlatitude = 40.78\nlongitude = -73.97\nutc_offset = -5.0\nground_reflectance = 0.2\n\
-         [sky]\nmodel = \"cie\"\ndiffuse_horizontal = 10000.0\n\
+         [sky]\nmodel = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0\n\
          [sensors]\nplane = {{ z = 0.85, nx = 8, ny = 12 }}\n\
          [year]\nweather = \"builtin:new-york\"\n"
     )
