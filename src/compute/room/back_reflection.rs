@@ -21,6 +21,9 @@ use std::sync::Arc;
 /// Most cells that the room side is reflected by; finer data are taken as diffuse.
 const MOST_CELLS: usize = 600;
 
+/// Cells for which the balance of the room is solved at once.
+const TOGETHER: usize = 64;
+
 /// One aperture's room side.
 pub struct BackReflection<'a> {
     matrix: &'a CellMatrix,
@@ -123,7 +126,8 @@ impl RoomSide {
     /// By the cells of `weights`.
     pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
         let falling = weights.falling(&radiosity.nested.fine, aperture);
-        let returned = falling.par_iter().map(|weights| radiosity.adjoint_fine(weights)).collect();
+        let falling: Vec<&[f64]> = falling.iter().map(Vec::as_slice).collect();
+        let returned = falling.par_chunks(TOGETHER).flat_map_iter(|weights| radiosity.adjoint_fine(weights)).collect();
         Self { returned }
     }
 
@@ -138,7 +142,8 @@ impl RoomSide {
 
     /// What falls in per luminance of every cell of emergent light: a row for each cell that light falls in through.
     pub fn by_cells(&self, emergent: &PatchWeights) -> Vec<Vec<f64>> {
-        self.returned.par_iter().map(|row| emergent.gathered(row)).collect()
+        let returned: Vec<&[f64]> = self.returned.iter().map(Vec::as_slice).collect();
+        returned.par_chunks(TOGETHER).flat_map_iter(|rows| emergent.gathered(rows)).collect()
     }
 }
 

@@ -5,6 +5,7 @@
 
 use super::form_factor::{parallel_corner, perpendicular_corner};
 use super::mesh::{Mesh, Wall};
+use faer::MatRef;
 
 /// A·F of every receiving patch (row) and emitting patch (column). \[m²\]
 pub struct Exchange {
@@ -32,6 +33,11 @@ impl Exchange {
     /// Of one receiving patch, by emitting patch. \[m²\]
     pub fn row(&self, receiver: usize) -> &[f64] {
         &self.values[receiver * self.columns..(receiver + 1) * self.columns]
+    }
+
+    /// Rows of receiving, columns of emitting patches.
+    pub fn matrix(&self) -> MatRef<'_, f64> {
+        MatRef::from_row_major_slice(&self.values, self.rows(), self.columns)
     }
 
     /// Number of receiving patches.

@@ -6,6 +6,8 @@ use super::mesh::{Mesh, Patch, Wall};
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::dot::dot;
 use crate::compute::quadrature::gauss_legendre;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -117,13 +119,18 @@ impl PatchWeights {
         (first.collect(), (scale - 1.0).abs())
     }
 
-    /// For weights of the patches' illuminance the weights of the cells' luminance, every cell's flux closed by itself.
-    pub fn gathered(&self, weights: &[f64]) -> Vec<f64> {
-        let mut sums = vec![0.0; self.basis.len()];
-        for (row, w) in self.rows.iter().zip(weights).filter(|(_, w)| **w != 0.0) {
-            sums.iter_mut().zip(row).for_each(|(sum, weight)| *sum += w * weight);
-        }
-        sums.iter().zip(&self.closure).map(|(sum, c)| if *c > 0.0 { sum / c } else { 0.0 }).collect()
+    /// For lists of weights of the patches' illuminance the weights of the cells' luminance, every cell's flux closed by
+    /// itself.
+    pub fn gathered(&self, weights: &[&[f64]]) -> Vec<Vec<f64>> {
+        let seeing: Vec<usize> = (0..self.rows.len()).filter(|&k| !self.rows[k].is_empty()).collect();
+        let rows: Vec<f64> = seeing.iter().flat_map(|&k| &self.rows[k]).copied().collect();
+        let by_patch = MatRef::from_column_major_slice(&rows, self.basis.len(), seeing.len());
+        let weights = Mat::from_fn(seeing.len(), weights.len(), |row, list| weights[list][seeing[row]]);
+        let mut sums = Mat::zeros(self.basis.len(), weights.ncols());
+        // One thread: the result must not depend on their number.
+        matmul(sums.as_mut(), Accum::Replace, by_patch, weights.as_ref(), 1.0, Par::Seq);
+        let closed = |(sum, c): (&f64, &f64)| if *c > 0.0 { sum / c } else { 0.0 };
+        sums.col_iter().map(|sums| sums.iter().zip(&self.closure).map(closed).collect()).collect()
     }
 
     /// Mean relative gap of flux that the closing takes away, weighted by flux.

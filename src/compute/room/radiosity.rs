@@ -106,16 +106,17 @@ impl Radiosity {
         fine.into_iter().zip(&self.level.holder).map(|(e, &holder)| (e, means[holder] - coarse[holder])).collect()
     }
 
-    /// What a sum over the exitance of the fine patches (weights `gather`) hangs on: weights a with
+    /// What sums over the exitance of the fine patches (weights `gather`, one list a sum) hang on: weights a with
     /// Σ gather·exitance = Σ a·first for every first illuminance. One solution serves every light.
-    pub fn adjoint_fine(&self, gather: &[f64]) -> Vec<f64> {
+    pub fn adjoint_fine(&self, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         self.level.adjoint(&self.nested.fine, gather)
     }
 
     /// The same for the exitance of the coarse patches, computed without the fine ones; again by first illuminance of
     /// the fine patches.
-    pub fn adjoint_coarse(&self, gather: &[f64]) -> Vec<f64> {
-        self.level.spread(&self.nested.fine, &self.coarser.adjoint(&self.nested.coarse, gather))
+    pub fn adjoint_coarse(&self, gather: &[&[f64]]) -> Vec<Vec<f64>> {
+        let coarse = self.coarser.adjoint(&self.nested.coarse, gather);
+        coarse.iter().map(|weights| self.level.spread(&self.nested.fine, weights)).collect()
     }
 
     /// What [`Self::adjoint_fine`] has of light that is reflected but once.
@@ -193,51 +194,57 @@ impl MeshBalance {
         emitters.patches.iter().zip(&self.holder).map(|(patch, &i)| patch.area / self.area[i] * weights[i]).collect()
     }
 
-    /// Weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R): [`Self::after_reflection`] read backwards.
-    fn adjoint(&self, emitters: &Mesh, gather: &[f64]) -> Vec<f64> {
+    /// Weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R), for every list of `gather`: [`Self::after_reflection`] read
+    /// backwards.
+    fn adjoint(&self, emitters: &Mesh, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         // h = ρ gather weighs both E₀ and R. Without any active patch R is 0.
-        let mut result: Vec<f64> =
-            emitters.patches.iter().zip(gather).map(|(patch, g)| patch.reflectance * g).collect();
+        let mut results: Vec<Vec<f64>> = gather.iter().map(|gather| once(emitters, gather)).collect();
         let Some(factor) = &self.factor else {
-            return result;
+            return results;
         };
+        // One thread: the result must not depend on their number.
+        faer::set_global_parallelism(faer::Par::Seq);
         // The last step forwards gives every receiving patch the mean of the balance: what its fine patches weigh
         // together goes to that mean, b/ρ, and is taken off the mean of what exchange alone brings. Black patches have
         // no such step.
-        let mut held = vec![0.0; self.area.len()];
-        for (h, &holder) in result.iter().zip(&self.holder) {
-            held[holder] += h;
-        }
-        held.iter_mut().zip(&self.reflectance).filter(|(_, rho)| **rho <= 0.0).for_each(|(h, _)| *h = 0.0);
-        let before: Vec<f64> = result
-            .iter()
-            .zip(emitters.patches.iter().zip(&self.holder))
-            .map(|(h, (patch, &i))| h / patch.area - held[i] / self.area[i])
-            .collect();
+        let held: Vec<Vec<f64>> = results.iter().map(|result| self.held(result)).collect();
+        let before = Mat::from_fn(emitters.patches.len(), results.len(), |k, sum| {
+            let i = self.holder[k];
+            results[sum][k] / emitters.patches[k].area - held[sum][i] / self.area[i]
+        });
         // u = AF (h/a − held/A): weights of the exitance that was handed back to the fine patches.
-        let exitance: Vec<f64> = (0..self.area.len()).map(|i| dot(self.exchange.row(i), &before)).collect();
+        let exitance = self.exchange.matrix() * before;
         // b counts as exitance and, over ρ, as mean. (A/ρ − AF) is symmetric: the same factor solves backwards, and
         // what comes out weighs A E₁. That b is held at 0 forwards only takes off rounding, and is left out here.
-        let rhs = Mat::from_fn(self.active.len(), 1, |r, _| {
+        let solution = factor.solve(&Mat::from_fn(self.active.len(), results.len(), |r, sum| {
             let i = self.active[r];
-            exitance[i] + held[i] / self.reflectance[i]
-        });
-        let solution = factor.solve(&rhs);
-        // A E₁ = AF ρE₀ read backwards: by the transpose to the emitting patches, whose ρ follows below.
-        let mut emitted = vec![0.0; result.len()];
+            exitance[(i, sum)] + held[sum][i] / self.reflectance[i]
+        }));
+        let mut once = Mat::zeros(self.area.len(), results.len());
         for (r, &i) in self.active.iter().enumerate() {
-            let once = solution[(r, 0)];
-            if once != 0.0 {
-                emitted.iter_mut().zip(self.exchange.row(i)).for_each(|(sum, af)| *sum += af * once);
+            once.row_mut(i).copy_from(solution.row(r));
+        }
+        // A E₁ = AF ρE₀ read backwards: by the transpose to the emitting patches, whose ρ follows below.
+        let emitted = self.exchange.matrix().transpose() * once;
+        for (sum, result) in results.iter_mut().enumerate() {
+            // The exitance of a receiving patch also held ρ times the mean of E₀ itself.
+            let means: Vec<f64> =
+                self.reflectance.iter().enumerate().map(|(i, rho)| exitance[(i, sum)] * rho).collect();
+            let by_means = self.spread(emitters, &means);
+            for (k, (value, patch)) in result.iter_mut().zip(&emitters.patches).enumerate() {
+                *value += patch.reflectance * emitted[(k, sum)] + by_means[k];
             }
         }
-        // The exitance of a receiving patch also held ρ times the mean of E₀ itself.
-        let means: Vec<f64> = exitance.iter().zip(&self.reflectance).map(|(u, rho)| u * rho).collect();
-        let by_means = self.spread(emitters, &means);
-        for (k, (value, patch)) in result.iter_mut().zip(&emitters.patches).enumerate() {
-            *value += patch.reflectance * emitted[k] + by_means[k];
+        results
+    }
+
+    /// What receiving patches that reflect hold of weights of emitting ones.
+    fn held(&self, weights: &[f64]) -> Vec<f64> {
+        let mut held = vec![0.0; self.area.len()];
+        for (h, &holder) in weights.iter().zip(&self.holder).filter(|(_, holder)| self.reflectance[**holder] > 0.0) {
+            held[holder] += h;
         }
-        result
+        held
     }
 
     /// R on the emitting patches from E₀ on them.
@@ -366,8 +373,8 @@ mod tests {
             let exitance = radiosity.exitance(&first);
             let (a, b) = (noise(fine, seed + 10), noise(coarse, seed + 20));
             for (forwards, backwards) in [
-                (dot(&a, &exitance.fine), dot(&radiosity.adjoint_fine(&a), &first)),
-                (dot(&b, &exitance.coarse), dot(&radiosity.adjoint_coarse(&b), &first)),
+                (dot(&a, &exitance.fine), dot(&radiosity.adjoint_fine(&[&a])[0], &first)),
+                (dot(&b, &exitance.coarse), dot(&radiosity.adjoint_coarse(&[&b])[0], &first)),
             ] {
                 assert!((forwards / backwards - 1.0).abs() < 1e-11, "{forwards} {backwards}");
             }

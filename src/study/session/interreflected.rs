@@ -102,7 +102,7 @@ impl Session {
         count: usize,
         radiosity: &Radiosity,
     ) -> Result<Arc<Vec<[Reconstruction; 2]>>, StudyError> {
-        let mut key = room_key(scene, count);
+        let mut key = mesh_key(scene, count);
         key.extend(sensor_key(scene));
         self.gather.get(key, || {
             let weights = scene
@@ -113,7 +113,7 @@ impl Session {
         })
     }
 
-    /// What the patches receive from an aperture by the cells of a basis; `key` is the room's.
+    /// What the patches receive from an aperture by the cells of a basis; `key` is the mesh's.
     pub(super) fn patch_weights(
         &self,
         key: &Key,
@@ -143,7 +143,7 @@ impl Session {
         count: usize,
         progress: &dyn Progress,
     ) -> Result<FirstLight, StudyError> {
-        let key = room_key(scene, count);
+        let key = mesh_key(scene, count);
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let radiosity = self.radiosity(scene, count)?;
         let mesh = &radiosity.nested.fine;
@@ -182,7 +182,7 @@ impl Session {
         count: usize,
         progress: &dyn Progress,
     ) -> Result<(Vec<Estimate>, f64), StudyError> {
-        let key = room_key(scene, count);
+        let key = mesh_key(scene, count);
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let radiosity = self.radiosity(scene, count)?;
         check(progress)?;
@@ -257,15 +257,19 @@ pub(super) fn mirrors<'a>(
     scene.apertures.iter().enumerate().filter_map(reflecting).collect()
 }
 
-/// What a meshed room depends on.
-pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
+/// What the patches of a room depend on, whatever they reflect.
+pub(super) fn mesh_key(scene: &Scene, count: usize) -> Key {
     let mut key = vec![count as u64];
     key.extend(bits(scene.room.size.to_array()));
+    (0..scene.apertures.len()).for_each(|index| key.extend(aperture_key(scene, index)));
+    key
+}
+
+/// What a meshed room depends on.
+pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
+    let mut key = mesh_key(scene, count);
     key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
-    for index in 0..scene.apertures.len() {
-        key.extend(aperture_key(scene, index));
-        key.push(scene.apertures[index].diffuse_reflectance().to_bits());
-    }
+    key.extend(bits(scene.apertures.iter().map(SceneAperture::diffuse_reflectance)));
     key
 }
 

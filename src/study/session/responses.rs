@@ -2,7 +2,7 @@
 //! balance read backwards. One set serves every sky, sun and system of a room; what apertures throw back by direction
 //! comes in by cells, see [`super::thrown_back`].
 
-use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, room_key};
+use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};
 use super::landed::Landed;
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
@@ -12,12 +12,14 @@ use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::dot::dot;
 use crate::compute::estimate::Progress;
+use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Weights of all sensors.
@@ -67,16 +69,11 @@ impl Session {
         let of_sensors = [key.clone(), sensor_key.clone()].concat();
         let sensors = self.responses.get(of_sensors, || {
             let gather = self.gathering(scene, count, &radiosity)?;
-            gather
-                .par_iter()
-                .map(|[fine, coarse]| {
-                    check(progress)?;
-                    Ok(response(&radiosity, &fine.weights, &coarse.weights))
-                })
-                .collect::<Result<Vec<_>, StudyError>>()
+            weights_of(&radiosity, &gather, progress)
         })?;
         let geometry = scene.apertures.iter().map(|a| a.aperture).collect();
-        let room = ThroughRoom { radiosity: Arc::clone(&radiosity), sensors, key, geometry, sensor_key };
+        let mesh_key = mesh_key(scene, count);
+        let room = ThroughRoom { radiosity: Arc::clone(&radiosity), sensors, key, mesh_key, geometry, sensor_key };
         let mirrors = ThrownBack::new(self, scene, &room, progress)?;
         Ok(Responses { radiosity, room, mirrors, count })
     }
@@ -91,19 +88,41 @@ impl Session {
     }
 }
 
-/// Of one sensor, from what it sees of the patches of both densities.
-fn response(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Response {
-    let mut response = Response { value: vec![0.0; fine.len()], walls: Vec::with_capacity(6) };
-    for [fine, coarse] in by_walls(radiosity, fine, coarse) {
-        let (by_fine, by_coarse) = (radiosity.adjoint_fine(&fine), radiosity.adjoint_coarse(&coarse));
-        // As the extrapolation of the two densities: fine + (fine − coarse)/3.
-        let difference: Vec<f64> = by_fine.iter().zip(&by_coarse).map(|(f, c)| f - c).collect();
-        for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
-            *sum += f + d / 3.0;
-        }
-        response.walls.push(difference);
-    }
-    response
+/// Sensors whose weights are found together: the balance is solved for all of these at once.
+const TOGETHER: usize = 32;
+
+/// Of all sensors, from what they see of the patches of both densities.
+fn weights_of(
+    radiosity: &Radiosity,
+    gather: &[[Reconstruction; 2]],
+    progress: &dyn Progress,
+) -> Result<Vec<Response>, StudyError> {
+    let walls: Vec<Vec<[Vec<f64>; 2]>> =
+        gather.par_iter().map(|[fine, coarse]| by_walls(radiosity, &fine.weights, &coarse.weights)).collect();
+    let walls = |range: Range<usize>| walls[range].iter().flatten();
+    let blocks: Vec<Range<usize>> =
+        (0..gather.len()).step_by(TOGETHER).map(|s| s..(s + TOGETHER).min(gather.len())).collect();
+    let block = |sensors: &Range<usize>| {
+        check(progress)?;
+        let [fine, coarse] = [0, 1].map(|k| walls(sensors.clone()).map(|wall| &wall[k][..]).collect::<Vec<_>>());
+        Ok::<_, StudyError>(radiosity.adjoint_fine(&fine).into_iter().zip(radiosity.adjoint_coarse(&coarse)))
+    };
+    let found = blocks.par_iter().map(block).collect::<Result<Vec<_>, _>>()?;
+    let mut found = found.into_iter().flatten();
+    Ok((0..gather.len())
+        .map(|s| {
+            let mut response = Response { value: vec![0.0; radiosity.nested.fine.patches.len()], walls: Vec::new() };
+            for (by_fine, by_coarse) in found.by_ref().take(walls(s..s + 1).count()) {
+                // As the extrapolation of the two densities: fine + (fine − coarse)/3.
+                let difference: Vec<f64> = by_fine.iter().zip(&by_coarse).map(|(f, c)| f - c).collect();
+                for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
+                    *sum += f + d / 3.0;
+                }
+                response.walls.push(difference);
+            }
+            response
+        })
+        .collect())
 }
 
 impl Responses {
@@ -158,9 +177,9 @@ impl Responses {
         let one = |s: usize| {
             let added = mirrored.as_ref().map(|all| &all[s]);
             let value = sums.values[s] + added.map_or(0.0, |added| added.value);
-            let gap = |(w, wall): (usize, &f64)| wall + added.map_or(0.0, |added| added.walls[w]);
-            let squares: f64 = sums.walls(s).iter().enumerate().map(gap).map(|x| x * x).sum();
-            let difference = squares.sqrt().hypot(sums.blur[s]);
+            let gap = |(w, wall): (usize, f64)| wall + added.map_or(0.0, |added| added.walls[w]);
+            let squares: f64 = sums.walls(s).enumerate().map(gap).map(|x| x * x).sum();
+            let difference = (squares + sums.blur[s].powi(2)).sqrt();
             Reflected { value, difference, thrown_back: added.map_or(0.0, |added| added.straight) }
         };
         ((0..self.room.sensors.len()).map(one).collect(), sums.seen)

@@ -1,7 +1,7 @@
 //! What falls on the surfaces of the room: means over the patches between which light is balanced, and the outlines of
 //! what the sun's beams light.
 
-use super::interreflected::{DIFFERENCE_ALONE, PATCHES, REST, mirrors, room_key};
+use super::interreflected::{DIFFERENCE_ALONE, PATCHES, REST, mesh_key, mirrors};
 use super::{Session, check};
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Estimate, Progress};
@@ -81,7 +81,7 @@ impl Session {
             if let Some(landing) = &landing {
                 all.iter_mut().zip(&landing.thrown).for_each(|(sum, e)| *sum += e);
             }
-            let key = room_key(scene, count);
+            let key = mesh_key(scene, count);
             let mirrors = mirrors(scene, |index: usize, basis: &Arc<RingBasis>| {
                 self.patch_weights(&key, mesh, index, &geometry, basis)
             });

@@ -10,6 +10,9 @@ use crate::study::cache::Key;
 use rayon::prelude::*;
 use std::sync::Arc;
 
+/// Sensors whose weights are found at once.
+const TOGETHER: usize = 32;
+
 /// Weights of all sensors, and the room that they belong to.
 pub(super) struct ThroughRoom {
     /// The balance.
@@ -18,16 +21,23 @@ pub(super) struct ThroughRoom {
     pub sensors: Arc<Vec<Response>>,
     /// The room's key.
     pub key: Key,
+    /// That of its patches.
+    pub mesh_key: Key,
     /// The apertures.
     pub geometry: Vec<Aperture>,
     /// The sensors' key.
     pub sensor_key: Key,
 }
 
+/// Weights of a sensor: its value, then where there are doubts its walls.
+fn lists(sensor: &Response, doubts: bool) -> impl Iterator<Item = &[f64]> {
+    std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| doubts)).map(Vec::as_slice)
+}
+
 impl ThroughRoom {
     /// What the patches receive from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
-        session.patch_weights(&self.key, &self.radiosity.nested.fine, index, &self.geometry, basis)
+        session.patch_weights(&self.mesh_key, &self.radiosity.nested.fine, index, &self.geometry, basis)
     }
 
     /// The sensors' weights of the luminance of an aperture's cells, by way of the room alone; without `doubts` values
@@ -38,9 +48,19 @@ impl ThroughRoom {
         key.extend(basis_key(Some(basis)));
         let compute = || {
             let weights = self.weights(session, index, basis);
-            let value = self.sensors.par_iter().map(|sensor| weights.gathered(&sensor.value)).collect();
-            let walls = |sensor: &Response| sensor.walls.iter().map(|wall| weights.gathered(wall)).collect();
-            let walls = if doubts { self.sensors.par_iter().map(walls).collect() } else { Vec::new() };
+            let block = |sensors: &[Response]| {
+                let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, doubts)).collect();
+                weights.gathered(&all)
+            };
+            let found: Vec<Vec<Vec<f64>>> = self.sensors.par_chunks(TOGETHER).map(block).collect();
+            let mut found = found.into_iter().flatten();
+            let (mut value, mut walls) = (Vec::new(), Vec::new());
+            for sensor in self.sensors.iter() {
+                value.extend(found.next());
+                if doubts {
+                    walls.push(found.by_ref().take(sensor.walls.len()).collect());
+                }
+            }
             Ok::<_, std::convert::Infallible>(ByCells { value, walls })
         };
         match session.by_cells.get(key, compute) {
