@@ -1,5 +1,7 @@
 //! The illuminances of a year, step by step.
 
+use std::ops::Range;
+
 /// One step of a year, as far as figures ask.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
@@ -14,6 +16,9 @@ pub struct Step {
 /// Illuminances at the same places in every step: rows of steps, columns of places. \[lx\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light<'a> {
+    /// Numbers a step in `values`, those of the places from `first` on.
+    width: usize,
+    first: usize,
     places: usize,
     values: &'a [f64],
 }
@@ -21,7 +26,13 @@ pub struct Light<'a> {
 impl<'a> Light<'a> {
     /// Row after row. `None` where the rows are not whole, or of no places.
     pub fn new(places: usize, values: &'a [f64]) -> Option<Self> {
-        (places > 0 && values.len().is_multiple_of(places)).then_some(Self { places, values })
+        Self::of_columns(places, 0..places, values)
+    }
+
+    /// Some columns of rows of so many. `None` as for [`Self::new`].
+    pub fn of_columns(width: usize, places: Range<usize>, values: &'a [f64]) -> Option<Self> {
+        let whole = !places.is_empty() && places.end <= width && values.len().is_multiple_of(width);
+        whole.then_some(Self { width, first: places.start, places: places.len(), values })
     }
 
     /// Number of places.
@@ -31,12 +42,12 @@ impl<'a> Light<'a> {
 
     /// The places of a step.
     pub fn row(&self, step: usize) -> &'a [f64] {
-        &self.values[step * self.places..][..self.places]
+        &self.values[step * self.width + self.first..][..self.places]
     }
 
     /// One place in one step.
     pub fn at(&self, step: usize, place: usize) -> f64 {
-        self.values[step * self.places + place]
+        self.row(step)[place]
     }
 }
 

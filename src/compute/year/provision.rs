@@ -68,21 +68,29 @@ impl Provision {
         }
         let median_diffuse = 0.5 * (brightness(day[(day.len() - 1) / 2]) + brightness(day[day.len() / 2]));
         let places = light.places();
-        let reached = |limit: f64, area: f64| {
-            let often =
-                |place: &usize| share(day.iter().filter(|&&k| light.at(k, *place) >= limit).count(), day.len()) >= HALF;
-            let widely = |k: &&usize| {
-                light.row(**k).iter().filter(|e| **e >= limit).count() as f64 >= area * places as f64 - 1e-9
-            };
-            Reached {
-                area_by_point: share((0..places).filter(often).count(), places),
-                time_by_hour: share(day.iter().filter(widely).count(), day.len()),
+        let asked = LEVELS.map(|(_, target, minimum)| [(target, TARGET_AREA), (minimum, MINIMUM_AREA)]);
+        let asked = asked.as_flattened();
+        // Row by row, as the light lies in memory.
+        let mut often = vec![[0_usize; 2 * LEVELS.len()]; places];
+        let mut hours = [0_usize; 2 * LEVELS.len()];
+        for &k in &day {
+            let mut widely = [0_usize; 2 * LEVELS.len()];
+            for (often, e) in often.iter_mut().zip(light.row(k)) {
+                for (n, (limit, _)) in asked.iter().enumerate() {
+                    let reaches = usize::from(e >= limit);
+                    often[n] += reaches;
+                    widely[n] += reaches;
+                }
             }
+            for (n, (_, area)) in asked.iter().enumerate() {
+                hours[n] += usize::from(widely[n] as f64 >= area * places as f64 - 1e-9);
+            }
+        }
+        let reached = |n: usize| Reached {
+            area_by_point: share(often.iter().filter(|often| share(often[n], day.len()) >= HALF).count(), places),
+            time_by_hour: share(hours[n], day.len()),
         };
-        let levels = LEVELS.map(|(_, target, minimum)| Level {
-            target: reached(target, TARGET_AREA),
-            minimum: reached(minimum, MINIMUM_AREA),
-        });
+        let levels = std::array::from_fn(|level| Level { target: reached(2 * level), minimum: reached(2 * level + 1) });
         Self { median_diffuse, levels }
     }
 }

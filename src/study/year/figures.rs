@@ -75,11 +75,6 @@ fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
     })
 }
 
-/// Columns of a table of rows.
-fn columns(values: &[f64], places: usize, from: usize, to: usize) -> Vec<f64> {
-    values.chunks_exact(places).flat_map(|row| row[from..to].iter().copied()).collect()
-}
-
 /// Of illuminances; `sign`: times their errors are added to solar power and glare.
 fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     let (sensors, places) = (year.settings.sensors, year.light.places);
@@ -92,31 +87,23 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         })
         .collect();
     let whole = year.steps.whole && year.chosen.len() == year.steps.list.len();
-    let split = |values: &[f64]| (columns(values, places, 0, sensors), columns(values, places, sensors, places));
-    let (desks, eyes) = split(values);
-    let (sun_on_desks, sun_at_eyes) = year.light.sun.as_deref().map(split).unzip();
-    // A scene has sensors, or it is none; eyes it need not have.
-    let table = |values| Light::new(sensors.max(1), values);
+    let desks = |values| Light::of_columns(places, 0..sensors, values);
+    let eyes = |values| Light::of_columns(places, sensors..places, values);
+    let sun = year.light.sun.as_deref();
     let length = year.steps.length;
-    let light = table(&desks);
+    let light = desks(values);
     Figures {
         steps: steps.len(),
         occupied: steps.iter().filter(|step| step.occupied).count(),
         lit: steps.iter().filter(|step| step.diffuse_horizontal > 0.0).count(),
         autonomy: light.map(|light| Autonomy::of(&steps, light)).unwrap_or_default(),
         blinds: blinds(year, &steps, sign),
-        exposure: sun_on_desks
-            .as_deref()
+        exposure: sun
             .filter(|_| whole && year.moving.is_empty())
-            .and_then(table)
+            .and_then(desks)
             .map(|sun| Exposure::of(&steps, sun, length)),
         provision: light.filter(|_| whole).map(|light| Provision::of(&steps, light)),
-        glare: Light::new(places - sensors, &eyes)
-            .map(|eyes| {
-                let sun = sun_at_eyes.as_deref().and_then(|sun| Light::new(places - sensors, sun));
-                glare(&steps, eyes, sun)
-            })
-            .unwrap_or_default(),
+        glare: eyes(values).map(|light| glare(&steps, light, sun.and_then(eyes))).unwrap_or_default(),
         solar: transmitted(year, sign),
         probability: probability(year, sign),
         lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
