@@ -3,6 +3,7 @@
 use super::views::{SensorRows, Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
+use crate::compute::dot::{add_scaled, wide};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows, between_rows};
 use crate::compute::lid::{BandLight, SkyThrough, direction, scattered_of, structure_angles, sun_cells};
@@ -157,11 +158,10 @@ impl Lattice {
                 continue;
             }
             let node = self.node(specimen, views, [around[0].first + i as i64, around[1].first + j as i64]);
-            own.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += cubic * e);
-            for (s, e) in node.0.iter().take(errors.len()).enumerate() {
-                straight[s] += linear * e;
-                doubt[s] += linear * node.1 * e.abs();
-            }
+            add_scaled(&mut own, &node.0, cubic);
+            add_scaled(&mut straight, &node.0, linear);
+            let error = linear * node.1;
+            wide(|| doubt.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += error * e.abs()));
         }
         for (s, error) in errors.iter_mut().enumerate() {
             *error += illuminance * (doubt[s] + UNEVEN * (own[s] - straight[s]).abs());

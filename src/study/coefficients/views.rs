@@ -1,6 +1,7 @@
 //! V: what every sensor receives per luminance of every emergent cell of an aperture, directly and through the room.
 
 use crate::compute::basis::{Resampling, RingBasis};
+use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Progress;
 use crate::compute::room::first_bounce::from_even;
 use crate::compute::room::patch_weights::{MOST_CELLS, merged_basis};
@@ -130,10 +131,7 @@ impl Views {
     /// Adds a cell of some luminance.
     #[inline]
     pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
-        let row = &self.rows[cell * self.width..(cell + 1) * self.width];
-        for (sum, weight) in out.iter_mut().zip(row) {
-            *sum += luminance * f64::from(*weight);
-        }
+        add_scaled(out, &self.rows[cell * self.width..(cell + 1) * self.width], luminance);
     }
 
     /// Adds an indicatrix.

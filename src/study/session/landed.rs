@@ -2,6 +2,7 @@
 //! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches.
 
 use super::weights::{Response, by_walls};
+use crate::compute::dot::{add_scaled, wide};
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 
@@ -23,14 +24,15 @@ pub(in crate::study) struct LandedLight {
     pub blur: Vec<f64>,
     /// Once reflected, were it even over each patch.
     pub seen: Vec<f64>,
-    columns: Vec<f64>,
+    columns: Vec<f32>,
     walls: Vec<usize>,
 }
 
 impl LandedLight {
     /// What the two densities differ by at a sensor, wall by wall.
-    pub fn walls(&self, sensor: usize) -> &[f64] {
-        &self.columns[self.walls[sensor]..self.walls[sensor + 1]]
+    pub fn walls(&self, sensor: usize) -> impl Iterator<Item = f64> {
+        let [from, to] = [sensor, sensor + 1].map(|s| self.walls[s] - self.walls[0]);
+        self.columns[from..to].iter().map(|&e| f64::from(e))
     }
 }
 
@@ -67,20 +69,21 @@ impl Landed {
 
     /// Of illuminances of the patches by beams.
     pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> LandedLight {
-        let (count, width) = (self.sensors, self.walls[self.sensors] + self.sensors);
-        let sum = |light: &[f64], columns: usize| {
-            let mut sums = vec![0.0; columns];
-            for (row, e) in self.rows.chunks_exact(width).zip(light).filter(|(_, e)| **e != 0.0) {
-                sums.iter_mut().zip(row).for_each(|(sum, weight)| *sum += e * f64::from(*weight));
-            }
-            sums
-        };
-        let mut columns = sum(direct, width);
+        let (count, last) = (self.sensors, self.walls[self.sensors]);
+        let rows = |light| self.rows.chunks_exact(last + count).zip(light).filter(|(_, e): &(_, &f64)| **e != 0.0);
+        let (mut fine, mut seen) = (vec![0.0; count], vec![0.0; count]);
+        // Only what is in doubt hangs on these: half the digits are enough.
+        let mut columns = vec![0.0_f32; last - count];
+        for (row, &e) in rows(direct) {
+            add_scaled(&mut fine, row, e);
+            wide(|| columns.iter_mut().zip(&row[count..]).for_each(|(sum, weight)| *sum += e as f32 * weight));
+            add_scaled(&mut seen, &row[last..], e);
+        }
         // Patches of twice the size place the beams four times as badly.
-        let blurred = sum(&radiosity.blurred(direct), count);
-        let blur: Vec<f64> = columns.iter().zip(blurred).map(|(fine, coarse)| (fine - coarse) / 3.0).collect();
-        let values = columns[..count].iter().zip(&blur).map(|(e, gap)| e + gap).collect();
-        let seen = columns.split_off(self.walls[count]);
+        let mut coarse = vec![0.0; count];
+        rows(&radiosity.blurred(direct)).for_each(|(row, &e)| add_scaled(&mut coarse, row, e));
+        let blur: Vec<f64> = fine.iter().zip(coarse).map(|(fine, coarse)| (fine - coarse) / 3.0).collect();
+        let values = fine.iter().zip(&blur).map(|(e, gap)| e + gap).collect();
         LandedLight { values, blur, seen, columns, walls: self.walls.clone() }
     }
 }
