@@ -6,7 +6,6 @@
 
 use cfs::compute::estimate::{Estimate, Silent};
 use cfs::compute::rank::{Better, Objective};
-use cfs::compute::sky::{Outside, Sun};
 use cfs::study::rank::{Found, List, Parts, Row, Shortlist};
 use cfs::study::year::{Climate, climate, scene_at, year_in};
 use cfs::study::{Coefficients, Library, Scene, SceneFile, Session};
@@ -123,11 +122,10 @@ fn hours(bencher: Bencher<'_, '_>) {
     let lit: Vec<_> = (0..steps.list.len()).filter(|&k| steps.list[k].hour.is_lit()).collect();
     let skies: Vec<_> = lit.iter().map(|&k| (k, steps.outside(k).expect("an hour of the weather"))).collect();
     bencher.bench(|| {
-        let hour = |(k, (outside, sun)): &(usize, (Outside, Option<Sun>))| {
-            let sky: f64 = prepared.hour_estimate(*k, outside).iter().map(|e| e.value).sum();
-            sky + sun.iter().flat_map(|sun| prepared.sun_estimate(sun)).map(|e| e.value).sum::<f64>()
-        };
-        skies.iter().map(hour).sum::<f64>()
+        let hours: Vec<_> = skies.iter().map(|(k, (outside, _))| (*k, outside)).collect();
+        let sky: f64 = prepared.hours_estimate(&hours).iter().flatten().map(|e| e.value).sum();
+        let suns = skies.iter().flat_map(|(_, (_, sun))| sun).flat_map(|sun| prepared.sun_estimate(sun));
+        sky + suns.map(|e| e.value).sum::<f64>()
     });
 }
 

@@ -139,6 +139,28 @@ fn a_measured_sky_and_another_skyline_go_the_long_way_and_agree() {
 }
 
 #[test]
+fn hours_asked_together_are_those_asked_alone_to_the_last_bit() {
+    let apertures = vec![facade([0.5, 1.0], [1.2, 1.5], MADE), facade([2.0, 1.0], [1.5, 1.5], TRANSPARENT)];
+    let scene = text(apertures, 12.0, OVERCAST).scene_with(klems(rough));
+    let session = Session::new();
+    let mut prepared = Coefficients::new(&session, &scene, &Silent).unwrap();
+    prepared.keep_year(&session, (1, 71), 71);
+    let sky = |k: usize| {
+        let sun = Dir::from_altitude_bearing(0.02 * k as f64, Bearing::from_degrees(90.0 + 2.0 * k as f64));
+        let ground = Outside::new(Distribution::cie(12, sun).unwrap(), 5e3 + 200.0 * k as f64).unwrap();
+        ground.with_ground(0.2, 0.0).unwrap().with_skyline(scene.outside.skyline_altitude(), 900.0).unwrap()
+    };
+    let skies: Vec<Outside> = (0..71).map(sky).collect();
+    let hours: Vec<_> = skies.iter().enumerate().collect();
+    let all = prepared.hours_estimate(&hours);
+    assert!(all.len() == 71 && all[0] != all[1]);
+    for part in [1, 3, 32, 50] {
+        let again: Vec<Vec<Estimate>> = hours.chunks(part).flat_map(|part| prepared.hours_estimate(part)).collect();
+        assert_eq!(again, all, "in parts of {part}");
+    }
+}
+
+#[test]
 fn apertures_that_reflect_by_direction_are_part_of_it() {
     let mut dataset = klems(rough);
     let mirror = klems(|i, o| if i.vector().distance(o.vector()) < 0.3 { 4.0 } else { 0.2 });

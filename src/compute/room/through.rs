@@ -72,15 +72,9 @@ pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance,
 }
 
 /// The sky through the opening, by directions that are fixed once: room directions above the skyline's altitude \[rad\]
-/// (0: the horizon) with weights that hold the sensor's cosine and τ(θ). \[sr\] `parts` Gauss points or more along
-/// each side of every piece.
-pub fn samples(
-    view: &View,
-    surface: Surface,
-    skyline: f64,
-    tau: &AngularTransmittance,
-    parts: usize,
-) -> Vec<(Dir<Room>, f64)> {
+/// (0: the horizon) with weights that hold the sensor's cosine. \[sr\] `parts` Gauss points or more along each side of
+/// every piece.
+pub fn samples(view: &View, surface: Surface, skyline: f64, parts: usize) -> Vec<(Dir<Room>, f64)> {
     let to_room = |v: DVec3| surface.room_from_facade(v);
     let normal = to_room(view.normal);
     let (mut polygon, mut above) = (Vec::with_capacity(6), Vec::with_capacity(7));
@@ -97,8 +91,7 @@ pub fn samples(
         let (sin_h, cos_h) = altitude.sin_cos();
         let (sin_a, cos_a) = azimuth.sin_cos();
         let d = DVec3::new(cos_h * cos_a, cos_h * sin_a, sin_h);
-        let tau = tau.at(surface.facade_from_room(d).z.clamp(-1.0, 1.0).acos());
-        let weight = tau * normal.dot(d).max(0.0) * cos_h * area;
+        let weight = normal.dot(d).max(0.0) * cos_h * area;
         if weight > 0.0 {
             list.push((Dir::from_unit(d), weight));
         }

@@ -7,6 +7,7 @@
 //! | `transport` | V·T: sensors by incident direction |
 //! | `described` | the same of systems known by their description |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
+//! | `straight` | the outside that is seen straight through |
 //! | `far` | what stands far away: its light, and what it hides |
 //! | `sun_way` | how the very sun comes through a system |
 //! | `beam` | the sun |
@@ -22,6 +23,7 @@ mod beam;
 mod described;
 mod far;
 mod part;
+mod straight;
 mod sun_way;
 mod transport;
 mod views;
@@ -38,6 +40,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
 use crate::compute::sky::perez::PerezState;
 use crate::compute::sky::{Distribution, Outside};
+pub(super) use part::TOGETHER;
 use part::{AperturePart, Sums, Way};
 use std::sync::Arc;
 pub(super) use transport::patches as incident_patches;
@@ -172,7 +175,7 @@ impl Coefficients {
     }
 
     /// Keeps in `session`, for all systems, what the hours of a year are on the patches of this one; `year`: a number that
-    /// no other year has, and how many hours there are. They are asked by [`Self::hour_estimate`], about `suns` of them:
+    /// no other year has, and how many hours there are. They are asked by [`Self::hours_estimate`], about `suns` of them:
     /// what many suns make may be found between directions, with the error of it.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize), suns: usize) {
         self.suns = suns;
@@ -199,31 +202,33 @@ impl Coefficients {
 
     /// The same with its error.
     pub fn sky_estimate(&self, outside: &Outside) -> Vec<Estimate> {
-        self.estimated(outside, self.way(outside))
+        self.estimated(&[(outside, self.way(outside))]).swap_remove(0)
     }
 
-    /// The same of an hour of the year of [`Self::keep_year`], whose outside this is.
-    pub fn hour_estimate(&self, hour: usize, outside: &Outside) -> Vec<Estimate> {
-        let way = if self.is_smooth(outside) { Way::Hour(hour) } else { Way::Exact(None) };
-        self.estimated(outside, way)
+    /// The same of hours of the year of [`Self::keep_year`], whose outsides these are: faster for many at once, and the
+    /// same.
+    pub fn hours_estimate(&self, hours: &[(usize, &Outside)]) -> Vec<Vec<Estimate>> {
+        let way =
+            |&(hour, outside)| (outside, if self.is_smooth(outside) { Way::Hour(hour) } else { Way::Exact(None) });
+        self.estimated(&hours.iter().map(way).collect::<Vec<_>>())
     }
 
-    fn estimated(&self, outside: &Outside, way: Way<'_>) -> Vec<Estimate> {
+    fn estimated(&self, skies: &[(&Outside, Way<'_>)]) -> Vec<Vec<Estimate>> {
         let sensors = self.scene.sensors.len();
-        let smooth = !matches!(way, Way::Exact(_));
-        let mut estimates = vec![Estimate::default(); sensors];
+        let mut estimates = vec![vec![Estimate::default(); sensors]; skies.len()];
         for (index, part) in self.parts.iter().enumerate() {
-            let dark = || vec![0.0; sensors];
-            let mut sums = Sums { total: dark(), reflected: dark(), doubtful: dark(), interpolated: dark() };
-            part.add_sums(&self.scene, index, outside, way, &mut sums);
+            let mut sums: Vec<Sums> = skies.iter().map(|_| Sums::dark(sensors)).collect();
+            part.add_sums(&self.scene, index, skies, &mut sums);
             let rest = self.rest().hypot(0.5 * part.gap);
-            for (s, sum) in estimates.iter_mut().enumerate() {
-                let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
-                let error = value * (part.transport.relative_error() + if smooth { self.directions } else { 1e-5 })
-                    + sums.doubtful[s].hypot(rest * reflected)
-                    + sums.interpolated[s].abs()
-                    + 1e-6 * value;
-                *sum += Estimate::new(value, error);
+            for ((estimates, sums), (_, way)) in estimates.iter_mut().zip(sums).zip(skies) {
+                let directions = if matches!(way, Way::Exact(_)) { 1e-5 } else { self.directions };
+                let relative = part.transport.relative_error() + directions;
+                for (s, sum) in estimates.iter_mut().enumerate() {
+                    let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
+                    let squares = sums.doubtful[s].powi(2) + (rest * reflected).powi(2);
+                    let error = value * relative + squares.sqrt() + sums.interpolated[s].abs() + 1e-6 * value;
+                    *sum += Estimate::new(value, error);
+                }
             }
         }
         estimates

@@ -3,17 +3,15 @@
 
 use super::described::{Described, DescribedViews};
 use super::far::{self, Constants};
+use super::straight::{StraightView, seen_exactly};
 use super::sun_way::SunWay;
 use super::transport::{self, ACROSS, Transport};
 use super::views::{Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
-use crate::compute::direction::{Dir, World};
-use crate::compute::dot::dot;
+use crate::compute::direction::Dir;
 use crate::compute::estimate::{Estimate, Progress};
-use crate::compute::lid::Facing;
-use crate::compute::quadrature::{Tolerance, gauss_legendre};
-use crate::compute::room::through;
+use crate::compute::quadrature::gauss_legendre;
 use crate::compute::sky::{Frame, Outside, SkySamples, incident_illuminances_within};
 use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
@@ -22,13 +20,18 @@ use crate::study::session::Session;
 use crate::study::session::responses::Responses;
 use crate::study::session::sky_year::SkyYear;
 use crate::study::system::VerySystem;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Mat, Par};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::hash::{DefaultHasher, Hash, Hasher};
+use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
 /// Accuracy of the constant columns.
 const RELATIVE: f64 = 1e-7;
+
+/// Skies whose sums are found at once.
+pub(in crate::study) const TOGETHER: usize = 32;
 
 /// One aperture.
 pub(super) struct AperturePart {
@@ -41,33 +44,23 @@ pub(super) struct AperturePart {
     year: Option<Arc<SkyYear>>,
     /// Illuminance through every patch of `samples` by a ground of luminance 1.
     by_ground: Vec<f64>,
-    /// Sensor by sensor, a column for every patch of `samples`, one for the ground and one for the skyline: all
-    /// diffuse light but what is seen straight through.
-    total: Vec<f64>,
-    reflected: Vec<f64>,
-    doubtful: Vec<f64>,
-    interpolated: Vec<f64>,
+    /// Columns for every patch of `samples`, one for the ground and one for the skyline. Rows of all sensors for all
+    /// diffuse light but what is seen straight through, then for what of it is interreflected, the doubt of that, and
+    /// the doubt of the interpolation where there is any: what [`Sums`] holds.
+    tables: Mat<f64>,
     /// What the system does with light.
     pub transport: Transport,
     /// The regular part.
     pub regular: Option<AngularTransmittance>,
     /// How the very sun comes through.
     pub sun: SunWay,
-    seen: Vec<SensorView>,
-    /// The luminances that the sensors see in the hours of a year, where they are kept.
+    seen: Vec<StraightView>,
+    /// The moments of what the sensors see in the hours of a year, where they are kept.
     seen_year: Option<Arc<SkyYear>>,
     /// Mean relative gap of flux of the regular part.
     pub gap: f64,
     /// Share of the light that frame and dirt leave.
     pub clear: f64,
-}
-
-/// The outside as one sensor sees it straight through.
-#[derive(Default)]
-struct SensorView {
-    directions: Vec<(Dir<World>, f64)>,
-    ground: f64,
-    skyline: f64,
 }
 
 /// How the light of a sky is found.
@@ -91,6 +84,14 @@ pub(super) struct Sums {
     pub doubtful: Vec<f64>,
     /// Doubt of the interpolation, signed.
     pub interpolated: Vec<f64>,
+}
+
+impl Sums {
+    /// Nothing yet at so many sensors.
+    pub fn dark(sensors: usize) -> Self {
+        let dark = || vec![0.0; sensors];
+        Self { total: dark(), reflected: dark(), doubtful: dark(), interpolated: dark() }
+    }
 }
 
 impl AperturePart {
@@ -170,27 +171,21 @@ impl AperturePart {
         let width = open.len() + 2;
         // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
         let doubts = columns.iter().any(|column| !column.doubt.is_empty());
-        let mut tables: Vec<Vec<f64>> =
-            (0..4).map(|k| if k < 3 || doubts { vec![0.0; sensors * width] } else { Vec::new() }).collect();
-        for (k, table) in tables.iter_mut().enumerate() {
-            for (s, row) in table.chunks_exact_mut(width).enumerate() {
-                let of =
-                    |column: &transport::Column| if k < 3 { column.light[k * sensors + s] } else { column.doubt[s] };
-                for (to, &p) in row.iter_mut().zip(open) {
-                    *to = of(&columns[p]);
-                }
-                row[width - 2] = columns.iter().zip(&ground).map(|(column, e)| of(column) * e).sum();
-                row[width - 1] = columns.iter().zip(&skyline).map(|(column, e)| of(column) * e).sum();
+        let mut tables = Mat::zeros(sensors * if doubts { 4 } else { 3 }, width);
+        for row in 0..tables.nrows() {
+            let of = |column: &transport::Column| {
+                if row < 3 * sensors { column.light[row] } else { column.doubt[row - 3 * sensors] }
+            };
+            for (to, &p) in open.iter().enumerate() {
+                tables[(row, to)] = of(&columns[p]);
             }
+            tables[(row, width - 2)] = columns.iter().zip(&ground).map(|(column, e)| of(column) * e).sum();
+            tables[(row, width - 1)] = columns.iter().zip(&skyline).map(|(column, e)| of(column) * e).sum();
         }
-        let interpolated = tables.pop().unwrap_or_default();
-        let doubtful = tables.pop().unwrap_or_default();
-        let reflected = tables.pop().unwrap_or_default();
-        let total = tables.pop().unwrap_or_default();
         // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
         let seen = match &btdf.regular {
             Some(tau) => {
-                let view = |sensor| SensorView::new(scene, index, sensor, tau, &constants);
+                let view = |sensor| StraightView::new(scene, index, sensor, tau, &constants);
                 scene.sensors.par_iter().map(view).collect()
             }
             None => Vec::new(),
@@ -202,10 +197,7 @@ impl AperturePart {
             fingerprint: samples.fingerprint(),
             year: None,
             samples,
-            total,
-            reflected,
-            doubtful,
-            interpolated,
+            tables,
             transport,
             sun,
             regular: btdf.regular.clone(),
@@ -223,16 +215,16 @@ impl AperturePart {
 
     /// Number of luminances that a new sky costs.
     pub fn evaluations(&self) -> usize {
-        self.samples.len() + self.seen.iter().map(|seen| seen.directions.len()).sum::<usize>()
+        self.samples.len() + self.seen.iter().map(StraightView::directions).sum::<usize>()
     }
 
     /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
         self.year = session.sky_year(year, self.fingerprint, self.samples.cells().len());
         let mut hasher = DefaultHasher::new();
-        let seen = self.seen.iter().flat_map(|seen| &seen.directions);
-        seen.clone().for_each(|(d, _)| d.vector().to_array().map(f64::to_bits).hash(&mut hasher));
-        self.seen_year = session.seen_year(year, hasher.finish(), seen.count());
+        self.seen.iter().for_each(|seen| seen.hash(&mut hasher));
+        let moments = self.seen.iter().map(StraightView::moments).sum();
+        self.seen_year = session.seen_year(year, hasher.finish(), moments);
     }
 
     /// Illuminance through every patch, then the luminances of ground and skyline.
@@ -265,9 +257,8 @@ impl AperturePart {
     /// Adds the diffuse light to what every sensor has.
     pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
         let light = self.light(outside, way);
-        for (sum, row) in out.iter_mut().zip(self.total.chunks_exact(light.len())) {
-            *sum += dot(row, &light);
-        }
+        let (out_all, table) = (ColMut::from_slice_mut(out), self.tables.subrows(0, scene.sensors.len()));
+        matmul(out_all, Accum::Add, table, ColRef::from_slice(&light), 1.0, Par::Seq);
         self.add_seen(scene, index, outside, way, out);
     }
 
@@ -275,20 +266,17 @@ impl AperturePart {
         let Some(tau) = &self.regular else { return };
         if !matches!(way, Way::Exact(_)) {
             let find = || {
-                let all = self.seen.iter().flat_map(|seen| &seen.directions);
-                all.map(|(d, _)| outside.luminance(*d)).collect::<Vec<f64>>()
+                let mut moments = Vec::new();
+                self.seen.iter().for_each(|seen| seen.gather(outside, &mut moments));
+                moments
             };
-            let luminances: Vec<f64> = match (way, &self.seen_year) {
+            let moments: Vec<f64> = match (way, &self.seen_year) {
                 (Way::Hour(hour), Some(year)) => year.hour(hour, find).collect(),
                 _ => find(),
             };
-            let mut luminances = luminances.as_slice();
+            let mut moments = moments.into_iter();
             for (sum, seen) in out.iter_mut().zip(&self.seen) {
-                let (own, others) = luminances.split_at(seen.directions.len());
-                luminances = others;
-                let sky: f64 = seen.directions.iter().zip(own).map(|((_, weight), luminance)| weight * luminance).sum();
-                let seen = sky + seen.ground * outside.ground_luminance() + seen.skyline * far::luminance(outside);
-                *sum += self.clear * seen;
+                *sum += self.clear * seen.light(outside, &mut moments);
             }
         } else {
             let exact: Vec<Estimate> = scene
@@ -300,18 +288,24 @@ impl AperturePart {
         }
     }
 
-    /// The same with all that its error needs.
-    pub fn add_sums(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, sums: &mut Sums) {
-        let light = self.light(outside, way);
-        for (to, table) in [
-            (&mut sums.total, &self.total),
-            (&mut sums.reflected, &self.reflected),
-            (&mut sums.doubtful, &self.doubtful),
-            (&mut sums.interpolated, &self.interpolated),
-        ] {
-            to.iter_mut().zip(table.chunks_exact(light.len())).for_each(|(sum, row)| *sum += dot(row, &light));
+    /// The same of many skies with all that its error needs.
+    pub fn add_sums(&self, scene: &Scene, index: usize, skies: &[(&Outside, Way<'_>)], sums: &mut [Sums]) {
+        for (skies, sums) in skies.chunks(TOGETHER).zip(sums.chunks_mut(TOGETHER)) {
+            // As many columns whatever is asked, so that no sky's sums hang on the others'.
+            let mut light = Mat::zeros(self.tables.ncols(), TOGETHER);
+            for (column, (outside, way)) in light.col_iter_mut().zip(skies) {
+                column.iter_mut().zip(self.light(outside, *way)).for_each(|(to, e)| *to = e);
+            }
+            let mut all = Mat::zeros(self.tables.nrows(), TOGETHER);
+            matmul(all.as_mut(), Accum::Replace, &self.tables, &light, 1.0, Par::Seq);
+            for ((found, (outside, way)), sums) in all.col_iter().zip(skies).zip(sums) {
+                let parts = [&mut sums.total, &mut sums.reflected, &mut sums.doubtful, &mut sums.interpolated];
+                for (sum, e) in parts.into_iter().flatten().zip(found.iter()) {
+                    *sum += e;
+                }
+                self.add_seen(scene, index, outside, *way, &mut sums.total);
+            }
         }
-        self.add_seen(scene, index, outside, way, &mut sums.total);
     }
 }
 
@@ -332,61 +326,6 @@ fn described_views(
 /// Accuracy of what is not done by fixed directions.
 const EXACT: f64 = 1e-5;
 
-impl SensorView {
-    fn new(
-        scene: &Scene,
-        index: usize,
-        sensor: &crate::compute::room::direct::Sensor,
-        tau: &AngularTransmittance,
-        constants: &Constants,
-    ) -> Self {
-        let facing = scene.facing(index);
-        let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
-            return Self::default();
-        };
-        let altitude = scene.outside.skyline_altitude();
-        let mut directions: Vec<(Dir<World>, f64)> = through::samples(&view, facing.surface, altitude, tau, POINTS)
-            .into_iter()
-            .map(|(d, weight)| (scene.orientation.world_from_room(d), weight))
-            .collect();
-        let exact = |outside: &Option<Outside>| {
-            outside.as_ref().map_or(0.0, |o| seen_exactly(scene, index, sensor, tau, o, RELATIVE).value)
-        };
-        if let Some(skyline) = far::shape(&scene.outside) {
-            let open = exact(&constants.even);
-            let free = |(d, _): &(Dir<World>, f64)| !skyline.covers(d.vector());
-            // Of an opening of which but a corner shows sky, between the directions, they stand for it.
-            if directions.iter().any(free) {
-                directions.retain(free);
-            }
-            let kept: f64 = directions.iter().map(|(_, weight)| weight).sum();
-            directions.iter_mut().for_each(|(_, weight)| *weight *= if kept > 0.0 { open / kept } else { 0.0 });
-        }
-        let [ground, skyline] = [&constants.ground, &constants.skyline].map(exact);
-        Self { directions, ground, skyline }
-    }
-}
-
-/// Gauss points along each side of a piece of what a sensor sees straight through, at least.
-const POINTS: usize = 4;
-
 fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
-}
-
-/// The outside through the opening, integrated for one sensor.
-fn seen_exactly(
-    scene: &Scene,
-    index: usize,
-    sensor: &crate::compute::room::direct::Sensor,
-    tau: &AngularTransmittance,
-    outside: &Outside,
-    relative: f64,
-) -> Estimate {
-    let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
-        return Estimate::default();
-    };
-    let scale = outside.diffuse_horizontal().max(outside.ground_luminance()).max(outside.skyline_luminance());
-    let tolerance = Tolerance { absolute: 1e-3 * relative * scale, relative, max_pieces: 4000 };
-    through::illuminance(&view, &Facing { outside, ..scene.facing(index) }, tau, tolerance)
 }

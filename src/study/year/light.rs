@@ -11,7 +11,7 @@ use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::direct::beams_through;
 use crate::compute::sky::{Outside, Sun};
-use crate::study::coefficients::Coefficients;
+use crate::study::coefficients::{Coefficients, TOGETHER};
 use crate::study::control::year::Moving;
 use crate::study::error::StudyError;
 use crate::study::outside::Before;
@@ -63,6 +63,9 @@ pub(super) struct Question<'a> {
     pub moving: &'a [Moving],
 }
 
+/// Few steps are shared among threads in so many pieces.
+const PIECES: usize = 16;
+
 /// Of the chosen steps, with the states of all steps.
 ///
 /// # Errors
@@ -98,18 +101,19 @@ pub(super) fn light(
         if let Engine::Rooms(..) = engine {
             light.way = Way::Rooms;
         }
-        let found: Vec<(usize, Found)> = rows
-            .par_iter()
-            .map(|&row| {
-                if progress.cancelled() {
-                    return Err(StudyError::from(Cancelled));
-                }
-                let found = engine.at(question.session, chosen[row], question.steps.outside(chosen[row])?)?;
-                progress.advance("hours", done.fetch_add(1, Ordering::Relaxed) + 1, lit);
-                Ok((row, found))
-            })
-            .collect::<Result<_, _>>()?;
-        for (row, found) in found {
+        let block = |rows: &[usize]| {
+            if progress.cancelled() {
+                return Err(StudyError::from(Cancelled));
+            }
+            let hour = |&row: &usize| Ok((chosen[row], question.steps.outside(chosen[row])?));
+            let found =
+                engine.all(question.session, &rows.iter().map(hour).collect::<Result<Vec<_>, StudyError>>()?)?;
+            progress.advance("hours", done.fetch_add(rows.len(), Ordering::Relaxed) + rows.len(), lit);
+            Ok(rows.iter().copied().zip(found).collect::<Vec<_>>())
+        };
+        let found: Vec<Vec<(usize, Found)>> =
+            rows.par_chunks(rows.len().div_ceil(PIECES).min(TOGETHER)).map(block).collect::<Result<_, StudyError>>()?;
+        for (row, found) in found.into_iter().flatten() {
             let at = row * places;
             for (place, e) in found.light.into_iter().enumerate() {
                 light.values[at + place] = e.value;
@@ -151,6 +155,9 @@ pub(super) struct Found {
     sun: Option<Vec<f64>>,
 }
 
+/// An hour of the year, and what is outside in it.
+type Hour = (usize, (Outside, Option<Sun>));
+
 /// Ready for any sky and sun.
 pub(super) enum Engine {
     Coefficients(Box<Scene>, Box<Coefficients>),
@@ -179,28 +186,36 @@ impl Engine {
         Ok(Self::Rooms(Box::new(scene), before))
     }
 
-    pub fn at(
-        &self,
-        session: &Session,
-        hour: usize,
-        (outside, sun): (Outside, Option<Sun>),
-    ) -> Result<Found, StudyError> {
+    /// Of one hour of the year.
+    pub fn at(&self, session: &Session, hour: usize, outside: (Outside, Option<Sun>)) -> Result<Found, StudyError> {
+        Ok(self.all(session, &[(hour, outside)])?.swap_remove(0))
+    }
+
+    /// Of many.
+    fn all(&self, session: &Session, hours: &[Hour]) -> Result<Vec<Found>, StudyError> {
         match self {
             Self::Coefficients(scene, coefficients) => {
-                let mut light = coefficients.hour_estimate(hour, &outside);
-                if let Some(sun) = &sun {
-                    light.iter_mut().zip(coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
-                }
-                Ok(Found { light, sun: straight(scene, &outside, sun.as_ref()) })
+                let skies: Vec<_> = hours.iter().map(|(hour, (outside, _))| (*hour, outside)).collect();
+                let whole = |(mut light, (_, (outside, sun))): (Vec<Estimate>, &Hour)| {
+                    if let Some(sun) = sun {
+                        light.iter_mut().zip(coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
+                    }
+                    Found { light, sun: straight(scene, outside, sun.as_ref()) }
+                };
+                Ok(coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect())
             }
             Self::Rooms(scene, before) => {
-                let outside = before.stand(outside, sun.as_ref(), &scene.room, scene.orientation, &Silent)?;
-                let scene = Scene { outside, sun, ..Scene::clone(scene) };
-                let result = session.room(&scene, &Silent)?;
-                let light = result.sensors.iter().map(|one| one.total()).collect();
-                // What boxes hide of the sun differs from place to place.
-                let seen = before.is_empty().then(|| straight(&scene, &scene.outside, scene.sun.as_ref()));
-                Ok(Found { light, sun: seen.flatten() })
+                let hour = |(_, (outside, sun)): &Hour| {
+                    let outside =
+                        before.stand(outside.clone(), sun.as_ref(), &scene.room, scene.orientation, &Silent)?;
+                    let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
+                    let result = session.room(&scene, &Silent)?;
+                    let light = result.sensors.iter().map(|one| one.total()).collect();
+                    // What boxes hide of the sun differs from place to place.
+                    let seen = before.is_empty().then(|| straight(&scene, &scene.outside, scene.sun.as_ref()));
+                    Ok(Found { light, sun: seen.flatten() })
+                };
+                hours.iter().map(hour).collect()
             }
         }
     }

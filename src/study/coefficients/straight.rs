@@ -1,0 +1,237 @@
+//! The outside that sensors see straight through a system: by directions of every sensor's own, whose luminances are
+//! taken together as moments over the cosine of incidence. They hang on the opening alone, so that one year of them
+//! serves every system behind it.
+
+use super::far::{self, Constants};
+use crate::compute::btdf::AngularTransmittance;
+use crate::compute::direction::{Dir, World};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::Facing;
+use crate::compute::quadrature::Tolerance;
+use crate::compute::room::direct::Sensor;
+use crate::compute::room::through;
+use crate::compute::sky::Outside;
+use crate::study::scene::Scene;
+use std::hash::{Hash, Hasher};
+
+/// Gauss points along each side of a piece of what a sensor sees straight through, at least.
+const POINTS: usize = 4;
+
+/// Moments of a sensor, at most. τ(θ) is taken as a polynomial of cosθ of one degree less; what it leaves is at right angles
+/// to all these polynomials, and a sky is nearly one of them: the light behind panes is off by
+/// 10⁻⁷, by a table of ten angles by 10⁻⁵.
+const MOMENTS: usize = 8;
+
+/// A polynomial whose square sums to less than this share of what its recurrence began with is but rounding.
+const NOTHING_NEW: f64 = 1e-20;
+
+/// Accuracy of the constant columns.
+const RELATIVE: f64 = 1e-7;
+
+/// The outside as one sensor sees it straight through.
+#[derive(Default)]
+pub(super) struct StraightView {
+    directions: Vec<Dir<World>>,
+    /// How many polynomials there are.
+    moments: usize,
+    /// Direction by direction, polynomials that are orthonormal over the sensor's directions, times what the direction
+    /// weighs without the system. \[sr^½\]
+    functions: Vec<f64>,
+    /// What the system makes of every moment.
+    shares: Vec<f64>,
+    ground: f64,
+    skyline: f64,
+}
+
+impl StraightView {
+    /// Through an aperture of the scene whose regular part is `tau`.
+    pub fn new(
+        scene: &Scene,
+        index: usize,
+        sensor: &Sensor,
+        tau: &AngularTransmittance,
+        constants: &Constants,
+    ) -> Self {
+        let facing = scene.facing(index);
+        let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
+            return Self::default();
+        };
+        let mut samples: Vec<Seen> = through::samples(&view, facing.surface, scene.outside.skyline_altitude(), POINTS)
+            .into_iter()
+            .map(|(d, weight)| Seen {
+                direction: scene.orientation.world_from_room(d),
+                cosine: facing.surface.facade_from_room(d.vector()).z.clamp(-1.0, 1.0),
+                weight,
+            })
+            .collect();
+        let exact = |outside: &Option<Outside>| {
+            outside.as_ref().map_or(0.0, |o| seen_exactly(scene, index, sensor, tau, o, RELATIVE).value)
+        };
+        let passed = |seen: &Seen| seen.weight * tau.at(seen.cosine.acos());
+        let mut factor = 1.0;
+        if let Some(skyline) = far::shape(&scene.outside) {
+            let open = exact(&constants.even);
+            let free = |seen: &Seen| !skyline.covers(seen.direction.vector());
+            // Of an opening of which but a corner shows sky, between the directions, they stand for it.
+            if samples.iter().any(free) {
+                samples.retain(free);
+            }
+            let kept: f64 = samples.iter().map(passed).sum();
+            factor = if kept > 0.0 { open / kept } else { 0.0 };
+        }
+        let [ground, skyline] = [&constants.ground, &constants.skyline].map(exact);
+        Self { ground, skyline, ..Self::of(&samples, |seen| factor * passed(seen)) }
+    }
+
+    /// Of the sky alone; `passed`: what comes through by a direction, per luminance. \[sr\]
+    fn of(samples: &[Seen], passed: impl Fn(&Seen) -> f64) -> Self {
+        let polynomials = orthonormal(samples);
+        let share = |p: &Vec<f64>| p.iter().zip(samples).map(|(p, seen)| p * passed(seen)).sum();
+        let by_direction =
+            |(k, seen): (usize, &Seen)| polynomials.iter().map(|p| p[k] * seen.weight).collect::<Vec<_>>();
+        Self {
+            directions: samples.iter().map(|seen| seen.direction).collect(),
+            moments: polynomials.len(),
+            functions: samples.iter().enumerate().flat_map(by_direction).collect(),
+            shares: polynomials.iter().map(share).collect(),
+            ..Self::default()
+        }
+    }
+
+    /// Number of luminances that a new sky costs.
+    pub fn directions(&self) -> usize {
+        self.directions.len()
+    }
+
+    /// Number of moments.
+    pub fn moments(&self) -> usize {
+        self.moments
+    }
+
+    /// Tells this opening from others, whatever the system.
+    pub fn hash(&self, hasher: &mut impl Hasher) {
+        self.moments.hash(hasher);
+        self.directions.iter().for_each(|d| d.vector().to_array().map(f64::to_bits).hash(hasher));
+        self.functions.iter().for_each(|f| f.to_bits().hash(hasher));
+    }
+
+    /// Adds the moments of a sky to the list.
+    pub fn gather(&self, outside: &Outside, list: &mut Vec<f64>) {
+        let first = list.len();
+        list.resize(first + self.moments, 0.0);
+        let own = &mut list[first..];
+        for (d, functions) in self.directions.iter().zip(self.functions.chunks_exact(self.moments.max(1))) {
+            let luminance = outside.luminance(*d);
+            own.iter_mut().zip(functions).for_each(|(sum, f)| *sum += f * luminance);
+        }
+    }
+
+    /// Illuminance at the sensor; `moments`: of all sensors from this one on, of which its own are taken. \[lx\]
+    pub fn light(&self, outside: &Outside, moments: &mut impl Iterator<Item = f64>) -> f64 {
+        let sky: f64 = self.shares.iter().zip(moments).map(|(share, moment)| share * moment).sum();
+        sky + self.ground * outside.ground_luminance() + self.skyline * far::luminance(outside)
+    }
+}
+
+/// One direction.
+struct Seen {
+    direction: Dir<World>,
+    /// Of incidence on the aperture.
+    cosine: f64,
+    /// Solid angle times the sensor's cosine. \[sr\]
+    weight: f64,
+}
+
+/// Polynomials of the cosine of incidence, their values by direction, that are orthonormal over the weights (Stieltjes'
+/// recurrence, each put at right angles to all before it).
+fn orthonormal(samples: &[Seen]) -> Vec<Vec<f64>> {
+    let inner =
+        |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).zip(samples).map(|((a, b), s)| a * b * s.weight).sum() };
+    let mut list: Vec<Vec<f64>> = Vec::with_capacity(MOMENTS);
+    let mut next = vec![1.0; samples.len()];
+    while list.len() < MOMENTS {
+        let before = inner(&next, &next);
+        // Twice: once leaves what rounding makes of nearly parallel ones.
+        for p in list.iter().chain(&list) {
+            let along = inner(&next, p);
+            next.iter_mut().zip(p).for_each(|(n, p)| *n -= along * p);
+        }
+        let square = inner(&next, &next);
+        if square <= NOTHING_NEW * before || square == 0.0 {
+            break;
+        }
+        next.iter_mut().for_each(|n| *n /= square.sqrt());
+        let following = next.iter().zip(samples).map(|(n, s)| n * s.cosine).collect();
+        list.push(std::mem::replace(&mut next, following));
+    }
+    list
+}
+
+/// The outside through the opening, integrated for one sensor.
+pub(super) fn seen_exactly(
+    scene: &Scene,
+    index: usize,
+    sensor: &Sensor,
+    tau: &AngularTransmittance,
+    outside: &Outside,
+    relative: f64,
+) -> Estimate {
+    let Some(view) = scene.apertures[index].aperture.view(sensor.position, sensor.normal) else {
+        return Estimate::default();
+    };
+    let scale = outside.diffuse_horizontal().max(outside.ground_luminance()).max(outside.skyline_luminance());
+    let tolerance = Tolerance { absolute: 1e-3 * relative * scale, relative, max_pieces: 4000 };
+    through::illuminance(&view, &Facing { outside, ..scene.facing(index) }, tau, tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::direction::Surface;
+    use crate::compute::room::aperture::Aperture;
+    use crate::compute::sky::Distribution;
+    use glam::DVec3;
+
+    fn samples(depth: f64) -> Vec<Seen> {
+        let window = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [3.0, 1.8] };
+        let view = window.view(DVec3::new(1.2, depth, 0.85), DVec3::Z).unwrap();
+        through::samples(&view, Surface::Facade, 0.0, POINTS)
+            .into_iter()
+            .map(|(d, weight)| Seen { direction: Dir::from_unit(d.vector()), cosine: -d.vector().y, weight })
+            .collect()
+    }
+
+    #[test]
+    fn moments_hold_what_panes_let_through() {
+        let glass = |power: f64| move |theta: f64| 0.8 * (1.0 - (1.0 - theta.cos()).powf(power));
+        // The last as no pane is: it closes within twenty degrees.
+        let systems = [
+            (AngularTransmittance::Constant(0.7), 1e-12),
+            (AngularTransmittance::sample(90, glass(5.0)), 1e-5),
+            (AngularTransmittance::sample(9, glass(2.5)), 3e-5),
+            (AngularTransmittance::sample(90, |theta| 1.0 / (1.0 + ((theta - 0.8) / 0.09).exp())), 2e-3),
+        ];
+        for (tau, allowed) in systems {
+            let mut worst: f64 = 0.0;
+            for depth in [0.2, 0.75, 2.0, 5.5] {
+                let samples = samples(depth);
+                let view = StraightView::of(&samples, |seen| seen.weight * tau.at(seen.cosine.acos()));
+                for (kind, altitude, bearing) in [(12, 0.5, 2.9), (2, 0.9, 2.0), (13, 0.15, 3.3), (16, 0.5, 3.0)] {
+                    let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
+                    let outside = Outside::new(Distribution::cie(kind, sun).unwrap(), 1e4).unwrap();
+                    let each =
+                        |seen: &Seen| seen.weight * tau.at(seen.cosine.acos()) * outside.luminance(seen.direction);
+                    let exact: f64 = samples.iter().map(each).sum();
+                    let mut moments = Vec::new();
+                    view.gather(&outside, &mut moments);
+                    assert!(moments.len() <= MOMENTS);
+                    let found = view.light(&outside, &mut moments.into_iter());
+                    worst = worst.max((found / exact - 1.0).abs());
+                }
+            }
+            println!("{worst:.1e}");
+            assert!(worst < allowed, "{worst:.1e}");
+        }
+    }
+}
