@@ -230,7 +230,6 @@ mod tests {
                     worst = worst.max((found / exact - 1.0).abs());
                 }
             }
-            println!("{worst:.1e}");
             assert!(worst < allowed, "{worst:.1e}");
         }
     }
