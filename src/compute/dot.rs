@@ -1,5 +1,5 @@
 //! Sums of products, with as wide registers as the processor at hand has. The order of the additions is the same on every
-//! processor, and nothing is contracted: so are the sums.
+//! processor, and nothing is contracted: so are these sums. Products of matrices elsewhere may round otherwise on another one.
 
 use pulp::Arch;
 

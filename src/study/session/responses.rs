@@ -7,7 +7,7 @@ use super::landed::Landed;
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
-use super::weights::{Response, by_walls};
+use super::weights::{Response, TOGETHER, by_walls};
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::dot::dot;
@@ -87,9 +87,6 @@ impl Session {
         })
     }
 }
-
-/// Sensors whose weights are found together: the balance is solved for all of these at once.
-const TOGETHER: usize = 32;
 
 /// Of all sensors, from what they see of the patches of both densities.
 fn weights_of(

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Most numbers of a year that are kept: 1,200 in each of 8,784 hours. Half of these are dark, which leaves 21 MB.
 const MOST_NUMBERS: usize = 1200 * 8784;
 
-/// The hours of a year that has a number of its own, for directions of some fingerprint that give so many numbers; `None` for
+/// The hours of a year that has a number of its own, for a list of some fingerprint that gives so many numbers; `None` for
 /// more than are worth keeping.
 fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
     let nothing = || Ok::<_, std::convert::Infallible>(SkyYear::nothing(year.1));
@@ -35,14 +35,14 @@ impl Session {
         year_of(&self.sky_years, year, fingerprint, patches)
     }
 
-    /// The hours of a year in so many directions that sensors see.
+    /// The hours of a year by so many moments of what sensors see.
     pub(in crate::study) fn seen_year(
         &self,
         year: (u64, usize),
         fingerprint: u64,
-        directions: usize,
+        moments: usize,
     ) -> Option<Arc<SkyYear>> {
-        year_of(&self.seen_years, year, fingerprint, directions)
+        year_of(&self.seen_years, year, fingerprint, moments)
     }
 
     /// Skies that the directions of a façade's patches are tried under.

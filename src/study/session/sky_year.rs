@@ -1,8 +1,8 @@
-//! What a sky is in the hours of a year: illuminances of an aperture's patches, luminances that sensors see.
+//! What a sky is in the hours of a year: illuminances of an aperture's patches \[lx\], moments of what sensors see.
 
 use std::sync::OnceLock;
 
-/// By hour, each found when it is first asked for; in half the digits, 6 · 10⁻⁸ of each. \[lx\]
+/// By hour, each found when it is first asked for; in half the digits, 6 · 10⁻⁸ of each.
 pub(in crate::study) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
 
 impl SkyYear {

@@ -1,6 +1,6 @@
 //! What sensors get by way of the room alone: apertures that reflect by direction are black to it.
 
-use super::weights::{ByCells, Response};
+use super::weights::{ByCells, Response, TOGETHER};
 use super::{Session, basis_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::room::aperture::Aperture;
@@ -9,9 +9,6 @@ use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::Key;
 use rayon::prelude::*;
 use std::sync::Arc;
-
-/// Sensors whose weights are found at once.
-const TOGETHER: usize = 32;
 
 /// Weights of all sensors, and the room that they belong to.
 pub(super) struct ThroughRoom {

@@ -4,6 +4,9 @@ use crate::compute::room::mesh::{Mesh, Wall};
 use crate::compute::room::radiosity::Radiosity;
 use std::ops::Range;
 
+/// Sensors whose weights are found at once, by one product of matrices.
+pub(super) const TOGETHER: usize = 32;
+
 /// Weights of one sensor, by fine patch.
 pub(in crate::study) struct Response {
     /// Of all first illuminance. \[lx per lx\]

@@ -111,8 +111,13 @@ pub(super) fn light(
             progress.advance("hours", done.fetch_add(rows.len(), Ordering::Relaxed) + rows.len(), lit);
             Ok(rows.iter().copied().zip(found).collect::<Vec<_>>())
         };
+        // A room takes long enough to be told, and ended, by itself.
+        let together = match engine {
+            Engine::Coefficients(..) => rows.len().div_ceil(PIECES).min(TOGETHER),
+            Engine::Rooms(..) => 1,
+        };
         let found: Vec<Vec<(usize, Found)>> =
-            rows.par_chunks(rows.len().div_ceil(PIECES).min(TOGETHER)).map(block).collect::<Result<_, StudyError>>()?;
+            rows.par_chunks(together).map(block).collect::<Result<_, StudyError>>()?;
         for (row, found) in found.into_iter().flatten() {
             let at = row * places;
             for (place, e) in found.light.into_iter().enumerate() {
