@@ -5,6 +5,7 @@ use cfs::compute::btdf::{Btdf, Dataset};
 use cfs::compute::estimate::{Estimate, Progress, Silent};
 use cfs::compute::rank::{Better, Objective};
 use cfs::study::rank::{Found, Group, Item, List, Parts, Row, Shard, Stage, groups, keys, lists_of, run};
+use cfs::study::year::{climate, figures, metrics, year_in};
 use cfs::study::{Library, SceneFile, Session, StudyError};
 use std::path::Path;
 use std::sync::Mutex;
@@ -124,6 +125,31 @@ fn data_on_cells_come_first_and_their_errors_hold_what_follows() {
         ["rankling-0-6", "rankling-0-4", "rankling-0-2"],
         "the more light the better, as nothing is too much here"
     );
+}
+
+/// A pane whose figures need not the hours without people: none but those that say so.
+#[test]
+fn figures_of_occupied_hours_do_without_the_others() {
+    let text = SCENE
+        .replace("system = \"ranked\"", "system = { ideal = \"transparent\", transmittance = 0.6 }")
+        .replace("[year.lighting]", "lm83 = true\nsolar = true\neyes = [{ point = [2.0, 2.5, 1.2], direction = [0.0, -1.0, 0.0] }]\n[year.lighting]");
+    let file = SceneFile::parse(&text[..text.find("[rank]").unwrap()]).unwrap();
+    let (library, base) = (Library::default(), Path::new("."));
+    let mut climate = climate(&file, base).unwrap();
+    let [all, occupied] = [true, false].map(|unoccupied| {
+        climate.settings.unoccupied = unoccupied;
+        let year = year_in(&climate, &file, base, &library, &Session::new(), &|_| true, &Silent).unwrap();
+        let own = metrics::metrics(&year, &figures(&year)[0], 20.0);
+        (year.light.dark, metrics::keys(&own), own)
+    });
+    assert!(occupied.0 > all.0 + 800, "{} {}", occupied.0, all.0);
+    let keys: Vec<&String> = all.1.iter().filter(|key| !metrics::counts_unoccupied(key)).collect();
+    assert_eq!(keys, occupied.1.iter().collect::<Vec<_>>());
+    assert!(keys.len() > 20 && keys.len() + 10 < all.1.len(), "{keys:?}");
+    for key in keys {
+        let [a, b] = [&all.2, &occupied.2].map(|metrics| metrics::number(metrics, key).unwrap());
+        assert!((a - b).abs() <= 1e-9 * a.abs(), "{key}: {a} {b}");
+    }
 }
 
 /// Prisms are the worst of the built-in products: their fans are as wide as cells.

@@ -10,7 +10,7 @@ use crate::study::error::StudyError;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Dgp, Light, SHADE, Way, Year, figures, metrics, year_in};
+use crate::study::year::{Climate, Dgp, Light, SHADE, Settings, Way, Year, figures, metrics, year_in};
 use serde_json::Value;
 
 /// Figures of a product: valid whatever weights and anchors are.
@@ -145,7 +145,7 @@ fn dark(climate: &Climate) -> Year {
     let eyes = climate.settings.eyes.len();
     let dgp = || Dgp { eyes, values: vec![Some(Estimate::exact(0.0)); eyes * steps], unproven: 0 };
     Year {
-        settings: climate.settings.clone(),
+        settings: Settings { unoccupied: true, ..climate.settings.clone() },
         steps: climate.steps.clone(),
         moving: Vec::new(),
         states: vec![Vec::new(); steps],

@@ -25,7 +25,7 @@ pub struct Figures {
     pub blinds: Option<Blinds>,
     /// Sun on the sensors; `None` where nothing lets it through unscattered, or where a control moves what does.
     pub exposure: Option<Exposure>,
-    /// EN 17037; `None` for less than a year.
+    /// EN 17037; `None` for less than a year, or for its occupied hours alone.
     pub provision: Option<Provision>,
     /// By eye.
     pub glare: Vec<Glare>,
@@ -87,6 +87,8 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         })
         .collect();
     let whole = year.steps.whole && year.chosen.len() == year.steps.list.len();
+    // EN 17037 counts the hours of daylight, whoever is in.
+    let daylit = whole && year.settings.unoccupied;
     let desks = |values| Light::of_columns(places, 0..sensors, values);
     let eyes = |values| Light::of_columns(places, sensors..places, values);
     let sun = year.light.sun.as_deref();
@@ -102,7 +104,7 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
             .filter(|_| whole && year.moving.is_empty())
             .and_then(desks)
             .map(|sun| Exposure::of(&steps, sun, length)),
-        provision: light.filter(|_| whole).map(|light| Provision::of(&steps, light)),
+        provision: light.filter(|_| daylit).map(|light| Provision::of(&steps, light)),
         glare: eyes(values).map(|light| glare(&steps, light, sun.and_then(eyes))).unwrap_or_default(),
         solar: transmitted(year, sign),
         probability: probability(year, sign),

@@ -48,7 +48,7 @@ pub struct Light {
     pub way: Way,
     /// Sets of states that occur with light.
     pub sets: usize,
-    /// Steps without light, which were not computed.
+    /// Steps without light, or without people where nobody asks for these: not computed.
     pub dark: usize,
 }
 
@@ -80,7 +80,7 @@ pub(super) fn light(
     let places = question.settings.sensors + question.settings.eyes.len();
     let mut groups: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
     for (row, &k) in chosen.iter().enumerate() {
-        if question.steps.list[k].hour.is_lit() {
+        if question.settings.asks(&question.steps.list[k]) {
             groups.entry(&states[k]).or_default().push(row);
         }
     }

@@ -13,7 +13,6 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
         "hours": hours(figures.steps),
         "occupied_hours": hours(figures.occupied),
         "lit_hours": hours(figures.lit),
-        "annual_mean_lx": one.mean,
         "DA300": one.da_300,
         "DA500": one.da_500,
         "cDA300": one.cda_300,
@@ -23,6 +22,9 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
         "UDI_x": one.udi_x,
         "sDA300_50": one.sda_300_50,
     });
+    if year.settings.unoccupied {
+        all["annual_mean_lx"] = json!(one.mean);
+    }
     if let Some(blinds) = &figures.blinds {
         all["sDA300_50_LM83_12"] = json!(blinds.sda_300_50);
         all["blinds_closed_hours"] = json!(blinds.closed_hours);
@@ -80,6 +82,12 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
         all["solar"] = solar_json(solar, figures);
     }
     all
+}
+
+/// Does a figure hang on the light while nobody is in? All others count occupied hours, or what does not come of the light at
+/// places.
+pub fn counts_unoccupied(key: &str) -> bool {
+    key == "annual_mean_lx" || key.starts_with("EN17037")
 }
 
 /// Solar energy straight through the apertures, by square metre of all of them where nothing else is said.

@@ -243,7 +243,7 @@ pub(super) fn light(
 ) -> Result<Light, StudyError> {
     let places = question.settings.sensors + question.settings.eyes.len();
     let mut sets: BTreeMap<&[usize], Vec<usize>> = BTreeMap::new();
-    for &k in chosen.iter().filter(|&&k| question.steps.list[k].hour.is_lit()) {
+    for &k in chosen.iter().filter(|&&k| question.settings.asks(&question.steps.list[k])) {
         sets.entry(&states[k]).or_default().push(k);
     }
     let all: usize = sets.values().map(Vec::len).sum();
