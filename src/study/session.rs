@@ -23,6 +23,7 @@ mod thrown_back;
 mod weights;
 
 use super::cache::{Cache, Key, bits};
+use super::coefficients::sky_patches::SkyPatches;
 use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
@@ -71,6 +72,7 @@ pub struct Session {
     patches: Cache<PatchWeights>,
     responses: Cache<Vec<Response>>,
     landed: Cache<Landed>,
+    sky_patches: Cache<SkyPatches>,
     sky_years: Cache<SkyYear>,
     seen_years: Cache<SkyYear>,
     exact_skies: Cache<Vec<f64>>,
@@ -113,6 +115,7 @@ impl Session {
             patches: Cache::new(24 / part),
             responses: Cache::new(6 / part),
             landed: Cache::new(6 / part),
+            sky_patches: Cache::new(6),
             sky_years: Cache::new(6),
             seen_years: Cache::new(3),
             exact_skies: Cache::new(18),
@@ -402,7 +405,7 @@ fn sensor_key(scene: &Scene) -> impl Iterator<Item = u64> + '_ {
     scene.sensors.iter().flat_map(|s| bits(s.position.to_array()).chain(bits(s.normal.to_array())))
 }
 
-fn basis_key(basis: Option<&RingBasis>) -> Key {
+pub(in crate::study) fn basis_key(basis: Option<&RingBasis>) -> Key {
     let mut key = Vec::new();
     if let Some(basis) = basis {
         key.push(basis.len() as u64);

@@ -212,6 +212,25 @@ fn hours_of_a_year_have_the_glare_of_the_same_moments() {
     let times = ["-12-21T12", "-03-21T09", "-06-21T15"];
     hours_are_moments("{ ideal = \"transparent\", transmittance = 0.65 }", "", &times, Path::new("."));
     hours_are_moments("{ ideal = \"diffuse\", transmittance = 0.45 }", "", &times, Path::new("."));
+    // Described: slats by bands of the profile angle and by cells, panes before slats, prisms, walls of holes.
+    let folder = tempfile::tempdir().unwrap();
+    let slats = "kind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 0.072\nangles = [30.0]\n";
+    let matt = "upper = { reflectance = 0.6 }\nlower = { reflectance = 0.5 }\n";
+    let systems = [
+        ("matt", format!("{slats}{matt}")),
+        ("mirror", format!("{slats}upper = {{ reflectance = 0.15, specular = 0.7 }}\nlower = {{ reflectance = 0.3 }}\n")),
+        ("pane", "kind = \"pane\"\n[pane]\nindex = 1.52\nthickness = 0.004\ntransmittance_normal = 0.9\npanes = 2\n".into()),
+        ("behind", "kind = \"stack\"\n[stack]\nlayers = [{ file = \"pane.system.toml\" }, { file = \"matt.system.toml\", state = \"30\" }]\n".into()),
+        ("panel", "kind = \"laser-cut-panel\"\n[laser-cut-panel]\nindex = 1.49\ndepth = 0.006\nspacing = 0.004\n".into()),
+        ("grid", "kind = \"perforated\"\n[perforated]\nhole = \"rectangle\"\nwidth = 0.0127\nheight = 0.0127\npitch = [0.014, 0.014]\nthickness = 0.0127\nreflectance = 0.8\n".into()),
+    ];
+    for (name, description) in &systems {
+        let file = folder.path().join(format!("{name}.system.toml"));
+        std::fs::write(file, format!("name = \"{name}\"\n{description}")).unwrap();
+    }
+    for (name, _) in &systems {
+        hours_are_moments(&format!("{{ file = \"{name}.system.toml\" }}"), "", &times, folder.path());
+    }
     let Some(folder) = data("reference/cases/annual") else { return };
     let patch = "[compute]\ninterpolation = \"patch\"\n";
     hours_are_moments("{ file = \"slats_30.xml\" }", patch, &times, &folder);

@@ -4,11 +4,12 @@
 use super::SkyThrough;
 use super::sky_through::{BIN_ERROR, CELL_ERROR, POINTS, Scattered, Turned, band_of};
 use super::structure::{angles, name_of};
-use crate::compute::basis::{RingBasis, sub_directions};
+use super::sun_through::sun_cells;
+use crate::compute::basis::{Cell, RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// What an illuminance of 1 lx through one patch becomes.
 #[derive(Debug, Clone, Default)]
@@ -18,6 +19,9 @@ pub struct PatchLight {
     /// Rows of [`SkyThrough::rows`], with the illuminance that each stands for. \[lx\]
     pub rows: Vec<(usize, f64)>,
 }
+
+/// Of every patch rows of incidence, with the shares of its light that they stand for.
+type Shares = Vec<Vec<(usize, f64)>>;
 
 /// What is scattered, by rows of incidence: q per illuminance.
 #[derive(Clone, Copy)]
@@ -53,6 +57,27 @@ impl SkyThrough {
         }
     }
 
+    /// Patch by patch, the shares of its light by row: `kind` 0 and 1 by profile angle, upright or not, 2 by the incident cells,
+    /// which are the same for all systems. On the usual cells each is found once.
+    fn rows_of_patches(&self, kind: usize, row_of: impl Fn(Dir<Facade>) -> Option<usize>) -> Arc<Shares> {
+        static KEPT: [OnceLock<Arc<Shares>>; 3] = [const { OnceLock::new() }; 3];
+        let find = || {
+            let each = 1.0 / (POINTS * POINTS) as f64;
+            let of = |cell: Cell| {
+                let mut shares: Vec<(usize, f64)> = Vec::new();
+                for row in sub_directions(&cell, POINTS).filter_map(&row_of) {
+                    match shares.iter_mut().find(|(known, _)| *known == row) {
+                        Some((_, sum)) => *sum += each,
+                        None => shares.push((row, each)),
+                    }
+                }
+                shares
+            };
+            Arc::new(self.cells.cells().map(of).collect())
+        };
+        if Arc::ptr_eq(&self.cells, sun_cells()) { Arc::clone(KEPT[kind].get_or_init(find)) } else { find() }
+    }
+
     /// Patch by patch. Turned light takes the mean luminance of the patch that it comes from.
     pub fn by_patch(&self) -> Vec<PatchLight> {
         let weights = self.cells.projected_solid_angles();
@@ -81,20 +106,14 @@ impl SkyThrough {
                 }
             }
         }
-        let row_of = |name: Dir<Facade>| match &self.scattered {
-            Scattered::None => None,
-            Scattered::ByProfile { upright, .. } => Some(band_of(angles(*upright, name).1)),
-            Scattered::ByCells { incident, .. } => incident.index(name),
-        };
-        for (patch, cell) in patches.iter_mut().zip(self.cells.cells()) {
-            for row in sub_directions(&cell, POINTS).filter_map(row_of) {
-                let each = 1.0 / (POINTS * POINTS) as f64;
-                match patch.rows.iter_mut().find(|(known, _)| *known == row) {
-                    Some((_, sum)) => *sum += each,
-                    None => patch.rows.push((row, each)),
-                }
+        let rows = match &self.scattered {
+            Scattered::None => return patches,
+            Scattered::ByProfile { upright, .. } => {
+                self.rows_of_patches(usize::from(*upright), |name| Some(band_of(angles(*upright, name).1)))
             }
-        }
+            Scattered::ByCells { incident, .. } => self.rows_of_patches(2, |name| incident.index(name)),
+        };
+        patches.iter_mut().zip(rows.iter()).for_each(|(patch, rows)| patch.rows.clone_from(rows));
         patches
     }
 

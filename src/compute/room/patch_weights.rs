@@ -171,9 +171,7 @@ impl PatchWeights {
 /// More cells than this are merged before they meet the patches, which cannot tell them apart.
 pub const MOST_CELLS: usize = 600;
 
-/// About 400 cells of equal projected solid angle but for finer ones around the normal, where the far end of a deep room
-/// looks; their borders hold the façade's horizon.
-pub fn merged_basis() -> RingBasis {
+fn merged_basis() -> RingBasis {
     let limits = [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
     let sectors = [4, 8, 12, 12, 20, 28, 36, 44, 52, 60, 68, 76];
     let rings = limits
@@ -189,8 +187,9 @@ pub fn merged_basis() -> RingBasis {
     RingBasis::new("merged", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
 }
 
-/// [`merged_basis`], made once.
-pub(super) fn merged_cells() -> &'static Arc<RingBasis> {
+/// About 400 cells of equal projected solid angle but for finer ones around the normal, where the far end of a deep room
+/// looks; their borders hold the façade's horizon.
+pub fn merged_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
     CELLS.get_or_init(|| Arc::new(merged_basis()))
 }
@@ -199,7 +198,7 @@ pub(super) fn merged_cells() -> &'static Arc<RingBasis> {
 const MERGINGS: usize = 4;
 
 /// From the cells of a basis to the merged ones. Every sun asks for the same few bases.
-pub(super) fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
+pub fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
     static KEPT: Mutex<Vec<(Arc<RingBasis>, Arc<Resampling>)>> = Mutex::new(Vec::new());
     // What is kept is whole even if another thread has failed while it held the lock.
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);

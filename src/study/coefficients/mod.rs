@@ -23,6 +23,7 @@ mod beam;
 mod described;
 mod far;
 mod part;
+pub(super) mod sky_patches;
 mod straight;
 mod sun_way;
 mod transport;
@@ -43,7 +44,7 @@ use crate::compute::sky::{Distribution, Outside};
 pub(super) use part::TOGETHER;
 use part::{AperturePart, Sums, Way};
 use std::sync::Arc;
-pub(super) use transport::patches as incident_patches;
+pub(super) use transport::{SPACING, patches as incident_patches};
 
 /// A prepared scene.
 pub struct Coefficients {

@@ -3,6 +3,7 @@
 
 use super::described::{Described, DescribedViews};
 use super::far::{self, Constants};
+use super::sky_patches::SkyPatches;
 use super::straight::{StraightView, seen_exactly};
 use super::sun_way::SunWay;
 use super::transport::{self, ACROSS, Transport};
@@ -12,7 +13,7 @@ use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::Dir;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::{Frame, Outside, SkySamples, incident_illuminances_within};
+use crate::compute::sky::{Frame, Outside, incident_illuminances_within};
 use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -27,24 +28,15 @@ use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::Arc;
 
-/// Accuracy of the constant columns.
-const RELATIVE: f64 = 1e-7;
-
 /// Skies whose sums are found at once.
 pub(in crate::study) const TOGETHER: usize = 32;
 
 /// One aperture.
 pub(super) struct AperturePart {
-    patches: RingBasis,
-    frame: Frame,
-    samples: SkySamples,
-    /// Of the samples.
-    fingerprint: u64,
+    sky: Arc<SkyPatches>,
     /// What they are in the hours of a year, where that is kept.
     year: Option<Arc<SkyYear>>,
-    /// Illuminance through every patch of `samples` by a ground of luminance 1.
-    by_ground: Vec<f64>,
-    /// Columns for every patch of `samples`, one for the ground and one for the skyline. Rows of all sensors for all
+    /// Columns for every patch of the sky's samples, one for the ground and one for the skyline. Rows of all sensors for all
     /// diffuse light but what is seen straight through, then for what of it is interreflected, the doubt of that, and
     /// the doubt of the interpolation where there is any: what [`Sums`] holds.
     tables: Mat<f64>,
@@ -70,7 +62,7 @@ pub(super) enum Way<'a> {
     Fixed,
     /// The same for an hour of the year that is kept.
     Hour(usize),
-    /// By integrals; with a session they are kept.
+    /// By integrals; with a session as a trial of the fixed directions, and kept.
     Exact(Option<&'a Session>),
 }
 
@@ -104,9 +96,6 @@ impl AperturePart {
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
         let sensors = scene.sensors.len();
-        let facing = scene.facing(index);
-        let frame = Frame::of_aperture(scene.orientation, facing.surface);
-        let altitude = scene.outside.skyline_altitude();
         let very = scene.apertures[index].system.very.as_ref().filter(|_| scene.beams);
         let described = very.map(|very| described_views(session, scene, index, very, room, progress)).transpose()?;
         let by_description = match (very, &described) {
@@ -126,13 +115,8 @@ impl AperturePart {
                 (patches, spacing, Transport::new(session, scene, index, btdf, room, progress)?)
             }
         };
-        let mut samples = SkySamples::new(&patches, &frame, altitude, spacing);
-        let constants = Constants::of(&scene.outside);
-        if let (Some(even), Some(skyline)) = (&constants.even, far::shape(&scene.outside)) {
-            let open = illuminances(even, &patches, &frame, RELATIVE);
-            let open: Vec<f64> = samples.cells().iter().map(|&cell| open[cell]).collect();
-            samples.without(|d| skyline.covers(d), &open);
-        }
+        let sky = SkyPatches::of(session, scene, index, patches, spacing);
+        let patches = &sky.patches;
         let by_angle = match &transport {
             Transport::Described(own) => own.by_angle.clone(),
             _ => None,
@@ -162,12 +146,8 @@ impl AperturePart {
                 column
             })
             .collect();
-        // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
-        let [ground, skyline] = [&constants.ground, &constants.skyline].map(|outside| {
-            outside.as_ref().map_or_else(|| vec![0.0; patches.len()], |o| illuminances(o, &patches, &frame, RELATIVE))
-        });
         // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
-        let open = samples.cells();
+        let open = sky.samples.cells();
         let width = open.len() + 2;
         // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
         let doubts = columns.iter().any(|column| !column.doubt.is_empty());
@@ -179,24 +159,21 @@ impl AperturePart {
             for (to, &p) in open.iter().enumerate() {
                 tables[(row, to)] = of(&columns[p]);
             }
-            tables[(row, width - 2)] = columns.iter().zip(&ground).map(|(column, e)| of(column) * e).sum();
-            tables[(row, width - 1)] = columns.iter().zip(&skyline).map(|(column, e)| of(column) * e).sum();
+            // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
+            tables[(row, width - 2)] = columns.iter().zip(&sky.ground).map(|(column, e)| of(column) * e).sum();
+            tables[(row, width - 1)] = columns.iter().zip(&sky.skyline).map(|(column, e)| of(column) * e).sum();
         }
         // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
         let seen = match &btdf.regular {
             Some(tau) => {
+                let constants = Constants::of(&scene.outside);
                 let view = |sensor| StraightView::new(scene, index, sensor, tau, &constants);
                 scene.sensors.par_iter().map(view).collect()
             }
             None => Vec::new(),
         };
         Ok(Self {
-            by_ground: open.iter().map(|&p| ground[p]).collect(),
-            patches,
-            frame,
-            fingerprint: samples.fingerprint(),
             year: None,
-            samples,
             tables,
             transport,
             sun,
@@ -205,6 +182,7 @@ impl AperturePart {
             seen_year: None,
             gap: straight.map_or(0.0, |(_, views)| views.gap),
             clear: scene.apertures[index].clear,
+            sky,
         })
     }
 
@@ -215,12 +193,12 @@ impl AperturePart {
 
     /// Number of luminances that a new sky costs.
     pub fn evaluations(&self) -> usize {
-        self.samples.len() + self.seen.iter().map(StraightView::directions).sum::<usize>()
+        self.sky.samples.len() + self.seen.iter().map(StraightView::directions).sum::<usize>()
     }
 
     /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
-        self.year = session.sky_year(year, self.fingerprint, self.samples.cells().len());
+        self.year = session.sky_year(year, self.sky.fingerprint, self.sky.samples.cells().len());
         let mut hasher = DefaultHasher::new();
         self.seen.iter().for_each(|seen| seen.hash(&mut hasher));
         let moments = self.seen.iter().map(StraightView::moments).sum();
@@ -229,22 +207,23 @@ impl AperturePart {
 
     /// Illuminance through every patch, then the luminances of ground and skyline.
     fn light(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
-        let mut e = Vec::with_capacity(self.samples.cells().len() + 2);
+        let mut e = Vec::with_capacity(self.sky.samples.cells().len() + 2);
         match (way, &self.year) {
             (Way::Hour(hour), Some(year)) => {
                 let find = || {
                     let mut e = Vec::new();
-                    self.samples.illuminances(outside, &mut e);
+                    self.sky.samples.illuminances(outside, &mut e);
                     e
                 };
                 e.extend(year.hour(hour, find));
             }
-            (Way::Fixed | Way::Hour(_), _) => self.samples.illuminances(outside, &mut e),
+            (Way::Fixed | Way::Hour(_), _) => self.sky.samples.illuminances(outside, &mut e),
             (Way::Exact(session), _) => {
-                let find = || illuminances(outside, &self.patches, &self.frame, EXACT);
-                let all = session.map_or_else(|| Arc::new(find()), |s| s.exact_sky(outside, self.fingerprint, find));
+                let find = || illuminances(outside, &self.sky.patches, &self.sky.frame, EXACT);
+                let all =
+                    session.map_or_else(|| Arc::new(find()), |s| s.exact_sky(outside, self.sky.fingerprint, find));
                 let ground = outside.ground_luminance();
-                e.extend(self.samples.cells().iter().zip(&self.by_ground).map(|(&p, g)| all[p] - ground * g));
+                e.extend(self.sky.samples.cells().iter().map(|&p| all[p] - ground * self.sky.ground[p]));
             }
         }
         let smooth = !matches!(way, Way::Exact(_));
@@ -279,10 +258,11 @@ impl AperturePart {
                 *sum += self.clear * seen.light(outside, &mut moments);
             }
         } else {
+            let accuracy = if matches!(way, Way::Exact(Some(_))) { TRIED } else { EXACT };
             let exact: Vec<Estimate> = scene
                 .sensors
                 .par_iter()
-                .map(|sensor| seen_exactly(scene, index, sensor, tau, outside, EXACT))
+                .map(|sensor| seen_exactly(scene, index, sensor, tau, outside, accuracy))
                 .collect();
             out.iter_mut().zip(exact).for_each(|(sum, e)| *sum += self.clear * e.value);
         }
@@ -325,7 +305,9 @@ fn described_views(
 
 /// Accuracy of what is not done by fixed directions.
 const EXACT: f64 = 1e-5;
+/// The same where fixed directions are tried against it, which are off by some 1e-4 and more.
+const TRIED: f64 = 1e-4;
 
-fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
+pub(super) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
 }

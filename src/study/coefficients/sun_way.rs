@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// From so many suns on, directions between which they stand are fewer.
-const MANY: usize = 300;
+const MANY: usize = 120;
 
 /// One of the ways.
 pub(super) enum SunWay {

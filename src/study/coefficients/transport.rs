@@ -27,7 +27,7 @@ const TREE_SAMPLED: usize = 1024;
 /// Sub-patches where the light of lobes is interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 /// Directions in cells that are as wide as a dataset's. \[rad\]
-pub(super) const SPACING: f64 = 4.0 * PI / 180.0;
+pub(in crate::study) const SPACING: f64 = 4.0 * PI / 180.0;
 /// Gauss points for τ across a ring.
 pub(super) const ACROSS: usize = 3;
 /// What the straightened cells of a tree cost, relative.

@@ -1,10 +1,10 @@
 //! V: what every sensor receives per luminance of every emergent cell of an aperture, directly and through the room.
 
-use crate::compute::basis::{Resampling, RingBasis};
+use crate::compute::basis::RingBasis;
 use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Progress;
 use crate::compute::room::first_bounce::from_even;
-use crate::compute::room::patch_weights::{MOST_CELLS, merged_basis};
+use crate::compute::room::patch_weights::{MOST_CELLS, merged_cells, merging};
 use crate::compute::system::measure::ProfileLight;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -60,9 +60,9 @@ impl Views {
         }
         let mut gap = 0.0;
         if let Some(room) = room {
-            let merged = if basis.len() > MOST_CELLS { Arc::new(merged_basis()) } else { Arc::clone(&basis) };
-            gap = room.weights(session, index, &merged).gap();
-            let by_sensor = room.of_cells(session, index, &merged, width > sensors);
+            let merged = if basis.len() > MOST_CELLS { merged_cells() } else { &basis };
+            gap = room.weights(session, index, merged).gap();
+            let by_sensor = room.of_cells(session, index, merged, width > sensors);
             let mut add = |cell: usize, from: usize, share: f64| {
                 let row = &mut rows[cell * width..(cell + 1) * width];
                 for (s, by_cell) in by_sensor.iter().enumerate() {
@@ -74,10 +74,10 @@ impl Views {
                     }
                 }
             };
-            if Arc::ptr_eq(&merged, &basis) {
+            if Arc::ptr_eq(merged, &basis) {
                 (0..basis.len()).for_each(|cell| add(cell, cell, 1.0));
             } else {
-                let resampling = Resampling::new(&basis, &merged);
+                let resampling = merging(&basis);
                 for to in 0..merged.len() {
                     for &(cell, share) in resampling.shares(to) {
                         add(cell, to, share);
@@ -105,10 +105,10 @@ impl Views {
         }
         let mut gap = 0.0;
         if let Some(room) = room {
-            let merged = Arc::new(merged_basis());
-            gap = room.weights(session, index, &merged).gap();
-            let by_sensor = room.of_cells(session, index, &merged, true);
-            for (cell, shares) in ProfileLight::shares_on(upright, bands, &merged).iter().enumerate() {
+            let merged = merged_cells();
+            gap = room.weights(session, index, merged).gap();
+            let by_sensor = room.of_cells(session, index, merged, true);
+            for (cell, shares) in ProfileLight::shares_on(upright, bands, merged).iter().enumerate() {
                 for &(band, share) in shares {
                     let row = &mut rows[band * width..(band + 1) * width];
                     for (s, by_cell) in by_sensor.iter().enumerate() {

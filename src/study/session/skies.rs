@@ -7,6 +7,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::Outside;
 use crate::study::cache::{Cache, Key};
+use crate::study::coefficients::sky_patches::SkyPatches;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -25,6 +26,14 @@ fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers
 }
 
 impl Session {
+    /// Patches before an aperture, found anew or kept.
+    pub(in crate::study) fn sky_patches(&self, key: Key, find: impl FnOnce() -> SkyPatches) -> Arc<SkyPatches> {
+        match self.sky_patches.get(key, || Ok::<_, std::convert::Infallible>(find())) {
+            Ok(kept) => kept,
+            Err(never) => match never {},
+        }
+    }
+
     /// The hours of a year on so many patches.
     pub(in crate::study) fn sky_year(
         &self,

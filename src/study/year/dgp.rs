@@ -1,7 +1,8 @@
 //! Daylight glare probability of every lit occupied step at every eye, from the illuminances that are there already.
 //!
-//! What does not change between steps is found once for each set of states: the patches that an eye sees, and for systems
-//! by data what each emergent cell makes of the outside. Elsewhere every step asks the systems anew.
+//! What does not change between steps is found once for each set of states: the patches that an eye sees, and what each
+//! emergent cell makes of the outside. Behind boxes, and with data that are interpolated by another scheme, every step asks the
+//! systems anew.
 
 use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
@@ -13,7 +14,6 @@ use crate::compute::sky::{Outside, Sun};
 use crate::study::error::StudyError;
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
-use crate::study::session::Session;
 use crate::study::session::glare::{EyeGlare, evaluated, eye_field, open_rays};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -74,7 +74,7 @@ pub(super) fn dgp(
             let at = row * light.places + settings.sensors;
             let vertical: Vec<Estimate> =
                 (at..at + eyes).map(|k| Estimate::new(light.values[k], light.errors[k])).collect();
-            let glare = engine.at(question, question.steps.outside(chosen[row])?, &vertical)?;
+            let glare = engine.at(question, chosen[row], &vertical)?;
             progress.advance("glare", done.fetch_add(1, Ordering::Relaxed) + 1, total);
             Ok((row, glare))
         };
@@ -103,7 +103,7 @@ struct Engine {
     before: Before,
     /// Of every eye.
     fields: Vec<Field>,
-    /// Of every aperture; empty where systems are asked step by step.
+    /// Of every aperture; empty where they are asked step by step.
     tables: Vec<EyeLight>,
 }
 
@@ -120,25 +120,22 @@ impl Engine {
         let tabled = before.is_empty()
             && scene.outside.surroundings().is_none()
             && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
+        let year = (question.steps.number(), question.steps.list.len());
         let table = |index: usize| {
             let btdf = scene.apertures[index].system.dataset.transmission()?;
-            Some(EyeLight::new(question.session, &scene, index, btdf, &fields))
+            Some(EyeLight::new(question.session, &scene, index, btdf, &fields, year))
         };
         let tables = if tabled { (0..scene.apertures.len()).filter_map(table).collect() } else { Vec::new() };
         Ok(Self { scene, before, fields, tables })
     }
 
-    /// At every eye, given the illuminance there.
-    fn at(
-        &self,
-        question: &Question<'_>,
-        (outside, sun): (Outside, Option<Sun>),
-        vertical: &[Estimate],
-    ) -> Result<Vec<EyeGlare>, StudyError> {
-        let eyes = &question.settings.eyes;
+    /// At every eye in an hour of the year, given the illuminance there.
+    fn at(&self, question: &Question<'_>, hour: usize, vertical: &[Estimate]) -> Result<Vec<EyeGlare>, StudyError> {
+        let (outside, sun) = question.steps.outside(hour)?;
         if !self.tables.is_empty() {
-            return Ok(self.by_tables(question.session, question, &outside, sun.as_ref(), vertical));
+            return Ok(self.by_tables(question, (hour, &outside), sun.as_ref(), vertical));
         }
+        let eyes = &question.settings.eyes;
         let outside = self.before.stand(outside, sun.as_ref(), &self.scene.room, self.scene.orientation, &Silent)?;
         let scene = Scene { outside, sun, ..self.scene.clone() };
         let shining = question.session.shining(&scene)?;
@@ -148,14 +145,13 @@ impl Engine {
 
     fn by_tables(
         &self,
-        session: &Session,
         question: &Question<'_>,
-        outside: &Outside,
+        (hour, outside): (usize, &Outside),
         sun: Option<&Sun>,
         vertical: &[Estimate],
     ) -> Vec<EyeGlare> {
-        let scene = &self.scene;
-        let cells: Vec<Vec<f64>> = self.tables.iter().map(|table| table.cells(outside)).collect();
+        let (scene, session) = (&self.scene, question.session);
+        let cells: Vec<Vec<f64>> = self.tables.iter().map(|table| table.cells(hour, outside)).collect();
         let sunlight: Vec<Option<Emission>> =
             (0..self.tables.len()).map(|index| session.sunlight_alone(scene, index, sun?)).collect();
         let of = |number: usize| {

@@ -1,28 +1,35 @@
 //! The diffuse light of an aperture for eyes, hour by hour at the cost of a small product: luminance of the emergent cells
 //! that an eye sees by what comes through each incident cell; and the outside straight through by fixed directions.
 //!
-//! For systems whose data are a pane's, even light, cells, single directions or a tree, before an outside without boxes.
+//! For systems by their description, and those whose data are a pane's, even light, cells, single directions or a tree, before
+//! an outside without boxes.
 
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
 use crate::compute::direction::{Dir, Facade, Incident, World};
+use crate::compute::dot::{add_scaled, dot};
 use crate::compute::glare::Field;
 use crate::compute::incidence::schemes::DiffuseScheme;
+use crate::compute::lid::SkyThrough;
+use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_illuminances_within};
-use crate::study::coefficients::incident_patches;
+use crate::compute::sky::Outside;
+use crate::study::coefficients::sky_patches::SkyPatches;
+use crate::study::coefficients::{SPACING, incident_patches};
 use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
+use crate::study::session::sky_year::SkyYear;
+use crate::study::system::VerySystem;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Accuracy of what ground and skyline send through each cell.
-const EVEN: f64 = 1e-5;
+use std::sync::Arc;
 
 /// One aperture, for some eyes.
 pub(super) struct EyeLight {
-    samples: SkySamples,
+    sky: Arc<SkyPatches>,
+    /// What it is in the hours of the year, where that is kept.
+    year: Option<Arc<SkyYear>>,
     /// A row for each emergent cell that any eye sees: open incident cells, then ground, then skyline.
     rows: Vec<f64>,
     width: usize,
@@ -32,8 +39,8 @@ pub(super) struct EyeLight {
 
 /// What one eye sees.
 struct OfEye {
-    /// For every patch of the aperture, in the field's order, its row.
-    row: Vec<Option<usize>>,
+    /// For every patch of the aperture, in the field's order, its rows.
+    row: Vec<[Option<usize>; 2]>,
     /// The same for what is seen straight through: transmittance and direction; empty where nothing is.
     through: Vec<(f64, Dir<World>)>,
 }
@@ -42,21 +49,39 @@ struct OfEye {
 pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
     let one = &scene.apertures[index];
     let Some(btdf) = one.system.dataset.transmission() else { return false };
-    // A description that answers for the sky says more than its data.
-    let described = scene.beams && one.system.very.as_ref().is_some_and(|very| very.answers_for_the_sky());
     let scheme = matches!(scene.diffuse_interpolation, DiffuseScheme::Auto | DiffuseScheme::Shift);
     let by_directions = scheme || scene.interpolation == Interpolation::Patch;
-    one.lamps.is_none() && !described && (by_directions || !matches!(btdf.scattered, Some(Scattered::Directions(_))))
+    let by_data = by_directions || !matches!(btdf.scattered, Some(Scattered::Directions(_)));
+    one.lamps.is_none() && (by_data || described(scene, index).is_some())
+}
+
+/// The description of an aperture's system, where it answers for the sky: it says more than its data.
+fn described(scene: &Scene, index: usize) -> Option<&VerySystem> {
+    let very = scene.apertures[index].system.very.as_ref();
+    very.filter(|very| scene.beams && very.answers_for_the_sky())
 }
 
 impl EyeLight {
-    /// `fields`: what each eye sees of all apertures.
-    pub fn new(session: &Session, scene: &Scene, index: usize, btdf: &Btdf, fields: &[Field]) -> Self {
-        let frame = Frame::of_aperture(scene.orientation, scene.apertures[index].aperture.surface);
-        let altitude = scene.outside.skyline_altitude();
-        let (patches, spacing) = incident_patches(btdf, scene.interpolation);
-        let samples = SkySamples::new(&patches, &frame, altitude, spacing);
-        let emergent = Emergents::new(session, scene, btdf);
+    /// `fields`: what each eye sees of all apertures; `year`: its number, and how many hours it has.
+    pub fn new(
+        session: &Session,
+        scene: &Scene,
+        index: usize,
+        btdf: &Btdf,
+        fields: &[Field],
+        year: (u64, usize),
+    ) -> Self {
+        let own = described(scene, index).map(|very| session.sky_through(very));
+        let (patches, spacing) = match &own {
+            Some(own) => (RingBasis::clone(own.1.basis()), SPACING),
+            None => incident_patches(btdf, scene.interpolation),
+        };
+        let sky = SkyPatches::of(session, scene, index, patches, spacing);
+        let emergent = match &own {
+            Some(own) => Emergents::Described(&own.1, own.1.by_patch()),
+            None => Emergents::new(session, scene, btdf),
+        };
+        let regular = btdf.regular.as_ref().filter(|_| own.is_none());
         // The emergent cells that eyes see, each once.
         let mut number = vec![None; emergent.count()];
         let mut seen = Vec::new();
@@ -64,15 +89,15 @@ impl EyeLight {
             .iter()
             .map(|field| {
                 let own = &field.patches[field.of[index].clone()];
-                let mut row_of = |through: Dir<Facade>| {
-                    let cell = emergent.index(through)?;
-                    Some(*number[cell].get_or_insert_with(|| {
+                let mut row_of = |cell: usize| {
+                    *number[cell].get_or_insert_with(|| {
                         seen.push(cell);
                         seen.len() - 1
-                    }))
+                    })
                 };
-                let row = own.iter().map(|patch| row_of(patch.through)).collect();
-                let through = btdf.regular.as_ref().map_or_else(Vec::new, |tau: &AngularTransmittance| {
+                let row =
+                    own.iter().map(|patch| emergent.index(patch.through).map(|cell| cell.map(&mut row_of))).collect();
+                let through = regular.map_or_else(Vec::new, |tau: &AngularTransmittance| {
                     own.iter()
                         .map(|patch| {
                             let room = scene.apertures[index].aperture.surface.room_dir(patch.through);
@@ -87,59 +112,51 @@ impl EyeLight {
             Vec::new()
         } else {
             let of = |p: usize| {
-                let all = emergent.through(p, &patches.cell(p));
+                let all = emergent.through(p, &sky.patches.cell(p));
                 seen.iter().map(|&cell| all[cell]).collect()
             };
-            (0..patches.len()).into_par_iter().map(of).collect()
+            (0..sky.patches.len()).into_par_iter().map(of).collect()
         };
-        let width = samples.cells().len() + 2;
+        let width = sky.samples.cells().len() + 2;
         let mut rows = vec![0.0; seen.len() * width];
         if !columns.is_empty() {
-            let [ground, skyline] = constants(altitude).map(|outside| {
-                outside.map_or_else(Vec::new, |o| incident_illuminances_within(&o, &patches, &frame, EVEN))
-            });
             for (at, row) in rows.chunks_exact_mut(width).enumerate() {
-                for (to, &p) in row.iter_mut().zip(samples.cells()) {
+                for (to, &p) in row.iter_mut().zip(sky.samples.cells()) {
                     *to = columns[p][at];
                 }
-                row[width - 2] = columns.iter().zip(&ground).map(|(column, e)| column[at] * e.value).sum();
-                row[width - 1] = columns.iter().zip(&skyline).map(|(column, e)| column[at] * e.value).sum();
+                row[width - 2] = columns.iter().zip(&sky.ground).map(|(column, e)| column[at] * e).sum();
+                row[width - 1] = columns.iter().zip(&sky.skyline).map(|(column, e)| column[at] * e).sum();
             }
         }
-        Self { samples, rows, width, eyes, clear: scene.apertures[index].clear }
+        let year = session.sky_year(year, sky.fingerprint, sky.samples.cells().len());
+        Self { sky, year, rows, width, eyes, clear: scene.apertures[index].clear }
     }
 
-    /// Luminances of the emergent cells under an outside. \[cd/m²\]
-    pub fn cells(&self, outside: &Outside) -> Vec<f64> {
+    /// Luminances of the emergent cells in an hour of the year, whose outside this is. \[cd/m²\]
+    pub fn cells(&self, hour: usize, outside: &Outside) -> Vec<f64> {
         if self.rows.is_empty() {
             return Vec::new();
         }
-        let mut light = Vec::with_capacity(self.width);
-        self.samples.illuminances(outside, &mut light);
+        let find = || {
+            let mut light = Vec::with_capacity(self.width);
+            self.sky.samples.illuminances(outside, &mut light);
+            light
+        };
+        let mut light = self.year.as_ref().map_or_else(find, |year| year.hour(hour, find).collect());
         light.extend([outside.ground_luminance(), outside.skyline_luminance()]);
-        let of = |row: &[f64]| self.clear * row.iter().zip(&light).map(|(q, e)| q * e).sum::<f64>();
-        self.rows.chunks_exact(self.width).map(of).collect()
+        self.rows.chunks_exact(self.width).map(|row| self.clear * dot(row, &light)).collect()
     }
 
     /// Adds what an eye sees to its patches of this aperture, given [`Self::cells`].
     pub fn add(&self, eye: usize, cells: &[f64], outside: &Outside, luminance: &mut [f64]) {
         let own = &self.eyes[eye];
         for (sum, row) in luminance.iter_mut().zip(&own.row) {
-            *sum += row.map_or(0.0, |row| cells[row]);
+            *sum += row.iter().flatten().map(|&row| cells[row]).sum::<f64>();
         }
         for (sum, (tau, direction)) in luminance.iter_mut().zip(&own.through) {
             *sum += self.clear * tau * outside.luminance(*direction);
         }
     }
-}
-
-/// Black sky with a ground of luminance 1, and with a skyline of luminance 1 where it stands above the horizon.
-fn constants(altitude: f64) -> [Option<Outside>; 2] {
-    let black = || Outside::new(Distribution::uniform(), 0.0).ok();
-    [
-        black().and_then(|outside| outside.with_skyline(altitude, 0.0).ok()?.with_ground(1.0, PI).ok()),
-        black().filter(|_| altitude > 0.0).and_then(|outside| outside.with_skyline(altitude, 1.0).ok()),
-    ]
 }
 
 /// What a system makes of light from a patch of the hemisphere, on emergent cells.
@@ -150,6 +167,8 @@ enum Emergents<'a> {
     Even(&'a AngularTransmittance),
     /// By cells of a basis: how to get there.
     Cells(RingBasis, Rows<'a>),
+    /// By a description: on cells, and behind these in bands of a profile angle.
+    Described(&'a SkyThrough, Vec<PatchLight>),
 }
 
 /// Luminance of the cells per illuminance through an incident patch.
@@ -213,14 +232,27 @@ impl<'a> Emergents<'a> {
             Self::None => 0,
             Self::Even(_) => 1,
             Self::Cells(basis, _) => basis.len(),
+            Self::Described(system, _) => match system.rows() {
+                ScatteredRows::Bands([first, ..]) => system.basis().len() + first.q.len(),
+                _ => system.basis().len(),
+            },
         }
     }
 
-    fn index(&self, through: Dir<Facade>) -> Option<usize> {
+    /// What a direction is seen by.
+    fn index(&self, through: Dir<Facade>) -> [Option<usize>; 2] {
         match self {
-            Self::None => None,
-            Self::Even(_) => Some(0),
-            Self::Cells(basis, _) => basis.index(through),
+            Self::None => [None; 2],
+            Self::Even(_) => [Some(0), None],
+            Self::Cells(basis, _) => [basis.index(through), None],
+            Self::Described(system, _) => {
+                let cells = system.basis();
+                let band = match system.rows() {
+                    ScatteredRows::Bands([first, ..]) => Some(cells.len() + first.band_of(through)),
+                    _ => None,
+                };
+                [cells.index(through), band]
+            }
         }
     }
 
@@ -229,6 +261,20 @@ impl<'a> Emergents<'a> {
             Self::None => Vec::new(),
             Self::Even(tau) => vec![tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(3)) / PI],
             Self::Cells(_, rows) => rows(patch, cell),
+            Self::Described(system, patches) => {
+                let mut light = vec![0.0; self.count()];
+                let (cells, bands) = light.split_at_mut(system.basis().len());
+                let patch = &patches[patch];
+                patch.cells.iter().for_each(|&(cell, luminance)| cells[cell] += luminance);
+                for &(row, share) in &patch.rows {
+                    match system.rows() {
+                        ScatteredRows::None => {}
+                        ScatteredRows::Bands(rows) => add_scaled(bands, &rows[row].q, share),
+                        ScatteredRows::Cells(rows) => add_scaled(cells, &rows[row], share),
+                    }
+                }
+                light
+            }
         }
     }
 }

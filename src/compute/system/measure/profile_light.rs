@@ -41,6 +41,11 @@ impl ProfileLight {
         ((angle + FRAC_PI_2) / PI * (bands - 1) as f64).round().max(0.0) as usize
     }
 
+    /// The band that a name lies in.
+    pub fn band_of(&self, name: Dir<Facade>) -> usize {
+        Self::band(self.angle(name), self.q.len()).min(self.q.len().saturating_sub(1))
+    }
+
     /// q of a name. \[1/sr\]
     pub fn at(&self, name: Dir<Facade>) -> f64 {
         self.q.get(Self::band(self.angle(name), self.q.len())).copied().unwrap_or(0.0)
@@ -78,8 +83,8 @@ impl ProfileLight {
     /// Projected solid angles of the bands: on a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected solid angle is
     /// that times cosψ dψ. \[sr\]
     fn weights(bands: usize) -> impl Iterator<Item = f64> {
-        let borders: Vec<f64> = Self::borders(bands).collect();
-        (0..bands).map(move |k| FRAC_PI_2 * (borders[k + 1].sin() - borders[k].sin()))
+        let sines: Vec<f64> = Self::borders(bands).map(f64::sin).collect();
+        (0..bands).map(move |k| FRAC_PI_2 * (sines[k + 1] - sines[k]))
     }
 
     /// Means over cells, to about a tenth of a per cent of the largest. \[1/sr\]

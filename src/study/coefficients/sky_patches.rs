@@ -1,0 +1,59 @@
+//! The patches of the outside before an aperture, and what hangs on nothing but them: found once for all systems and states.
+
+use super::far::{self, Constants};
+use super::part::illuminances;
+use crate::compute::basis::RingBasis;
+use crate::compute::sky::{Frame, SkySamples};
+use crate::study::cache::bits;
+use crate::study::scene::Scene;
+use crate::study::session::{Session, basis_key};
+use std::sync::Arc;
+
+/// Accuracy of what is even, whatever the sky.
+const RELATIVE: f64 = 1e-7;
+
+/// Patches and what is even in them.
+pub(in crate::study) struct SkyPatches {
+    /// They.
+    pub patches: RingBasis,
+    /// Where they are.
+    pub frame: Frame,
+    /// Directions in those that reach above horizon and skyline.
+    pub samples: SkySamples,
+    /// Of the samples.
+    pub fingerprint: u64,
+    /// Illuminance through every patch by a ground of luminance 1.
+    pub ground: Vec<f64>,
+    /// The same by a skyline of luminance 1.
+    pub skyline: Vec<f64>,
+}
+
+impl SkyPatches {
+    /// Before an aperture of a scene; `spacing` of the directions \[rad\].
+    pub fn of(session: &Session, scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Arc<Self> {
+        let surface = scene.facing(index).surface;
+        // A skyline that rises and falls has too much of a shape for a key.
+        if far::shape(&scene.outside).is_some() {
+            return Arc::new(Self::new(scene, index, patches, spacing));
+        }
+        let mut key = vec![surface as u64];
+        key.extend(bits([scene.facade.radians(), scene.outside.skyline_altitude(), spacing]));
+        key.extend(basis_key(Some(&patches)));
+        session.sky_patches(key, || Self::new(scene, index, patches, spacing))
+    }
+
+    fn new(scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Self {
+        let frame = Frame::of_aperture(scene.orientation, scene.facing(index).surface);
+        let mut samples = SkySamples::new(&patches, &frame, scene.outside.skyline_altitude(), spacing);
+        let constants = Constants::of(&scene.outside);
+        if let (Some(even), Some(skyline)) = (&constants.even, far::shape(&scene.outside)) {
+            let open = illuminances(even, &patches, &frame, RELATIVE);
+            let open: Vec<f64> = samples.cells().iter().map(|&cell| open[cell]).collect();
+            samples.without(|d| skyline.covers(d), &open);
+        }
+        let [ground, skyline] = [&constants.ground, &constants.skyline].map(|outside| {
+            outside.as_ref().map_or_else(|| vec![0.0; patches.len()], |o| illuminances(o, &patches, &frame, RELATIVE))
+        });
+        Self { fingerprint: samples.fingerprint(), patches, frame, samples, ground, skyline }
+    }
+}
