@@ -31,6 +31,14 @@ impl AngularTransmittance {
         if let Self::Constant(tau) = self { Some(*tau) } else { None }
     }
 
+    /// Does nothing pass, whatever the incidence?
+    pub fn is_dark(&self) -> bool {
+        match self {
+            Self::Constant(tau) => *tau == 0.0,
+            Self::Table(values) => values.iter().all(|tau| *tau == 0.0),
+        }
+    }
+
     /// τ at a polar angle of incidence. \[rad\] Zero beyond 90°.
     pub fn at(&self, theta: f64) -> f64 {
         match self {

@@ -25,14 +25,16 @@ const PIECE: f64 = 0.15 * PI / 180.0;
 const TOGETHER: f64 = 0.1 * PI / 180.0;
 /// Pairs of directions over the disc for the straight beam through what is no structure along an axis, one number after
 /// the other until its share stands ...
-const SEEDS: [usize; 4] = [16, 64, 256, 1024];
+const SEEDS: [usize; 4] = [16, 64, 256, MOST_SEEDS];
+/// Most of them.
+const MOST_SEEDS: usize = 1024;
 /// ... to this, relative.
-const STANDS: f64 = 1e-5;
+const STANDS: f64 = 1e-4;
 /// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
 const PARTS: [usize; 2] = [3, 64];
 /// Where all hangs on a profile angle, strips of the disc and pairs of directions in all of them together: ever more until the
 /// middles of strips stand for these.
-const STRIPS: [[usize; 2]; 3] = [[5, 192], [11, 192], [24, 768]];
+const STRIPS: [[usize; 2]; 4] = [[3, 48], [5, 192], [11, 192], [24, 768]];
 /// Shares that go straight on and that are turned stand if known so well, relative to themselves and ...
 const LINEAR: [f64; 2] = [2e-4, 1e-3];
 /// ... so much of the light.
@@ -52,16 +54,29 @@ pub fn sun_cells() -> &'static Arc<RingBasis> {
 fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
     let (u, v) = sun.vector().any_orthonormal_pair();
     let edges = facing.sun_edges();
-    let golden = PI * (3.0 - 5.0_f64.sqrt());
-    (0..2 * seeds)
-        .filter_map(|k| {
-            let (sin, cos) = (golden * (k / 2) as f64).sin_cos();
-            let at = SUN_HALF_ANGLE.tan() * (((k / 2) as f64 + 0.5) / seeds as f64).sqrt();
-            let at = if k % 2 == 0 { at } else { -at };
-            Dir::new(sun.vector() + at * (cos * u + sin * v))
+    let scale = SUN_HALF_ANGLE.tan() / (seeds as f64).sqrt();
+    sunflower()[..seeds]
+        .iter()
+        .flat_map(|&[a, b]| {
+            let aside = scale * (a * u + b * v);
+            [aside, -aside]
         })
+        .filter_map(|aside| Dir::new(sun.vector() + aside))
         .filter(|d| edges.iter().all(|edge| edge.normal.dot(d.vector()) > edge.offset))
         .collect()
+}
+
+/// Places of the seeds of a sunflower whose first n fill a disc of radius √n.
+fn sunflower() -> &'static [[f64; 2]] {
+    static SEEDS_OF_ONE: OnceLock<Vec<[f64; 2]>> = OnceLock::new();
+    SEEDS_OF_ONE.get_or_init(|| {
+        let golden = PI * (3.0 - 5.0_f64.sqrt());
+        let seed = |k: usize| {
+            let (sin, cos) = (golden * k as f64).sin_cos();
+            [cos, sin].map(|c| c * (k as f64 + 0.5).sqrt())
+        };
+        (0..MOST_SEEDS).map(seed).collect()
+    })
 }
 
 fn cosine(name: Dir<Facade>) -> f64 {
@@ -102,13 +117,13 @@ fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade
         let v = name.vector();
         (if upright { v.x } else { v.y }).atan2(v.z)
     };
-    let (low, high) = names
+    let angles: Vec<f64> = names.iter().map(angle).collect();
+    let (low, high) = angles
         .iter()
-        .map(angle)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| (low.min(angle), high.max(angle)));
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| (low.min(*angle), high.max(*angle)));
     let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); count];
-    for name in names {
-        let at = (count as f64 * (angle(name) - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
+    for (name, angle) in names.iter().zip(angles) {
+        let at = (count as f64 * (angle - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
         let sum = &mut sums[at.min(count - 1)];
         *sum = (sum.0 + name.vector(), sum.1 + 1.0, sum.2 + cosine(*name));
     }

@@ -11,7 +11,7 @@ use super::patch_weights::PatchWeights;
 use super::radiosity::{Exitance, Radiosity};
 use crate::compute::btdf::{CellMatrix, Scattered};
 use crate::compute::direction::Dir;
-use crate::compute::dot::dot;
+use crate::compute::dot::add_scaled;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
@@ -120,6 +120,8 @@ pub fn settled_light(
 pub struct RoomSide {
     /// Weights of what the patches receive before they reflect, with all reflections but those of mirrors.
     returned: Vec<Vec<f64>>,
+    /// The same patch by patch: beams light few of these.
+    by_patch: Vec<f64>,
 }
 
 impl RoomSide {
@@ -127,17 +129,19 @@ impl RoomSide {
     pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
         let falling = weights.falling(&radiosity.nested.fine, aperture);
         let falling: Vec<&[f64]> = falling.iter().map(Vec::as_slice).collect();
-        let returned = falling.par_chunks(TOGETHER).flat_map_iter(|weights| radiosity.adjoint_fine(weights)).collect();
-        Self { returned }
+        let returned: Vec<Vec<f64>> =
+            falling.par_chunks(TOGETHER).flat_map_iter(|weights| radiosity.adjoint_fine(weights)).collect();
+        let patches = 0..returned.first().map_or(0, Vec::len);
+        let by_patch = patches.flat_map(|k| returned.iter().map(move |weights| weights[k])).collect();
+        Self { returned, by_patch }
     }
 
     /// What falls in through every cell by way of the room, of what the patches receive before they reflect.
     pub fn incident(&self, first: &[f64]) -> Vec<f64> {
-        let lit: Vec<usize> = (0..first.len()).filter(|&k| first[k] != 0.0).collect();
-        if 2 * lit.len() > first.len() {
-            return self.returned.iter().map(|returned| dot(returned, first)).collect();
-        }
-        self.returned.iter().map(|returned| lit.iter().map(|&k| returned[k] * first[k]).sum()).collect()
+        let mut sums = vec![0.0; self.returned.len()];
+        let rows = self.by_patch.chunks_exact(sums.len().max(1));
+        rows.zip(first).filter(|(_, e)| **e != 0.0).for_each(|(row, &e)| add_scaled(&mut sums, row, e));
+        sums
     }
 
     /// What falls in per luminance of every cell of emergent light: a row for each cell that light falls in through.

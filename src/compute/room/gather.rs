@@ -194,8 +194,12 @@ pub fn polygon_factor(wall: &Wall, polygon: &[DVec2], position: DVec3, normal: D
     if wall.normal.dot(position - wall.point(0.0, 0.0)) <= 0.0 {
         return 0.0;
     }
-    let corners: Vec<DVec3> = polygon.iter().map(|p| wall.point(p.x, p.y) - position).collect();
-    projected_solid_angle(&corners, normal) / PI
+    let corners = polygon.iter().map(|p| wall.point(p.x, p.y) - position);
+    // Most of what lies on the floor is behind a desk.
+    if corners.clone().all(|corner| normal.dot(corner) <= 0.0) {
+        return 0.0;
+    }
+    projected_solid_angle(&corners.collect::<Vec<_>>(), normal) / PI
 }
 
 /// ∫ω dω over the quadrant of a plane at distance d that ends in the corner (x, y), but for parts that cancel in

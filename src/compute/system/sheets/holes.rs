@@ -4,12 +4,12 @@ use super::hole::Perforated;
 use super::walls::{Lit, Walls, measure_walls};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
+use crate::compute::dot::add_scaled;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::kept::{Kept, Once};
 use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen, front_basis};
 use faer::Mat;
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 /// Patches through the thickness for single directions; the difference between the two tells the error.
 const DEPTH: [usize; 2] = [4, 8];
@@ -28,10 +28,11 @@ struct Solved {
     response: Mat<f64>,
 }
 
-/// What emergent cells see of the walls.
+/// What emergent cells see of the walls; a way is found when light takes it.
+#[derive(Default)]
 struct Seen {
     /// By depth, then by side: through the sheet, thrown back.
-    ways: [[[Lit; 2]; 2]; 2],
+    ways: [[[Once<Lit>; 2]; 2]; 2],
 }
 
 /// What becomes of light that does not go straight through.
@@ -58,18 +59,8 @@ impl Holes {
         })
     }
 
-    /// What these cells see, made once.
-    fn seen(&self, cells: &RingBasis) -> Arc<Seen> {
-        self.seen.get(cells, || Seen {
-            ways: self
-                .solved()
-                .each_ref()
-                .map(|solved| [false, true].map(|turned| Side::BOTH.map(|side| solved.walls.lit(cells, side, turned)))),
-        })
-    }
-
     /// The light of one direction that meets the sheet or the walls, these in one of both depths.
-    fn rest(&self, name: Dir<Facade>, side: Side, depth: usize, seen: &Seen) -> Rest {
+    fn rest(&self, name: Dir<Facade>, side: Side, depth: usize, cells: &RingBasis, seen: &Seen) -> Rest {
         let Solved { walls, response } = &self.solved()[depth];
         let n = walls.len();
         let mut first = vec![0.0; n];
@@ -82,14 +73,16 @@ impl Holes {
         let landed = product(response, &first);
         let exitance: Vec<f64> = landed.iter().zip(walls.areas()).map(|(l, area)| wall * l / (PI * area)).collect();
         let k = usize::from(side == Side::Back);
-        let sent = |lit: &Lit| product(&lit.walls, &exitance);
+        let sent = |turned: bool, side: usize| {
+            let way = &seen.ways[depth][usize::from(turned)][side];
+            product(&way.get(|| walls.lit(cells, Side::BOTH[side], turned)).walls, &exitance)
+        };
         let face = self.sheet.reflectance[k];
         let solid = 1.0 - self.sheet.open();
-        let [through, back] = &seen.ways[depth];
         Rest {
             // Leaving light is named as what would light the walls from the other side.
-            transmitted: sent(&through[1 - k]),
-            reflected: sent(&back[k]).into_iter().map(|q| face * solid / PI + q).collect(),
+            transmitted: sent(false, 1 - k),
+            reflected: sent(true, k).into_iter().map(|q| face * solid / PI + q).collect(),
             absorbed: (1.0 - face) * solid + (1.0 - wall) * landed.iter().sum::<f64>(),
         }
     }
@@ -99,7 +92,7 @@ impl Holes {
 fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, factor) in of.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
-        sums.iter_mut().zip(matrix.col_as_slice(j)).for_each(|(sum, value)| *sum += factor * value);
+        add_scaled(&mut sums, matrix.col_as_slice(j), *factor);
     }
     sums
 }
@@ -120,8 +113,8 @@ impl Specimen for Holes {
             let reflected = if face > 0.0 { vec![face / PI; emergent.len()] } else { vec![] };
             return ScatteredLight { reflected, ..ScatteredLight::default() };
         }
-        let seen = self.seen(emergent);
-        let [coarse, fine] = [0, 1].map(|depth| self.rest(name, side, depth, &seen));
+        let seen = self.seen.get(emergent, Seen::default);
+        let [coarse, fine] = [0, 1].map(|depth| self.rest(name, side, depth, emergent, &seen));
         let weight = emergent.projected_solid_angles();
         let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
         let [t, r] = [share(&fine.transmitted), share(&fine.reflected)];

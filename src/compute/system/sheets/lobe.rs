@@ -32,7 +32,7 @@ impl Fineness {
     /// Between two cells: both ends are averaged.
     pub const CELLS: Self = Self { step: 0.8, most: 24 };
     /// From a single direction to a cell, whose edge may cut the lobe where it is steepest.
-    pub const DIRECTION: Self = Self { step: 0.2, most: 100 };
+    pub const DIRECTION: Self = Self { step: 0.3, most: 100 };
 }
 
 /// exp(−x) of this and above counts as nothing.

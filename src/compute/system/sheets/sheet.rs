@@ -75,7 +75,7 @@ impl Specimen for Sheet {
                 let matrix = CellMatrix::new(setting.incident.clone(), setting.emergent.clone(), values);
                 Some(Scattered::Cells(Box::new(matrix.expect("values are counted by these cells"))))
             };
-            let regular = (spread.regular.hemispherical() > 0.0).then(|| spread.regular.clone());
+            let regular = (!spread.regular.is_dark()).then(|| spread.regular.clone());
             Ok(Btdf { regular, scattered: matrix })
         };
         let through = apart(&self.transmission)?;
@@ -142,7 +142,7 @@ fn ring_means(basis: &RingBasis, share: &AngularTransmittance, rule: &[(f64, f64
 impl Spread {
     /// Scatters nothing?
     fn is_dark(&self) -> bool {
-        self.diffuse.hemispherical() == 0.0 && self.lobe.is_none()
+        self.diffuse.is_dark() && self.lobe.is_none()
     }
 
     /// Mean q over the emergent cells of what is scattered of one very direction, so much of it diffusely. \[1/sr\] Empty:
@@ -176,7 +176,7 @@ impl Spread {
         let straight = Btdf { regular: Some(self.regular.clone()), scattered: None };
         let rule = midpoints(RING);
         let mut values = matrix_on(&straight, incident, emergent).values().into_owned();
-        if self.diffuse.hemispherical() > 0.0 {
+        if !self.diffuse.is_dark() {
             let (from, to) = (ring_means(incident, &self.diffuse, &rule), ring_means(emergent, &self.diffuse, &rule));
             // The mean by these very cells, so that totals come out exactly.
             let mean = emergent.projected_solid_angles().iter().zip(&to).map(|(w, t)| w * t).sum::<f64>() / PI;

@@ -58,7 +58,7 @@ struct Solved {
 /// Parts of a curved mirror, each of which throws a fan of its own.
 const FANS: usize = 128;
 /// Step of the profile angle where matt light leaves. \[rad\]
-const STEP: f64 = 0.25 * PI / 180.0;
+const STEP: f64 = 0.5 * PI / 180.0;
 /// Answers of mirrors that are kept: those of either side at steps of 0.1°.
 const MOST_KNOWN: usize = 3600;
 /// Rays are drawn by this seed: the same light gives the same beams.
