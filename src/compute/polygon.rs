@@ -98,6 +98,9 @@ fn arc(cross: DVec3, p: DVec3, q: DVec3) -> DVec3 {
 
 /// ∫ max(0, n·ω) dω over a polygon of corners given as vectors from the point: illuminance per luminance. \[sr\]
 pub fn projected_solid_angle(polygon: &[DVec3], normal: DVec3) -> f64 {
+    if polygon.len() >= 3 && polygon.iter().all(|p| normal.dot(*p) >= 0.0) {
+        return vector_solid_angle(polygon).dot(normal).abs();
+    }
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     clip(polygon, normal, &mut kept);
     if kept.len() < 3 {

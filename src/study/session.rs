@@ -126,7 +126,8 @@ impl Session {
             bands: Cache::new(18 / part),
             interpolators: Cache::new(6 / part),
             suns: Cache::new(66 / part),
-            skies: Cache::new(9 / part),
+            // Of a blind all states: light and glare go through them one after the other.
+            skies: Cache::new(21 / part),
             peaks: Cache::new(6 / part),
         }
     }

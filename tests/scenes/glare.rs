@@ -178,11 +178,13 @@ fn a_sun_straight_at_the_eye_is_a_source_of_its_own_size() {
 }
 
 /// Hours of a year have the glare of the same hours as scenes.
-fn hours_are_moments(system: &str, more: &str, times: &[&str], base: &Path) {
-    let text = text(system, [35.0, 200.0]).replace(
-        "azimuth = 180.0\nground",
-        "azimuth = 180.0\nlatitude = 47.48\nlongitude = -122.22\nutc_offset = -8.0\nground",
-    );
+fn hours_are_moments(system: &str, [sky, more]: [&str; 2], times: &[&str], base: &Path) {
+    let text = text(system, [35.0, 200.0])
+        .replace(
+            "azimuth = 180.0\nground",
+            "azimuth = 180.0\nlatitude = 47.48\nlongitude = -122.22\nutc_offset = -8.0\nground",
+        )
+        .replace("[sensors]", &format!("{sky}[sensors]"));
     let [(a, b), (c, d)] = EYES;
     let text = format!(
         "{text}{more}[year]\nweather = \"builtin:renton\"\neyes = [{{ point = {a:?}, direction = {b:?} }}, \
@@ -210,8 +212,8 @@ fn hours_are_moments(system: &str, more: &str, times: &[&str], base: &Path) {
 #[test]
 fn hours_of_a_year_have_the_glare_of_the_same_moments() {
     let times = ["-12-21T12", "-03-21T09", "-06-21T15"];
-    hours_are_moments("{ ideal = \"transparent\", transmittance = 0.65 }", "", &times, Path::new("."));
-    hours_are_moments("{ ideal = \"diffuse\", transmittance = 0.45 }", "", &times, Path::new("."));
+    hours_are_moments("{ ideal = \"transparent\", transmittance = 0.65 }", ["", ""], &times, Path::new("."));
+    hours_are_moments("{ ideal = \"diffuse\", transmittance = 0.45 }", ["", ""], &times, Path::new("."));
     // Described: slats by bands of the profile angle and by cells, panes before slats, prisms, walls of holes.
     let folder = tempfile::tempdir().unwrap();
     let slats = "kind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 0.072\nangles = [30.0]\n";
@@ -229,9 +231,15 @@ fn hours_of_a_year_have_the_glare_of_the_same_moments() {
         std::fs::write(file, format!("name = \"{name}\"\n{description}")).unwrap();
     }
     for (name, _) in &systems {
-        hours_are_moments(&format!("{{ file = \"{name}.system.toml\" }}"), "", &times, folder.path());
+        hours_are_moments(&format!("{{ file = \"{name}.system.toml\" }}"), ["", ""], &times, folder.path());
+    }
+    // Before the sun of March, not of December and June.
+    let skyline =
+        "skyline = { altitudes = [[100.0, 30.0], [140.0, 30.0], [170.0, 5.0], [260.0, 20.0]], luminance = 900.0 }\n";
+    for system in ["{ ideal = \"transparent\", transmittance = 0.65 }", "{ file = \"mirror.system.toml\" }"] {
+        hours_are_moments(system, [skyline, ""], &times, folder.path());
     }
     let Some(folder) = data("reference/cases/annual") else { return };
     let patch = "[compute]\ninterpolation = \"patch\"\n";
-    hours_are_moments("{ file = \"slats_30.xml\" }", patch, &times, &folder);
+    hours_are_moments("{ file = \"slats_30.xml\" }", ["", patch], &times, &folder);
 }

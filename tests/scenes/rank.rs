@@ -110,6 +110,17 @@ fn data_on_cells_come_first_and_their_errors_hold_what_follows() {
         }
         assert!(full.parts[2].values.is_empty());
     }
+    // By one thread: what is coarsely the best comes first.
+    let order: Mutex<Vec<usize>> = Mutex::new(Vec::new());
+    let told = |answer: cfs::study::rank::Answer<'_>| {
+        if answer.stage == Stage::Full {
+            order.lock().unwrap().push(answer.item.product);
+        }
+    };
+    let stages = [Stage::Coarse, Stage::Full];
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    alone.install(|| run(&groups, &items, &library, &Session::new(), &stages, &told, &Silent)).unwrap();
+    assert_eq!(order.into_inner().unwrap(), [2, 1, 0], "the more light the better");
     // The same by pieces of one, whatever was computed before.
     let keys = keys(&groups, &items);
     assert!(keys[0] != keys[1] && keys[1] != keys[2]);

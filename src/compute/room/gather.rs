@@ -199,7 +199,15 @@ pub fn polygon_factor(wall: &Wall, polygon: &[DVec2], position: DVec3, normal: D
     if corners.clone().all(|corner| normal.dot(corner) <= 0.0) {
         return 0.0;
     }
-    projected_solid_angle(&corners.collect::<Vec<_>>(), normal) / PI
+    // A parallelogram that a rectangle has cut has eight corners at most.
+    let mut few = [DVec3::ZERO; 8];
+    let seen = if polygon.len() <= few.len() {
+        few.iter_mut().zip(corners).for_each(|(to, corner)| *to = corner);
+        projected_solid_angle(&few[..polygon.len()], normal)
+    } else {
+        projected_solid_angle(&corners.collect::<Vec<_>>(), normal)
+    };
+    seen / PI
 }
 
 /// ∫ω dω over the quadrant of a plane at distance d that ends in the corner (x, y), but for parts that cancel in

@@ -76,7 +76,7 @@ impl Coefficients {
         let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
         let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
         let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
-        let by_patch = if rest > 0.0 { room.of_landed(landed, &direct(few)).1 } else { std::mem::take(&mut seen) };
+        let by_patch = if rest > 0.0 { landed.seen(&direct(few)) } else { std::mem::take(&mut seen) };
         for (s, (sum, sensor)) in sums.iter_mut().zip(&self.scene.sensors).enumerate() {
             let sharp: f64 =
                 outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum();

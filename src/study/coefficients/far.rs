@@ -38,6 +38,15 @@ impl Constants {
     }
 }
 
+/// A black outside with the skyline of another, as black.
+pub(in crate::study) fn dark(outside: &Outside) -> Option<Outside> {
+    let black = Outside::new(Distribution::uniform(), 0.0).ok()?;
+    match with_luminance(outside, 0.0) {
+        Some(skyline) => Some(black.behind(skyline)),
+        None => black.with_skyline(outside.skyline_altitude(), 0.0).ok(),
+    }
+}
+
 /// The skyline that rises and falls, if any does.
 pub(super) fn shape(outside: &Outside) -> Option<&Skyline> {
     outside.surroundings()?.skyline.as_ref()
@@ -50,7 +59,7 @@ fn with_luminance(outside: &Outside, luminance: f64) -> Option<Arc<Surroundings>
 }
 
 /// Luminance of the skyline of either kind. \[cd/m²\]
-pub(super) fn luminance(outside: &Outside) -> f64 {
+pub(in crate::study) fn luminance(outside: &Outside) -> f64 {
     shape(outside).map_or(outside.skyline_luminance(), |skyline| skyline.luminance)
 }
 

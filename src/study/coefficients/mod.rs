@@ -21,7 +21,7 @@
 
 mod beam;
 mod described;
-mod far;
+pub(super) mod far;
 mod part;
 pub(super) mod sky_patches;
 mod straight;

@@ -3,8 +3,9 @@
 use super::figures::{Outcome, Setting, Stage};
 use super::list::{List, Row};
 use super::parts::Grouping;
-use super::question::Group;
-use crate::compute::estimate::{Cancelled, Progress};
+use super::question::{Group, objectives};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::rank::utility;
 use crate::study::error::StudyError;
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::scene_file::{Interpolation, SceneFile};
@@ -42,7 +43,7 @@ struct Ready {
     grouping: Grouping,
 }
 
-/// Computes items, those of few states first. Results do not depend on the number of threads. All of them come
+/// Computes items, those of few states first, and what an earlier stage found best before the rest. Results do not depend on the number of threads. All of them come
 /// through a stage before any enters the next; `told` hears of every result when it is there, from any thread.
 ///
 /// # Errors
@@ -97,15 +98,32 @@ pub fn run(
     let states = |at: &usize| groups[items[*at].group].products[items[*at].product].states.len();
     let mut order: Vec<usize> = (0..items.len()).collect();
     order.sort_by_key(states);
-    let mut outcomes = Vec::new();
+    let mut outcomes: Vec<Option<Outcome>> = Vec::new();
     for stage in stages {
         let mut own = order.clone();
+        // Whoever waits sees first what the best come to.
+        own.sort_by(|&a, &b| {
+            let [a, b] = [a, b].map(|at| promise(&groups[items[at].group], outcomes.get(at).and_then(Option::as_ref)));
+            b.total_cmp(&a)
+        });
         if *stage == Stage::Coarse && stages.contains(&Stage::Full) {
             own.retain(|&at| is_quicker_by_cells(&groups[items[at].group].file));
         }
         outcomes = side_by_side(items, &own, *stage, &one, told, progress)?;
     }
     Ok(outcomes.into_iter().flatten().collect())
+}
+
+/// What a product is worth by what is known of it; as little as can be where nothing is.
+fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
+    let worth = || {
+        let keys = group.file.rank.as_ref()?;
+        let Some(Ok(found)) = known else { return None };
+        let of = |figure: &str| Some(found.figures[group.figures.iter().position(|own| own == figure)?]);
+        let figures: Vec<Estimate> = keys.objective.iter().map(|one| of(&one.figure)).collect::<Option<_>>()?;
+        Some(utility(&objectives(keys).ok()?, &figures).value)
+    };
+    worth().unwrap_or(f64::NEG_INFINITY)
 }
 
 /// Do data on cells come sooner than what the scene asks for? With boxes outside every hour is a room either way.

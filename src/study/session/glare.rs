@@ -62,17 +62,17 @@ impl Session {
 
     /// What all apertures send to eyes.
     pub(in crate::study) fn shining(&self, scene: &Scene) -> Result<Shining, StudyError> {
-        let emissions = self.lights(scene)?.emissions;
-        let Some(around) = scene.outside.surroundings() else { return Ok(Shining { emissions, lit: Vec::new() }) };
-        let reached = |(index, emission): (usize, &Emission)| {
-            let (aperture, facing) = (&scene.apertures[index].aperture, scene.facing(index));
-            if emission.beams.is_empty() {
-                return Lit::default();
-            }
-            (lit(aperture, &facing, around).0, lit_by_rim(aperture, &facing, around))
+        Ok(Shining::of(scene, self.lights(scene)?.emissions))
+    }
+
+    /// The same of the sun alone, before an outside that is dark but for it and holds no boxes.
+    pub(in crate::study) fn sunshine(&self, scene: &Scene) -> Shining {
+        let emission = |index: usize| {
+            let facing = scene.facing(index);
+            let shines = facing.sun_illuminance() > 0.0;
+            if shines { self.emission_under(scene, index, &facing) } else { Emission::dark() }
         };
-        let lit = emissions.iter().enumerate().map(reached).collect();
-        Ok(Shining { emissions, lit })
+        Shining::of(scene, (0..scene.apertures.len()).map(emission).collect())
     }
 
     /// What one aperture makes of the sun alone, frame and dirt counted. Nothing stands before it but a flat skyline.
@@ -101,16 +101,24 @@ fn rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], seen: impl Fn(&B
 }
 
 /// The same where nothing stands before the aperture.
-pub(in crate::study) fn open_rays(
-    eye: &Sensor,
-    aperture: &Aperture,
-    beams: &[BeamLight],
-    facing: &Facing<'_>,
-) -> Vec<Ray> {
+fn open_rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> Vec<Ray> {
     rays(eye, aperture, beams, |beam| beams_through(eye, aperture, &[*beam], facing).beam)
 }
 
 impl Shining {
+    fn of(scene: &Scene, emissions: Vec<Emission>) -> Self {
+        let Some(around) = scene.outside.surroundings() else { return Self { emissions, lit: Vec::new() } };
+        let reached = |(index, emission): (usize, &Emission)| {
+            let (aperture, facing) = (&scene.apertures[index].aperture, scene.facing(index));
+            if emission.beams.is_empty() {
+                return Lit::default();
+            }
+            (lit(aperture, &facing, around).0, lit_by_rim(aperture, &facing, around))
+        };
+        let lit = emissions.iter().enumerate().map(reached).collect();
+        Self { emissions, lit }
+    }
+
     /// At one eye that sees the apertures as `field`.
     pub fn glare(
         &self,

@@ -67,6 +67,15 @@ impl Landed {
         Self { sensors: count, walls, rows }
     }
 
+    /// What the sensors see of the first reflection alone, were it even over each patch. \[lx\]
+    pub fn seen(&self, direct: &[f64]) -> Vec<f64> {
+        let (count, last) = (self.sensors, self.walls[self.sensors]);
+        let mut seen = vec![0.0; count];
+        let rows = self.rows.chunks_exact(last + count).zip(direct);
+        rows.filter(|(_, e)| **e != 0.0).for_each(|(row, &e)| add_scaled(&mut seen, &row[last..], e));
+        seen
+    }
+
     /// Of illuminances of the patches by beams.
     pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> LandedLight {
         let (count, last) = (self.sensors, self.walls[self.sensors]);

@@ -19,9 +19,9 @@ use std::sync::Arc;
 pub(in crate::study) struct ThrownBack {
     sides: Vec<Side>,
     /// Luminances of all mirroring cells, once they have settled, by what falls in through each: (1 − R G)⁻¹ R.
-    settled: Mat<f64>,
-    /// Rows of all mirroring cells' weights: every sensor's, see [`Rows`].
-    seen: Mat<f64>,
+    settled: Mat<f32>,
+    /// Rows of all mirroring cells' weights: every sensor's, see [`Rows`]. Half the digits are 10⁻⁷ of them.
+    seen: Mat<f32>,
     rows: Rows,
 }
 
@@ -74,7 +74,7 @@ impl ThrownBack {
             .iter()
             .map(|to| sides.iter().map(|from| session.falling_in(responses, to, from.index, &from.basis)).collect())
             .collect();
-        let settled = settled(&mirrors, &again);
+        let settled = half(&settled(&mirrors, &again));
         // What the sensors see of the mirrors, by way of the room and straight.
         let by_room: Vec<Arc<ByCells>> =
             sides.iter().map(|side| responses.through_room(session, side.index, &side.basis, true)).collect();
@@ -94,11 +94,12 @@ impl ThrownBack {
         }
         let seen = Mat::from_fn(list.len(), cells.len(), |row, column| {
             let ((s, part), (k, cell)) = (list[row], cells[column]);
-            match part {
+            let weight = match part {
                 0 => by_room[k].value[s][cell] + straight[k][s].cells[cell],
                 1 => straight[k][s].cells[cell],
                 wall => by_room[k].walls[s][wall - 2][cell],
-            }
+            };
+            weight as f32
         });
         Ok(Some(Self { sides, settled, seen, rows }))
     }
@@ -113,19 +114,19 @@ impl ThrownBack {
     ) -> Vec<Added<Vec<f64>>> {
         let falling: Vec<_> = self.sides.iter().map(|side| session.falling_in(responses, side, index, basis)).collect();
         let rows: Vec<&Vec<f64>> = falling.iter().flat_map(|rows| rows.iter()).collect();
-        let all = self.thrown(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell]));
-        self.added(|row| (0..basis.len()).map(|cell| all[(row, cell)]).collect())
+        let all = self.thrown(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell] as f32));
+        self.added(|row| (0..basis.len()).map(|cell| f64::from(all[(row, cell)])).collect())
     }
 
     /// Of what the patches receive before they reflect, sensor by sensor.
     pub fn of(&self, first: &[f64]) -> Vec<Added<f64>> {
         let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(first)).collect();
-        let all = self.thrown(&Mat::from_fn(incident.len(), 1, |i, _| incident[i]));
-        self.added(|row| all[(row, 0)])
+        let all = self.thrown(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32));
+        self.added(|row| f64::from(all[(row, 0)]))
     }
 
     /// From what falls in.
-    fn thrown(&self, incident: &Mat<f64>) -> Mat<f64> {
+    fn thrown(&self, incident: &Mat<f32>) -> Mat<f32> {
         // One thread: the result must not depend on their number.
         faer::set_global_parallelism(faer::Par::Seq);
         &self.seen * (&self.settled * incident)
@@ -139,6 +140,11 @@ impl ThrownBack {
         };
         self.rows.first.iter().zip(&self.rows.walls).map(of).collect()
     }
+}
+
+/// In half the digits.
+fn half(matrix: &Mat<f64>) -> Mat<f32> {
+    Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] as f32)
 }
 
 impl Session {

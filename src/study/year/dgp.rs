@@ -8,13 +8,13 @@ use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
 use super::light::{Light, Question};
 use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
-use crate::compute::glare::{Field, LEAST_ILLUMINANCE, Threshold, add_emitted, discs};
-use crate::compute::lid::{Emission, Facing};
+use crate::compute::glare::{Field, LEAST_ILLUMINANCE, Threshold};
 use crate::compute::sky::{Outside, Sun};
+use crate::study::coefficients::far;
 use crate::study::error::StudyError;
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
-use crate::study::session::glare::{EyeGlare, evaluated, eye_field, open_rays};
+use crate::study::session::glare::{EyeGlare, evaluated, eye_field};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -105,6 +105,8 @@ struct Engine {
     fields: Vec<Field>,
     /// Of every aperture; empty where they are asked step by step.
     tables: Vec<EyeLight>,
+    /// The outside without light; with its skyline.
+    dark: Option<Outside>,
 }
 
 impl Engine {
@@ -117,16 +119,16 @@ impl Engine {
         let apertures: Vec<_> = scene.apertures.iter().map(|one| one.aperture).collect();
         let before = Before::of(&question.file.outside, &scene.room, &apertures)?;
         let fields: Vec<Field> = question.settings.eyes.iter().map(|eye| eye_field(&scene, eye)).collect();
-        let tabled = before.is_empty()
-            && scene.outside.surroundings().is_none()
-            && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
+        let dark = far::dark(&scene.outside);
+        let tabled =
+            before.is_empty() && dark.is_some() && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
         let year = (question.steps.number(), question.steps.list.len());
         let table = |index: usize| {
             let btdf = scene.apertures[index].system.dataset.transmission()?;
             Some(EyeLight::new(question.session, &scene, index, btdf, &fields, year))
         };
         let tables = if tabled { (0..scene.apertures.len()).filter_map(table).collect() } else { Vec::new() };
-        Ok(Self { scene, before, fields, tables })
+        Ok(Self { scene, before, fields, tables, dark })
     }
 
     /// At every eye in an hour of the year, given the illuminance there.
@@ -143,6 +145,7 @@ impl Engine {
         Ok(eyes.iter().zip(&self.fields).zip(vertical.iter().copied()).map(of).collect())
     }
 
+    /// The outside's light from tables, the sun's asked anew.
     fn by_tables(
         &self,
         question: &Question<'_>,
@@ -150,22 +153,20 @@ impl Engine {
         sun: Option<&Sun>,
         vertical: &[Estimate],
     ) -> Vec<EyeGlare> {
-        let (scene, session) = (&self.scene, question.session);
         let cells: Vec<Vec<f64>> = self.tables.iter().map(|table| table.cells(hour, outside)).collect();
-        let sunlight: Vec<Option<Emission>> =
-            (0..self.tables.len()).map(|index| session.sunlight_alone(scene, index, sun?)).collect();
+        let sunlit = self.dark.clone().zip(sun).map(|(outside, &sun)| {
+            let scene = Scene { outside, sun: Some(sun), ..self.scene.clone() };
+            (question.session.sunshine(&scene), scene)
+        });
         let of = |number: usize| {
             let (eye, field) = (&question.settings.eyes[number], &self.fields[number]);
-            let mut luminance = vec![0.0; field.patches.len()];
-            let mut rays = Vec::new();
+            let dark = || (vec![0.0; field.patches.len()], Vec::new());
+            let (mut luminance, discs) =
+                sunlit.as_ref().map_or_else(dark, |(sunshine, scene)| sunshine.seen(scene, field, eye));
             for (index, table) in self.tables.iter().enumerate() {
                 table.add(number, &cells[index], outside, &mut luminance[field.of[index].clone()]);
-                let Some(emission) = &sunlight[index] else { continue };
-                let facing = Facing { outside, sun, ..scene.facing(index) };
-                add_emitted(field, index, emission, &facing, &mut luminance);
-                rays.extend(open_rays(eye, &scene.apertures[index].aperture, &emission.beams, &facing));
             }
-            evaluated(field, eye, &luminance, discs(&rays), vertical[number], Threshold::default())
+            evaluated(field, eye, &luminance, discs, vertical[number], Threshold::default())
         };
         (0..self.fields.len()).map(of).collect()
     }

@@ -15,7 +15,7 @@ use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows};
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::sky::Outside;
 use crate::study::coefficients::sky_patches::SkyPatches;
-use crate::study::coefficients::{SPACING, incident_patches};
+use crate::study::coefficients::{SPACING, far, incident_patches};
 use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
@@ -143,7 +143,7 @@ impl EyeLight {
             light
         };
         let mut light = self.year.as_ref().map_or_else(find, |year| year.hour(hour, find).collect());
-        light.extend([outside.ground_luminance(), outside.skyline_luminance()]);
+        light.extend([outside.ground_luminance(), far::luminance(outside)]);
         self.rows.chunks_exact(self.width).map(|row| self.clear * dot(row, &light)).collect()
     }
 
