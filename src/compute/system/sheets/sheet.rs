@@ -6,7 +6,7 @@
 //! direction cosines, so that the kernel is symmetric in both directions; d is found such that the total is the τ(θ_e)
 //! asked for (Sinkhorn's iteration in its symmetric form).
 
-use super::lobe::{Fineness, Lobe};
+use super::lobe::Lobe;
 use crate::compute::basis::{Cell, Ring, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, CellMatrix, Scattered, matrix_on};
 use crate::compute::direction::{Dir, Facade};
@@ -163,8 +163,7 @@ impl Spread {
         };
         add(ring_means(emergent, &self.diffuse, &gauss_legendre(NARROW)), diffuse.max(0.0));
         if let Some(lobe) = &self.lobe {
-            let from = [lobe.point(name)];
-            let shape = emergent.cells().map(|to| lobe.mean(&from, &to, Fineness::DIRECTION)).collect();
+            let shape = emergent.cells().map(|to| lobe.mean_about(name, &to)).collect();
             add(shape, lobe.share().at(name.theta()));
         }
         values
@@ -200,8 +199,8 @@ impl Spread {
                     if progress.cancelled() {
                         return Err(Cancelled);
                     }
-                    let from = lobe.points(from, Fineness::CELLS);
-                    Ok(cells.iter().map(|to| lobe.mean(&from, to, Fineness::CELLS)).collect())
+                    let from = lobe.points(from);
+                    Ok(cells.iter().map(|to| lobe.mean(&from, to)).collect())
                 })
                 .collect::<Result<_, Cancelled>>()?;
             // Totals as asked. On the same cells by factors of both directions, which keep reciprocity.
