@@ -20,6 +20,7 @@ mod surfaces;
 mod targets;
 mod through_room;
 mod thrown_back;
+pub(super) mod unit_beams;
 mod weights;
 
 use super::cache::{Cache, Key, bits};

@@ -11,7 +11,7 @@
 //! the size, so a third of the difference is added, and the difference tells what remains.
 
 use super::exchange::Exchange;
-use super::mesh::{Mesh, Nested};
+use super::mesh::{Mesh, Nested, Patch};
 use crate::compute::dot::dot;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
@@ -60,14 +60,21 @@ pub struct NothingAbsorbs {
     pub mean: f64,
 }
 
+/// Mean of what the patches reflect, each as it is told.
+///
+/// # Errors
+/// If that leaves the balance without a meaningful solution.
+pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> Result<f64, NothingAbsorbs> {
+    let total: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
+    let absorbed: f64 = mesh.patches.iter().map(|patch| patch.area * (1.0 - reflectance(patch))).sum();
+    let mean = 1.0 - absorbed / total;
+    if absorbed < (1.0 - MOST_REFLECTANCE) * (1.0 - 1e-9) * total { Err(NothingAbsorbs { mean }) } else { Ok(mean) }
+}
+
 impl Radiosity {
     /// Computes and factors. Memory: a dense matrix of coarse by fine patches.
     pub fn new(nested: Nested) -> Result<Self, NothingAbsorbs> {
-        let total: f64 = nested.fine.patches.iter().map(|patch| patch.area).sum();
-        let absorbed: f64 = nested.fine.patches.iter().map(|patch| patch.area * (1.0 - patch.reflectance)).sum();
-        if absorbed < (1.0 - MOST_REFLECTANCE) * (1.0 - 1e-9) * total {
-            return Err(NothingAbsorbs { mean: 1.0 - absorbed / total });
-        }
+        let mean = enough_is_absorbed(&nested.fine, |patch| patch.reflectance)?;
         let exchange = Exchange::new(&nested.coarse, &nested.fine);
         let coarser = exchange.gathered(
             Some(&nested.coarser_of_coarse),
@@ -75,7 +82,7 @@ impl Radiosity {
             &nested.coarse_of_fine,
             nested.coarse.patches.len(),
         );
-        let singular = NothingAbsorbs { mean: 1.0 - absorbed / total };
+        let singular = NothingAbsorbs { mean };
         let coarser = MeshBalance::new(coarser, &nested.coarser, &nested.coarser_of_coarse).ok_or(singular)?;
         let level = MeshBalance::new(exchange, &nested.coarse, &nested.coarse_of_fine).ok_or(singular)?;
         Ok(Self { nested, level, coarser })

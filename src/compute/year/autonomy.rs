@@ -9,6 +9,7 @@
 //!   unreflected, in more than 250 h of the occupied ones.
 
 use super::hours::{Light, Step, occupied, share};
+use crate::compute::dot::wide;
 
 /// By place.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -39,34 +40,44 @@ impl Autonomy {
         let occupied = occupied(steps);
         let mut all = vec![0.0; light.places()];
         for k in 0..steps.len() {
-            all.iter_mut().zip(light.row(k)).for_each(|(sum, e)| *sum += e);
+            add(&mut all, light.row(k), |e| e);
         }
-        // Row by row, as the light lies in memory: DA300, DA500, cDA300, then the four of UDI.
-        let mut sums = vec![[0.0; 7]; light.places()];
+        // Row by row, as the light lies in memory: how often each bound is reached; all shares come of these.
+        let [mut at_least_100, mut at_least_300, mut at_least_500, mut above_3000, mut part_of_300] =
+            [0; 5].map(|_: i32| vec![0.0; light.places()]);
         for &k in &occupied {
-            for (sums, &e) in sums.iter_mut().zip(light.row(k)) {
-                let when = |is: bool| f64::from(u8::from(is));
-                let udi = [e < 100.0, (100.0..300.0).contains(&e), (300.0..=3000.0).contains(&e), e > 3000.0].map(when);
-                let own = [when(e >= 300.0), when(e >= 500.0), (e / 300.0).min(1.0), udi[0], udi[1], udi[2], udi[3]];
-                sums.iter_mut().zip(own).for_each(|(sum, one)| *sum += one);
-            }
+            let row = light.row(k);
+            add(&mut at_least_100, row, |e| one_if(e >= 100.0));
+            add(&mut at_least_300, row, |e| one_if(e >= 300.0));
+            add(&mut at_least_500, row, |e| one_if(e >= 500.0));
+            add(&mut above_3000, row, |e| one_if(e > 3000.0));
+            add(&mut part_of_300, row, |e| (e / 300.0).min(1.0));
         }
         let mean = |sum: f64, count: usize| sum / count.max(1) as f64;
-        let [da_300, da_500, cda_300, udi_n, udi_s, udi_a, udi_x] = std::array::from_fn(|figure| {
-            sums.iter().map(|sums| mean(sums[figure], occupied.len())).collect::<Vec<_>>()
-        });
+        let shares = |sums: &[f64]| sums.iter().map(|sum| mean(*sum, occupied.len())).collect::<Vec<_>>();
+        let between = |from: &[f64], to: &[f64]| shares(&from.iter().zip(to).map(|(a, b)| a - b).collect::<Vec<_>>());
+        let da_300 = shares(&at_least_300);
         Self {
             mean: all.into_iter().map(|sum| mean(sum, steps.len())).collect(),
             sda_300_50: share(da_300.iter().filter(|da| **da >= 0.5).count(), da_300.len()),
             da_300,
-            da_500,
-            cda_300,
-            udi_n,
-            udi_s,
-            udi_a,
-            udi_x,
+            da_500: shares(&at_least_500),
+            cda_300: shares(&part_of_300),
+            udi_n: between(&vec![occupied.len() as f64; light.places()], &at_least_100),
+            udi_s: between(&at_least_100, &at_least_300),
+            udi_a: between(&at_least_300, &above_3000),
+            udi_x: shares(&above_3000),
         }
     }
+}
+
+/// Adds something of every place.
+fn add(sums: &mut [f64], row: &[f64], of: impl Fn(f64) -> f64) {
+    wide(|| sums.iter_mut().zip(row).for_each(|(sum, e)| *sum += of(*e)));
+}
+
+fn one_if(yes: bool) -> f64 {
+    f64::from(u8::from(yes))
 }
 
 /// Sun straight on the places.

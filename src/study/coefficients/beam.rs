@@ -12,6 +12,8 @@ use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
 use crate::study::session::landed::Landed;
 use crate::study::session::responses::Responses;
+use crate::study::session::unit_beams::{Together, UnitBeam};
+use std::sync::Arc;
 
 /// Beams that are seen as sharp as they are, the strongest of a fan.
 const OUTLINED: usize = 4;
@@ -32,6 +34,7 @@ impl Coefficients {
         let sensors = self.scene.sensors.len();
         let mut sums = vec![Estimate::default(); sensors];
         let mut first = FirstLight::dark(0);
+        let mut units: Vec<(Arc<UnitBeam>, f64)> = Vec::new();
         for index in 0..self.parts.len() {
             let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
             if facing.sun_illuminance() <= 0.0 {
@@ -46,45 +49,67 @@ impl Coefficients {
                 let seen = beams_through(sensor, aperture, &beams, &facing);
                 *sum += seen.all + Estimate::new(0.0, seen.data_error);
             }
-            if self.room.is_some() {
-                beams.iter().for_each(|beam| first.add_beam(aperture, beam, &facing));
+            let (Some(room), Some(landed)) = (&self.room, &self.landed) else { continue };
+            for beam in &beams {
+                // Others may ask for the suns of a year.
+                let shared = || landed.units.of(&self.scene, index, beam, &facing, (&room.radiosity, landed));
+                match (self.suns > 0).then(shared).flatten() {
+                    Some(unit) => units.push((unit, beam.exitance * aperture.area())),
+                    None => first.add_beam(aperture, beam, &facing),
+                }
             }
         }
         if let (Some(room), Some(landed)) = (&self.room, &self.landed) {
-            self.add_landed(room, landed, first.beams, &mut sums);
+            self.add_landed(room, landed, (&units, first.beams), &mut sums);
         }
         let whole = |e: Estimate| Estimate::new(e.value.max(0.0), e.error + 1e-6 * e.value.abs());
         sums.into_iter().map(whole).collect()
     }
 
-    /// Adds what the room makes of beams.
-    fn add_landed(&self, room: &Responses, landed: &Landed, mut beams: Vec<Beam>, sums: &mut [Estimate]) {
-        if beams.is_empty() {
+    /// Adds what the room makes of beams: of those that are known by 1 lm, each with its flux \[lm\], and of others.
+    fn add_landed(
+        &self,
+        room: &Responses,
+        landed: &Landed,
+        (units, mut beams): (&[(Arc<UnitBeam>, f64)], Vec<Beam>),
+        sums: &mut [Estimate],
+    ) {
+        if units.is_empty() && beams.is_empty() {
             return;
         }
         let mesh = &room.radiosity.nested.fine;
-        let direct = |beams: &[Beam]| {
-            let mut direct = vec![0.0; mesh.patches.len()];
-            merged(beams).iter().for_each(|beam| beam.add_to(mesh, &mut direct));
-            direct
-        };
-        let (later, mut seen) = room.of_landed(landed, &direct(&beams));
-        // The strongest are seen as the outlines that they are; what patches tell of these tells how well they tell of
-        // the others.
-        beams.sort_by(|a, b| b.flux.total_cmp(&a.flux));
-        let few = &beams[..beams.len().min(OUTLINED)];
-        let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
-        let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
-        let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
-        let by_patch = if rest > 0.0 { landed.seen(&direct(few)) } else { std::mem::take(&mut seen) };
-        for (s, (sum, sensor)) in sums.iter_mut().zip(&self.scene.sensors).enumerate() {
-            let sharp: f64 =
-                outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum();
-            let others = seen.get(s).map_or(0.0, |all| all - by_patch[s]);
-            let placed = if rest > 0.0 { share * (sharp - by_patch[s]).abs() } else { 0.0 };
-            let reflected = later[s];
+        let mut all = Together::dark(&room.radiosity, landed);
+        units.iter().for_each(|(unit, flux)| all.add(unit, *flux));
+        // How far the others' light at the sensors may be off for where in a patch they lie.
+        let mut placed = vec![0.0; sums.len()];
+        if !beams.is_empty() {
+            let direct = |beams: &[Beam]| {
+                let mut direct = vec![0.0; mesh.patches.len()];
+                merged(beams).iter().for_each(|beam| beam.add_to(mesh, &mut direct));
+                direct
+            };
+            let on_patches = direct(&beams);
+            let light = landed.of(&room.radiosity, &on_patches);
+            all.add_others(&light, &on_patches);
+            // The strongest are seen as the outlines that they are; what patches tell of these tells how well they tell of
+            // the others.
+            beams.sort_by(|a, b| b.flux.total_cmp(&a.flux));
+            let few = &beams[..beams.len().min(OUTLINED)];
+            let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
+            let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
+            let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
+            let by_patch = if rest > 0.0 { landed.seen(&direct(few)) } else { light.seen.clone() };
+            for (s, sensor) in self.scene.sensors.iter().enumerate() {
+                let sharp: f64 =
+                    outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum();
+                all.sharp[s] += sharp + light.seen[s] - by_patch[s];
+                placed[s] = if rest > 0.0 { share * (sharp - by_patch[s]).abs() } else { 0.0 };
+            }
+        }
+        let later = room.of_landed(&all.light, &all.direct);
+        for (((sum, sharp), reflected), placed) in sums.iter_mut().zip(all.sharp).zip(later).zip(placed) {
             let error = (DIFFERENCE_ALONE * reflected.difference).hypot(self.rest() * reflected.value).hypot(placed);
-            *sum += Estimate::new(reflected.value + sharp + others, error + UNEVEN * reflected.thrown_back);
+            *sum += Estimate::new(reflected.value + sharp, error + UNEVEN * reflected.thrown_back);
         }
     }
 

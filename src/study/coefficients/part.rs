@@ -11,6 +11,7 @@ use super::views::{Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::Dir;
+use crate::compute::dot::add_scaled;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::sky::{Frame, Outside, incident_illuminances_within};
@@ -38,8 +39,8 @@ pub(super) struct AperturePart {
     year: Option<Arc<SkyYear>>,
     /// Columns for every patch of the sky's samples, one for the ground and one for the skyline. Rows of all sensors for all
     /// diffuse light but what is seen straight through, then for what of it is interreflected, the doubt of that, and
-    /// the doubt of the interpolation where there is any: what [`Sums`] holds.
-    tables: Mat<f64>,
+    /// the doubt of the interpolation where there is any: what [`Sums`] holds. Half the digits are 10⁻⁶ of the sums.
+    tables: Mat<f32>,
     /// What the system does with light.
     pub transport: Transport,
     /// The regular part.
@@ -151,17 +152,23 @@ impl AperturePart {
         let width = open.len() + 2;
         // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
         let doubts = columns.iter().any(|column| !column.doubt.is_empty());
-        let mut tables = Mat::zeros(sensors * if doubts { 4 } else { 3 }, width);
-        for row in 0..tables.nrows() {
-            let of = |column: &transport::Column| {
-                if row < 3 * sensors { column.light[row] } else { column.doubt[row - 3 * sensors] }
-            };
-            for (to, &p) in open.iter().enumerate() {
-                tables[(row, to)] = of(&columns[p]);
+        let rows = sensors * if doubts { 4 } else { 3 };
+        let mut tables = Mat::zeros(rows, width);
+        let mut put = |to: usize, light: &mut dyn Iterator<Item = f64>| {
+            tables.col_as_slice_mut(to).iter_mut().zip(light).for_each(|(to, e): (&mut f32, f64)| *to = e as f32);
+        };
+        for (to, &p) in open.iter().enumerate() {
+            put(to, &mut columns[p].light.iter().chain(&columns[p].doubt).copied());
+        }
+        // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
+        for (to, share) in [(width - 2, &sky.ground), (width - 1, &sky.skyline)] {
+            let mut sum = vec![0.0; rows];
+            for (column, share) in columns.iter().zip(share) {
+                let (light, doubt) = sum.split_at_mut(3 * sensors);
+                add_scaled(light, &column.light, *share);
+                add_scaled(doubt, &column.doubt, *share);
             }
-            // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
-            tables[(row, width - 2)] = columns.iter().zip(&sky.ground).map(|(column, e)| of(column) * e).sum();
-            tables[(row, width - 1)] = columns.iter().zip(&sky.skyline).map(|(column, e)| of(column) * e).sum();
+            put(to, &mut sum.into_iter());
         }
         // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
         let seen = match &btdf.regular {
@@ -235,9 +242,11 @@ impl AperturePart {
 
     /// Adds the diffuse light to what every sensor has.
     pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
-        let light = self.light(outside, way);
-        let (out_all, table) = (ColMut::from_slice_mut(out), self.tables.subrows(0, scene.sensors.len()));
-        matmul(out_all, Accum::Add, table, ColRef::from_slice(&light), 1.0, Par::Seq);
+        let light: Vec<f32> = self.light(outside, way).into_iter().map(|e| e as f32).collect();
+        let mut all = vec![0.0_f32; scene.sensors.len()];
+        let table = self.tables.subrows(0, all.len());
+        matmul(ColMut::from_slice_mut(&mut all), Accum::Replace, table, ColRef::from_slice(&light), 1.0, Par::Seq);
+        out.iter_mut().zip(all).for_each(|(sum, e)| *sum += f64::from(e));
         self.add_seen(scene, index, outside, way, out);
     }
 
@@ -274,14 +283,14 @@ impl AperturePart {
             // As many columns whatever is asked, so that no sky's sums hang on the others'.
             let mut light = Mat::zeros(self.tables.ncols(), TOGETHER);
             for (column, (outside, way)) in light.col_iter_mut().zip(skies) {
-                column.iter_mut().zip(self.light(outside, *way)).for_each(|(to, e)| *to = e);
+                column.iter_mut().zip(self.light(outside, *way)).for_each(|(to, e)| *to = e as f32);
             }
-            let mut all = Mat::zeros(self.tables.nrows(), TOGETHER);
+            let mut all: Mat<f32> = Mat::zeros(self.tables.nrows(), TOGETHER);
             matmul(all.as_mut(), Accum::Replace, &self.tables, &light, 1.0, Par::Seq);
             for ((found, (outside, way)), sums) in all.col_iter().zip(skies).zip(sums) {
                 let parts = [&mut sums.total, &mut sums.reflected, &mut sums.doubtful, &mut sums.interpolated];
                 for (sum, e) in parts.into_iter().flatten().zip(found.iter()) {
-                    *sum += e;
+                    *sum += f64::from(*e);
                 }
                 self.add_seen(scene, index, outside, *way, &mut sums.total);
             }

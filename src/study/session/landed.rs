@@ -1,6 +1,8 @@
 //! Beams by the patches that they light. Sensors see the outlines of what beams light in closed form; what comes later,
-//! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches.
+//! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches. What many
+//! systems send on in the same direction is found once, see [`super::unit_beams`].
 
+use super::unit_beams::UnitBeams;
 use super::weights::{Response, by_walls};
 use crate::compute::dot::{add_scaled, wide};
 use crate::compute::room::gather::Reconstruction;
@@ -14,6 +16,8 @@ pub(in crate::study) struct Landed {
     /// Patch by patch: values of the light after two reflections or more, its differences of the two densities by wall,
     /// and the light after one.
     rows: Vec<f32>,
+    /// Beams whose light is kept.
+    pub units: UnitBeams,
 }
 
 /// The light of one or more beams.
@@ -24,7 +28,8 @@ pub(in crate::study) struct LandedLight {
     pub blur: Vec<f64>,
     /// Once reflected, were it even over each patch.
     pub seen: Vec<f64>,
-    columns: Vec<f32>,
+    /// What the two densities differ by, sensor by sensor, wall by wall.
+    pub(super) columns: Vec<f32>,
     walls: Vec<usize>,
 }
 
@@ -64,7 +69,14 @@ impl Landed {
                 put(walls[count] + s, k, *seen);
             }
         }
-        Self { sensors: count, walls, rows }
+        Self { sensors: count, walls, rows, units: UnitBeams::default() }
+    }
+
+    /// No light yet.
+    pub fn dark(&self) -> LandedLight {
+        let (count, walls) = (self.sensors, self.walls.clone());
+        let dark = || vec![0.0; count];
+        LandedLight { values: dark(), blur: dark(), seen: dark(), columns: vec![0.0; walls[count] - count], walls }
     }
 
     /// What the sensors see of the first reflection alone, were it even over each patch. \[lx\]

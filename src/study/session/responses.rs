@@ -3,7 +3,7 @@
 //! comes in by cells, see [`super::thrown_back`].
 
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};
-use super::landed::Landed;
+use super::landed::{Landed, LandedLight};
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
@@ -13,12 +13,14 @@ use crate::compute::basis::RingBasis;
 use crate::compute::dot::dot;
 use crate::compute::estimate::Progress;
 use crate::compute::room::gather::Reconstruction;
+use crate::compute::room::mesh::Patch;
 use crate::compute::room::patch_weights::PatchWeights;
-use crate::compute::room::radiosity::Radiosity;
+use crate::compute::room::radiosity::{Radiosity, enough_is_absorbed};
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
-use crate::study::scene::Scene;
+use crate::study::scene::{Scene, SceneAperture};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -59,7 +61,22 @@ impl Session {
         count: usize,
         progress: &dyn Progress,
     ) -> Result<Responses, StudyError> {
+        // Apertures that reflect without direction are followed like those that reflect by cells, as one cell: the room is
+        // black to all of them, and the same whatever the system. Not where light may fall straight from one on another.
+        let surface = |one: &SceneAperture| one.aperture.surface;
+        let black = scene.apertures.windows(2).all(|pair| surface(&pair[0]) == surface(&pair[1]));
+        let lambertian: Vec<f64> =
+            scene.apertures.iter().map(|one| if black { one.diffuse_reflectance() } else { 0.0 }).collect();
+        let own = scene;
+        let mut scene = Cow::Borrowed(own);
+        if lambertian.iter().any(|rho| *rho > 0.0) {
+            scene.to_mut().apertures.iter_mut().for_each(|one| one.directional = true);
+        }
+        let scene = &*scene;
         let radiosity = self.radiosity(scene, count)?;
+        let reflectance =
+            |patch: &Patch| patch.aperture.map_or(patch.reflectance, |index| patch.reflectance.max(lambertian[index]));
+        enough_is_absorbed(&radiosity.nested.fine, reflectance)?;
         check(progress)?;
         // A value and what it may be off, by walls, for every patch and sensor.
         let each = (1 + radiosity.nested.fine.walls.len()) * radiosity.nested.fine.patches.len() * size_of::<f64>();
@@ -74,7 +91,7 @@ impl Session {
         let geometry = scene.apertures.iter().map(|a| a.aperture).collect();
         let mesh_key = mesh_key(scene, count);
         let room = ThroughRoom { radiosity: Arc::clone(&radiosity), sensors, key, mesh_key, geometry, sensor_key };
-        let mirrors = ThrownBack::new(self, scene, &room, progress)?;
+        let mirrors = ThrownBack::new(self, own, &lambertian, &room, progress)?;
         Ok(Responses { radiosity, room, mirrors, count })
     }
 
@@ -166,10 +183,9 @@ impl Responses {
         self.room.sensors.iter().enumerate().map(one).collect()
     }
 
-    /// What every sensor gets of the light of beams on the patches after they were reflected twice or by a mirror; and of
-    /// the first reflection, were it even over each patch. \[lx\]
-    pub fn of_landed(&self, landed: &Landed, direct: &[f64]) -> (Vec<Reflected>, Vec<f64>) {
-        let sums = landed.of(&self.radiosity, direct);
+    /// What every sensor gets of the light of beams after they were reflected twice or by a mirror. `direct`: by themselves on
+    /// the patches. \[lx\]
+    pub fn of_landed(&self, sums: &LandedLight, direct: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(direct));
         let one = |s: usize| {
             let added = mirrored.as_ref().map(|all| &all[s]);
@@ -179,6 +195,6 @@ impl Responses {
             let difference = (squares + sums.blur[s].powi(2)).sqrt();
             Reflected { value, difference, thrown_back: added.map_or(0.0, |added| added.straight) }
         };
-        ((0..self.room.sensors.len()).map(one).collect(), sums.seen)
+        (0..self.room.sensors.len()).map(one).collect()
     }
 }

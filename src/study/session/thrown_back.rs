@@ -1,18 +1,20 @@
 //! What apertures that reflect by direction add to the sensors' light, V = V₀ + V₀b (1 − R G)⁻¹ R Gₜ: all but the
-//! system's own reflection R belongs to the room and is kept, so that another system or state costs one small matrix.
+//! system's own reflection R belongs to the room and is kept, so that another system or state costs one small matrix. Those
+//! that reflect without direction are a single cell.
 
-use super::interreflected::mirrors;
 use super::through_room::ThroughRoom;
 use super::weights::ByCells;
 use super::{Session, basis_key, check};
 use crate::compute::basis::RingBasis;
+use crate::compute::btdf::CellMatrix;
 use crate::compute::estimate::Progress;
-use crate::compute::room::back_reflection::{RoomSide, settled};
+use crate::compute::room::back_reflection::{BackReflection, RoomSide, settled};
 use crate::compute::room::direct::Reception;
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use faer::Mat;
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// All mirroring apertures of a scene.
@@ -49,14 +51,24 @@ pub(super) struct Added<T> {
 }
 
 impl ThrownBack {
-    /// `None` where no aperture reflects by direction.
+    /// `lambertian`: what every aperture reflects without direction. `None` where none throws anything back.
     pub fn new(
         session: &Session,
         scene: &Scene,
+        lambertian: &[f64],
         responses: &ThroughRoom,
         progress: &dyn Progress,
     ) -> Result<Option<Self>, StudyError> {
-        let mirrors = mirrors(scene, |index, basis| responses.weights(session, index, basis));
+        let all = RingBasis::hemisphere();
+        let even = |rho: &f64| (*rho > 0.0).then(|| CellMatrix::new(all.clone(), all.clone(), vec![rho / PI]));
+        let even: Vec<Option<CellMatrix>> = lambertian.iter().map(|rho| even(rho).flatten()).collect();
+        let mut mirrors = Vec::new();
+        for (index, (one, even)) in scene.apertures.iter().zip(&even).enumerate() {
+            if let Some(matrix) = one.back_reflection().or(even.as_ref()) {
+                let weights = responses.weights(session, index, &Arc::new(matrix.incident().clone()));
+                mirrors.push((index, BackReflection::new(matrix, weights)));
+            }
+        }
         if mirrors.is_empty() {
             return Ok(None);
         }

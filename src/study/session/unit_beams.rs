@@ -1,0 +1,138 @@
+//! What the room makes of beams whose direction is that of the sun or its mirror image by planes along the aperture's axes:
+//! panes, holes and what passes between slats send it straight on, cut panels turn it up. Every system meets the same suns,
+//! so that such a beam is found once for all of them.
+
+use super::landed::{Landed, LandedLight};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::dot::wide;
+use crate::compute::lid::{BeamLight, Facing};
+use crate::compute::room::beam::Beam;
+use crate::compute::room::radiosity::Radiosity;
+use crate::study::scene::Scene;
+use glam::DVec3;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Beams as near to such a direction as this are taken as it: a millimetre on the floor of a room. Where the disc itself is
+/// seen, their own direction counts. \[rad\]
+const SAME: f64 = 3e-4;
+/// Numbers that are kept at most: of 3,400 suns at 96 sensors all are.
+const MOST_NUMBERS: usize = 4_000_000;
+/// Mirror images by the planes along the axes.
+const IMAGES: [DVec3; 4] =
+    [DVec3::ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(-1.0, -1.0, 1.0)];
+
+/// The aperture that a beam comes through, and its direction.
+type Key = (usize, [u64; 3]);
+
+/// Light of such beams, as far as it was asked for.
+#[derive(Default)]
+pub(in crate::study) struct UnitBeams(Mutex<HashMap<Key, Arc<UnitBeam>>>);
+
+/// A beam of 1 lm.
+pub(in crate::study) struct UnitBeam {
+    /// Sensor by sensor: twice reflected or more, how far that hangs on where in a patch the beam lies, once reflected as
+    /// sharp as it is; then what the two densities differ by. \[lx/lm\]
+    numbers: Vec<f32>,
+    /// Patches that it lights, and their illuminance. \[lx/lm\]
+    patches: Vec<(u32, f32)>,
+}
+
+/// Beams together, once the room has reflected them.
+pub(in crate::study) struct Together {
+    /// Twice or more.
+    pub light: LandedLight,
+    /// Once, as sharp as they are, sensor by sensor. \[lx\]
+    pub sharp: Vec<f64>,
+    /// Illuminance of the patches. \[lx\]
+    pub direct: Vec<f64>,
+}
+
+/// The direction that stands for a beam's, and its name; `None` where it is a direction of its own.
+fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
+    let to = beam.entering(facing)?.vector();
+    let sun = if beam.straight { facing.sun_entering()? } else { facing.sun_direction()? }.vector();
+    let image = |image: &DVec3| Some(Dir::from_unit(sun * *image)).filter(|one| one.vector().distance(to) <= SAME);
+    IMAGES.iter().find_map(image)
+}
+
+impl UnitBeams {
+    /// What a beam through an aperture of the scene makes, times its flux; `None` where it has to be found by itself.
+    pub fn of(
+        &self,
+        scene: &Scene,
+        index: usize,
+        beam: &BeamLight,
+        facing: &Facing<'_>,
+        (radiosity, landed): (&Radiosity, &Landed),
+    ) -> Option<Arc<UnitBeam>> {
+        let to = standing_for(beam, facing)?;
+        let key = (index, to.vector().to_array().map(f64::to_bits));
+        // What is kept is whole even if another thread has failed while it held the lock.
+        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(unit) = known().get(&key) {
+            return Some(Arc::clone(unit));
+        }
+        let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, landed));
+        let mut known = known();
+        if known.len() * unit.numbers.len() < MOST_NUMBERS {
+            known.insert(key, Arc::clone(&unit));
+        }
+        Some(unit)
+    }
+}
+
+impl UnitBeam {
+    fn new(scene: &Scene, index: usize, to: Dir<Facade>, radiosity: &Radiosity, landed: &Landed) -> Self {
+        let aperture = &scene.apertures[index].aperture;
+        let mesh = &radiosity.nested.fine;
+        let from = aperture.surface.room_dir(to).vector();
+        let beam = Beam { opening: aperture.corners().to_vec(), from, flux: 1.0 };
+        let mut direct = vec![0.0; mesh.patches.len()];
+        beam.add_to(mesh, &mut direct);
+        let light = landed.of(radiosity, &direct);
+        let outlines = beam.outlines(mesh);
+        let sharp = scene.sensors.iter().map(|sensor| {
+            outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum::<f64>()
+        });
+        let numbers = light.values.iter().copied().chain(light.blur.iter().copied()).chain(sharp).map(|e| e as f32);
+        let numbers = numbers.chain(light.columns.iter().copied()).collect();
+        let lit = direct.iter().enumerate().filter(|(_, e)| **e != 0.0);
+        let patches = lit.map(|(k, e)| (u32::try_from(k).unwrap_or(u32::MAX), *e as f32)).collect();
+        Self { numbers, patches }
+    }
+}
+
+impl Together {
+    /// Nothing yet.
+    pub fn dark(radiosity: &Radiosity, landed: &Landed) -> Self {
+        let light = landed.dark();
+        let sharp = vec![0.0; light.values.len()];
+        Self { light, sharp, direct: vec![0.0; radiosity.nested.fine.patches.len()] }
+    }
+
+    /// Adds a beam of some flux. \[lm\]
+    pub fn add(&mut self, unit: &UnitBeam, flux: f64) {
+        let add = |sums: &mut [f64], numbers: &[f32]| {
+            wide(|| sums.iter_mut().zip(numbers).for_each(|(sum, e)| *sum += flux * f64::from(*e)));
+        };
+        let count = self.sharp.len();
+        add(&mut self.light.values, &unit.numbers[..count]);
+        add(&mut self.light.blur, &unit.numbers[count..2 * count]);
+        add(&mut self.sharp, &unit.numbers[2 * count..3 * count]);
+        let (columns, flux) = (&mut self.light.columns, flux as f32);
+        wide(|| columns.iter_mut().zip(&unit.numbers[3 * count..]).for_each(|(sum, e)| *sum += flux * e));
+        for &(k, e) in &unit.patches {
+            self.direct[k as usize] += f64::from(flux * e);
+        }
+    }
+
+    /// Adds beams that were found by themselves: their light and what it lights directly.
+    pub fn add_others(&mut self, light: &LandedLight, direct: &[f64]) {
+        let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, e)| *sum += e);
+        add(&mut self.light.values, &light.values);
+        add(&mut self.light.blur, &light.blur);
+        add(&mut self.direct, direct);
+        self.light.columns.iter_mut().zip(&light.columns).for_each(|(sum, e)| *sum += e);
+    }
+}
