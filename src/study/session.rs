@@ -24,6 +24,7 @@ pub(super) mod unit_beams;
 mod weights;
 
 use super::cache::{Cache, Key, bits};
+use super::coefficients::seen_cells::SeenCells;
 use super::coefficients::sky_patches::SkyPatches;
 use super::error::StudyError;
 use super::plan::Plan;
@@ -70,6 +71,7 @@ pub struct Session {
     rooms: Cache<Radiosity>,
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
+    seen_cells: Cache<SeenCells>,
     patches: Cache<PatchWeights>,
     responses: Cache<Vec<Response>>,
     landed: Cache<Landed>,
@@ -113,6 +115,7 @@ impl Session {
             rooms: Cache::new(9 / part),
             gather: Cache::new(9 / part),
             reception: Cache::new(18 / part),
+            seen_cells: Cache::new(6),
             patches: Cache::new(24 / part),
             responses: Cache::new(6 / part),
             landed: Cache::new(6 / part),
@@ -271,6 +274,21 @@ impl Session {
                     Ok(Reception::new(sensor, aperture, basis))
                 })
                 .collect()
+        })
+    }
+
+    /// The same cell by cell.
+    pub(super) fn seen_cells(
+        &self,
+        scene: &Scene,
+        index: usize,
+        basis: &RingBasis,
+        progress: &dyn Progress,
+    ) -> Result<Arc<SeenCells>, StudyError> {
+        self.seen_cells.get(reception_key(scene, index, Some(basis)), || {
+            let receptions = self.receptions(scene, index, Some(basis), progress)?;
+            let by_cell = |reception: &Reception| reception.cells.clone().into_iter().enumerate();
+            Ok(SeenCells::new(basis.len(), receptions.iter().map(by_cell)))
         })
     }
 

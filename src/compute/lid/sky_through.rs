@@ -154,6 +154,11 @@ impl SkyThrough {
 
     /// On other cells.
     fn on(specimen: &dyn Specimen, cells: Arc<RingBasis>) -> Self {
+        // What is made once for all directions is made before many threads ask side by side, and would wait for it.
+        let ahead = name_of(false, 0.0, 0.0);
+        if specimen.profile_light(ahead, Side::Front).is_none() {
+            specimen.scattered_through(ahead, Side::Front, &cells);
+        }
         let list: Vec<_> = cells.cells().collect();
         let lattice = StraightLattice::new(specimen);
         let share = |name: Dir<Facade>| {
@@ -307,7 +312,7 @@ impl Scattered {
         let made: Vec<(Vec<f64>, f64)> = list
             .par_iter()
             .map(|cell| {
-                let light = specimen.scattered(cell.centre(), Side::Front, cells);
+                let light = specimen.scattered_through(cell.centre(), Side::Front, cells);
                 (light.transmitted, light.error)
             })
             .collect();

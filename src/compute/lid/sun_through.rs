@@ -6,6 +6,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::incidence::superpose::sub_patches;
 use crate::compute::sky::SUN_HALF_ANGLE;
+use crate::compute::sky::sun_disc::Edge;
 use crate::compute::system::measure::{Beam, ProfileLight, ScatteredLight, Side, Specimen, Structure};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -28,13 +29,15 @@ const TOGETHER: f64 = 0.1 * PI / 180.0;
 const SEEDS: [usize; 4] = [16, 64, 256, MOST_SEEDS];
 /// Most of them.
 const MOST_SEEDS: usize = 1024;
-/// ... to this, relative.
+/// ... to this, relative to it and what little matters.
 const STANDS: f64 = 1e-4;
-/// Pairs of directions that tell whether the disc's middle can stand for it, and those that take its place where it cannot.
-const PARTS: [usize; 2] = [3, 64];
+/// Pairs of directions that take the place of the disc's middle where that cannot stand for it.
+const PARTS: usize = 64;
+/// Pairs of directions that what is scattered is a mean over at grazing incidence.
+const GRAZING_PARTS: usize = 3;
 /// Where all hangs on a profile angle, strips of the disc and pairs of directions in all of them together: ever more until the
 /// middles of strips stand for these.
-const STRIPS: [[usize; 2]; 4] = [[3, 48], [5, 192], [11, 192], [24, 768]];
+const STRIPS: [[usize; 2]; 3] = [[5, 192], [11, 192], [24, 768]];
 /// Shares that go straight on and that are turned stand if known so well, relative to themselves and ...
 const LINEAR: [f64; 2] = [2e-4, 1e-3];
 /// ... so much of the light.
@@ -77,6 +80,20 @@ fn sunflower() -> &'static [[f64; 2]] {
         };
         (0..MOST_SEEDS).map(seed).collect()
     })
+}
+
+/// Is nothing of the disc hidden?
+fn is_whole(facing: &Facing<'_>, sun: Dir<Facade>) -> bool {
+    // An edge that touches it, or hides 10⁻⁵ of it, takes nothing.
+    let free =
+        |edge: &Edge| edge.normal.dot(sun.vector()) - edge.offset > 0.999 * SUN_HALF_ANGLE * edge.normal.length();
+    facing.sun_edges().iter().all(free)
+}
+
+/// Opposite directions on the disc's rim.
+fn rim(sun: Dir<Facade>, aside: DVec3) -> [Dir<Facade>; 2] {
+    let aside = SUN_HALF_ANGLE.tan() * aside;
+    [aside, -aside].map(|aside| Dir::from_unit((sun.vector() + aside).normalize()))
 }
 
 fn cosine(name: Dir<Facade>) -> f64 {
@@ -136,29 +153,32 @@ fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
     if let Structure::Along { upright } = specimen.structure() {
         return beams_by_strips(specimen, facing, sun, upright);
     }
-    let asked = |name: Dir<Facade>| Part::new(specimen, name, 1.0, cosine(name));
-    // The disc's middle where shares are as good as linear over it.
-    let few = disc(facing, sun, PARTS[0]);
-    let of: Vec<Part> = few.iter().map(|name| asked(*name)).collect();
-    if few.len() == 2 * PARTS[0] {
-        let middle = asked(sun);
+    let asked = |name: Dir<Facade>, weight: f64| Part::new(specimen, name, weight, weight * cosine(name));
+    // The disc's middle where shares are as good as linear over it: its mean by the middle and four points on the rim holds
+    // for polynomials of the third degree, and the rim tells what begins to pass there.
+    let mut turns = true;
+    if is_whole(facing, sun) {
+        let (u, v) = sun.vector().any_orthonormal_pair();
+        let mut parts: Vec<Part> = [u, v].iter().flat_map(|aside| rim(sun, *aside)).map(|d| asked(d, 0.125)).collect();
+        let middle = asked(sun, 0.5);
         let own = middle.shares();
-        let bent = of.chunks_exact(2).map(|pair| {
-            let [a, b] = [0, 1].map(|k| pair[k].shares());
-            [0, 1].map(|k| (0.5 * (a[k] + b[k]) - own[k]).abs())
+        let bent = [0, 1].map(|k| {
+            let pair = |pair: &[Part]| (0.5 * (pair[0].shares()[k] + pair[1].shares()[k]) - own[k]).abs();
+            0.25 * parts.chunks_exact(2).map(pair).sum::<f64>()
         });
-        let bent = bent.fold([0.0; 2], |most: [f64; 2], bent| [0, 1].map(|k| most[k].max(bent[k])));
-        if stands(bent, own) {
-            let mut beams: Vec<BeamLight> = straight(facing, sun, &of, true, bent[0]).into_iter().collect();
-            beams.extend(turned(facing, &[middle], bent[1] / own[1].max(f64::MIN_POSITIVE)));
-            return beams;
+        let turned_by_middle = stands(bent, own)
+            .then(|| turned(facing, std::slice::from_ref(&middle), bent[1] / own[1].max(f64::MIN_POSITIVE)));
+        parts.push(middle);
+        if let Some(turned) = turned_by_middle {
+            return straight(facing, sun, &parts, true, bent[0]).into_iter().chain(turned).collect();
         }
+        turns = parts.iter().any(|part| !part.turned.is_empty());
     }
     let mut beams: Vec<BeamLight> = straight_by_seeds(specimen, facing, sun).into_iter().collect();
-    if !of.is_empty() && of.iter().all(|part| part.turned.is_empty()) {
+    if !turns {
         return beams;
     }
-    let parts: Vec<Part> = disc(facing, sun, PARTS[1]).iter().map(|name| asked(*name)).collect();
+    let parts: Vec<Part> = disc(facing, sun, PARTS).iter().map(|name| asked(*name, 1.0)).collect();
     // Every other pair of directions against all of them.
     let mean = |pairs: usize| {
         let some = parts.chunks(2).step_by(pairs).flatten();
@@ -177,6 +197,21 @@ fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
 
 /// Where all hangs on a profile angle.
 fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
+    // Across the planes of equal profile angles.
+    let across = (if upright { DVec3::Y } else { DVec3::X }).cross(sun.vector()).try_normalize();
+    if let Some(across) = across.filter(|_| is_whole(facing, sun)) {
+        // As good as linear over the disc: its mean by the middle and both ends holds for polynomials of the third degree, and
+        // the ends tell what begins to pass there.
+        let [low, high] = rim(sun, across);
+        let parts = [(low, 0.125), (sun, 0.75), (high, 0.125)]
+            .map(|(name, weight)| Part::new(specimen, name, weight, weight * cosine(name)));
+        let [a, own, b] = [0, 1, 2].map(|k| parts[k].shares());
+        let bent = [0, 1].map(|k| 0.25 * (0.5 * (a[k] + b[k]) - own[k]).abs());
+        if stands(bent, own) {
+            let turned = turned(facing, &parts[1..2], bent[1] / own[1].max(f64::MIN_POSITIVE));
+            return straight(facing, sun, &parts, true, bent[0]).into_iter().chain(turned).collect();
+        }
+    }
     let mut beams = Vec::new();
     for (round, [count, pairs]) in STRIPS.into_iter().enumerate() {
         let names = disc(facing, sun, pairs);
@@ -194,12 +229,9 @@ fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade
             parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
         });
         let shares = [0, 1].map(|k| mean(&parts, |part| part.shares()[k]));
-        let enough = stands(off, shares);
-        if enough || round + 1 == STRIPS.len() {
+        if stands(off, shares) || round + 1 == STRIPS.len() {
             beams.extend(straight(facing, sun, &parts, whole, off[0]));
-            // What is as good as linear the middle turns for all.
-            let by = if enough && whole && round == 0 { &parts[count / 2..=count / 2] } else { &parts };
-            beams.extend(turned(facing, by, off[1] / shares[1].max(f64::MIN_POSITIVE)));
+            beams.extend(turned(facing, &parts, off[1] / shares[1].max(f64::MIN_POSITIVE)));
             break;
         }
     }
@@ -230,10 +262,10 @@ fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, 
     })
 }
 
-/// The same by more and more directions until it stands.
+/// The same by more and more directions until its share stands.
 fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
     let mut found: Option<BeamLight> = None;
-    for seeds in SEEDS {
+    for (round, seeds) in SEEDS.into_iter().enumerate() {
         let names = disc(facing, sun, seeds);
         let part = |name: &Dir<Facade>| Part {
             name: *name,
@@ -243,12 +275,15 @@ fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Faca
             turned: Vec::new(),
         };
         let parts: Vec<Part> = names.iter().map(part).collect();
-        let before = found.map_or(f64::INFINITY, |before| before.exitance);
+        let exitance = |beam: Option<BeamLight>| beam.map_or(0.0, |beam| beam.exitance);
+        let before = exitance(found);
         found = straight(facing, sun, &parts, names.len() == 2 * seeds, 0.0);
-        let Some(beam) = &mut found else { continue };
-        let change = (beam.exitance - before).abs();
-        beam.error = (change / beam.exitance).min(1.0);
-        if change <= STANDS * beam.exitance.max(STANDS * facing.sun_illuminance()) {
+        let now = exitance(found);
+        let change = (now - before).abs();
+        if let Some(beam) = &mut found {
+            beam.error = if round == 0 { 1.0 } else { (change / now).min(1.0) };
+        }
+        if round > 0 && change <= STANDS * (now + LITTLE[0] * facing.sun_illuminance()) {
             break;
         }
     }
@@ -298,7 +333,7 @@ impl Pieces {
 
 /// Directions of the disc that what is scattered is a mean over.
 fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
-    if sun.vector().z < GRAZING { disc(facing, sun, PARTS[0]) } else { vec![sun] }
+    if sun.vector().z < GRAZING { disc(facing, sun, GRAZING_PARTS) } else { vec![sun] }
 }
 
 /// What a system scatters of the sun where that depends on a profile angle alone.
@@ -326,7 +361,7 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
 
 /// q on [`sun_cells`] of what a system scatters of light of a name, and its error, relative.
 pub fn scattered_of(specimen: &dyn Specimen, name: Dir<Facade>) -> (Vec<f64>, f64) {
-    let light = specimen.scattered(name, Side::Front, sun_cells());
+    let light = specimen.scattered_through(name, Side::Front, sun_cells());
     let share: f64 = light.transmitted.iter().zip(sun_cells().projected_solid_angles()).map(|(q, w)| q * w).sum();
     let relative = if share > 0.0 { light.error / share } else { 0.0 };
     (light.transmitted, relative + CELL_ERROR)
@@ -339,7 +374,7 @@ fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> 
     let cells = sun_cells();
     let names = standing_for(facing, sun);
     let lights: Vec<(ScatteredLight, f64)> =
-        names.iter().map(|name| (specimen.scattered(*name, Side::Front, cells), name.vector().z.max(0.0))).collect();
+        names.iter().map(|name| (specimen.scattered_through(*name, Side::Front, cells), cosine(*name))).collect();
     let cosines: f64 = lights.iter().map(|(_, cosine)| cosine).sum();
     let mut luminance = vec![0.0; cells.len()];
     let mut error = 0.0;

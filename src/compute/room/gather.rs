@@ -191,21 +191,28 @@ impl Plane {
 
 /// The same from one polygon on a wall, given by its corners in the wall's own two coordinates.
 pub fn polygon_factor(wall: &Wall, polygon: &[DVec2], position: DVec3, normal: DVec3) -> f64 {
+    let corners: Vec<DVec3> = polygon.iter().map(|p| wall.point(p.x, p.y)).collect();
+    corners_factor(wall, &corners, position, normal)
+}
+
+/// The same by the corners in the room.
+pub fn corners_factor(wall: &Wall, corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
     if wall.normal.dot(position - wall.point(0.0, 0.0)) <= 0.0 {
         return 0.0;
     }
-    let corners = polygon.iter().map(|p| wall.point(p.x, p.y) - position);
     // Most of what lies on the floor is behind a desk.
-    if corners.clone().all(|corner| normal.dot(corner) <= 0.0) {
+    let height = normal.dot(position);
+    if corners.iter().all(|corner| normal.dot(*corner) <= height) {
         return 0.0;
     }
     // A parallelogram that a rectangle has cut has eight corners at most.
     let mut few = [DVec3::ZERO; 8];
-    let seen = if polygon.len() <= few.len() {
-        few.iter_mut().zip(corners).for_each(|(to, corner)| *to = corner);
-        projected_solid_angle(&few[..polygon.len()], normal)
+    let from_here = corners.iter().map(|corner| *corner - position);
+    let seen = if corners.len() <= few.len() {
+        few.iter_mut().zip(from_here).for_each(|(to, corner)| *to = corner);
+        projected_solid_angle(&few[..corners.len()], normal)
     } else {
-        projected_solid_angle(&corners.collect::<Vec<_>>(), normal)
+        projected_solid_angle(&from_here.collect::<Vec<_>>(), normal)
     };
     seen / PI
 }

@@ -5,7 +5,8 @@
 //! that of the larger one of both seen from points of the smaller.
 
 use super::aperture::Aperture;
-use super::gather::polygon_factor;
+use super::direct::Sensor;
+use super::gather::{corners_factor, polygon_factor};
 use super::mesh::{Mesh, Patch, Wall};
 use crate::compute::polygon::{area, edge};
 use crate::compute::quadrature::gauss_legendre;
@@ -38,6 +39,15 @@ impl Outline {
     /// What a point receives from it. \[lx\]
     pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
         self.exitance * polygon_factor(&mesh.walls[self.wall], &self.corners, position, normal)
+    }
+
+    /// Adds what each of many sensors receives from it. \[lx\]
+    pub fn add_light(&self, mesh: &Mesh, sensors: &[Sensor], sums: &mut [f64]) {
+        let wall = &mesh.walls[self.wall];
+        let corners: Vec<DVec3> = self.corners.iter().map(|p| wall.point(p.x, p.y)).collect();
+        for (sum, sensor) in sums.iter_mut().zip(sensors) {
+            *sum += self.exitance * corners_factor(wall, &corners, sensor.position, sensor.normal);
+        }
     }
 }
 

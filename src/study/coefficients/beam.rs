@@ -99,9 +99,9 @@ impl Coefficients {
             let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
             let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
             let by_patch = if rest > 0.0 { landed.seen(&direct(few)) } else { light.seen.clone() };
-            for (s, sensor) in self.scene.sensors.iter().enumerate() {
-                let sharp: f64 =
-                    outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum();
+            let mut sharp = vec![0.0; sums.len()];
+            outlines.iter().for_each(|outline| outline.add_light(mesh, &self.scene.sensors, &mut sharp));
+            for (s, sharp) in sharp.into_iter().enumerate() {
                 all.sharp[s] += sharp + light.seen[s] - by_patch[s];
                 placed[s] = if rest > 0.0 { share * (sharp - by_patch[s]).abs() } else { 0.0 };
             }

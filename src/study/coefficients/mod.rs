@@ -23,6 +23,7 @@ mod beam;
 mod described;
 pub(super) mod far;
 mod part;
+pub(super) mod seen_cells;
 pub(super) mod sky_patches;
 mod straight;
 mod sun_way;

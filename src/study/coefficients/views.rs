@@ -1,8 +1,10 @@
 //! V: what every sensor receives per luminance of every emergent cell of an aperture, directly and through the room.
 
-use crate::compute::basis::RingBasis;
+use super::seen_cells::SeenCells;
+use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Progress;
+use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::first_bounce::from_even;
 use crate::compute::room::patch_weights::{MOST_CELLS, merged_cells, merging};
 use crate::compute::system::measure::ProfileLight;
@@ -10,19 +12,55 @@ use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::responses::Responses;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Three rows of one number a sensor, one behind the other: all light, the interreflected part of it, and what that part
 /// is in doubt by.
 pub(super) type SensorRows = Vec<f64>;
 
+/// Divisions into bands of which it is kept how they lie in cells; the oldest goes first.
+const MOST_BANDS: usize = 4;
+
 /// Values of every cell.
 pub(super) struct Views {
     width: usize,
-    /// Cell by cell, each as a [`SensorRows`].
-    rows: Vec<f32>,
+    sensors: usize,
+    /// What comes straight; the same for all systems.
+    straight: Option<Arc<SeenCells>>,
+    /// What the room makes of it.
+    reflected: Option<Reflections>,
     /// Mean relative gap of flux that was closed.
     pub gap: f64,
+}
+
+/// What the room makes of the light of cells.
+struct Reflections {
+    /// Sensor by sensor the light, and where all rows are wanted its doubts, cell by cell.
+    rows: Vec<f32>,
+    width: usize,
+    /// How those cells follow from the basis', where these are too many for the room's patches.
+    merging: Option<Merging>,
+}
+
+/// From many cells to those that a room can tell apart.
+struct Merging {
+    onto: Arc<Resampling>,
+    cells: usize,
+    /// Cell by cell the merged ones, with what each gets of its luminance; found when single cells are asked for.
+    by_cell: OnceLock<Vec<Vec<(usize, f64)>>>,
+}
+
+impl Merging {
+    fn of(&self, cell: usize) -> &[(usize, f64)] {
+        let by_cell = self.by_cell.get_or_init(|| {
+            let mut lists = vec![Vec::new(); self.cells];
+            for to in 0..merged_cells().len() {
+                self.onto.shares(to).iter().for_each(|&(from, share)| lists[from].push((to, share)));
+            }
+            lists
+        });
+        &by_cell[cell]
+    }
 }
 
 /// What of the light is wanted.
@@ -49,43 +87,30 @@ impl Views {
     ) -> Result<Self, StudyError> {
         let sensors = scene.sensors.len();
         let width = if want == Want::Sum { sensors } else { 3 * sensors };
-        let mut rows = vec![0.0_f32; basis.len() * width];
-        if want != Want::Reflected {
-            let receptions = session.receptions(scene, index, Some(&basis), progress)?;
-            for (s, reception) in receptions.iter().enumerate() {
-                for (row, weight) in rows.chunks_exact_mut(width).zip(&reception.cells) {
-                    row[s] = *weight as f32;
-                }
-            }
-        }
+        let straight = match want {
+            Want::Reflected => None,
+            Want::All | Want::Sum => Some(session.seen_cells(scene, index, &basis, progress)?),
+        };
         let mut gap = 0.0;
-        if let Some(room) = room {
-            let merged = if basis.len() > MOST_CELLS { merged_cells() } else { &basis };
+        let reflected = room.map(|room| {
+            let many = basis.len() > MOST_CELLS;
+            let merged = if many { merged_cells() } else { &basis };
             gap = room.weights(session, index, merged).gap();
-            let by_sensor = room.of_cells(session, index, merged, width > sensors);
-            let mut add = |cell: usize, from: usize, share: f64| {
-                let row = &mut rows[cell * width..(cell + 1) * width];
-                for (s, by_cell) in by_sensor.iter().enumerate() {
-                    let light = by_cell[from];
-                    row[s] += (share * light.value) as f32;
-                    if width > sensors {
-                        row[sensors + s] += (share * light.value) as f32;
-                        row[2 * sensors + s] += (share * light.doubt()) as f32;
-                    }
-                }
-            };
-            if Arc::ptr_eq(merged, &basis) {
-                (0..basis.len()).for_each(|cell| add(cell, cell, 1.0));
-            } else {
-                let resampling = merging(&basis);
-                for to in 0..merged.len() {
-                    for &(cell, share) in resampling.shares(to) {
-                        add(cell, to, share);
+            let doubts = width > sensors;
+            let width = if doubts { 2 * sensors } else { sensors };
+            let mut rows = vec![0.0_f32; merged.len() * width];
+            for (s, by_cell) in room.of_cells(session, index, merged, doubts).iter().enumerate() {
+                for (row, light) in rows.chunks_exact_mut(width).zip(by_cell) {
+                    row[s] = light.value as f32;
+                    if doubts {
+                        row[sensors + s] = light.doubt() as f32;
                     }
                 }
             }
-        }
-        Ok(Self { width, rows, gap })
+            let merging = many.then(|| Merging { onto: merging(&basis), cells: basis.len(), by_cell: OnceLock::new() });
+            Reflections { rows, width, merging }
+        });
+        Ok(Self { width, sensors, straight, reflected, gap })
     }
 
     /// Of the bands of a profile angle instead of cells: upright or not, and how many.
@@ -98,48 +123,94 @@ impl Views {
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
         let sensors = scene.sensors.len();
-        let width = 3 * sensors;
-        let mut rows = vec![0.0_f32; bands * width];
-        for (s, seen) in session.kept_bands(scene, index, (upright, bands), progress)?.iter().enumerate() {
-            seen.each().for_each(|(band, weight)| rows[band * width + s] = weight as f32);
-        }
+        let seen = session.kept_bands(scene, index, (upright, bands), progress)?;
+        let straight = Some(Arc::new(SeenCells::new(bands, seen.iter().map(BandWeights::each))));
         let mut gap = 0.0;
-        if let Some(room) = room {
+        let reflected = room.map(|room| {
             let merged = merged_cells();
             gap = room.weights(session, index, merged).gap();
+            let width = 2 * sensors;
+            let mut rows = vec![0.0_f32; bands * width];
             let by_sensor = room.of_cells(session, index, merged, true);
-            for (cell, shares) in ProfileLight::shares_on(upright, bands, merged).iter().enumerate() {
+            for (cell, shares) in band_shares(upright, bands).iter().enumerate() {
                 for &(band, share) in shares {
                     let row = &mut rows[band * width..(band + 1) * width];
                     for (s, by_cell) in by_sensor.iter().enumerate() {
-                        let light = by_cell[cell];
-                        row[s] += (share * light.value) as f32;
-                        row[sensors + s] += (share * light.value) as f32;
-                        row[2 * sensors + s] += (share * light.doubt()) as f32;
+                        row[s] += (share * by_cell[cell].value) as f32;
+                        row[sensors + s] += (share * by_cell[cell].doubt()) as f32;
                     }
                 }
             }
-        }
-        Ok(Self { width, rows, gap })
+            Reflections { rows, width, merging: None }
+        });
+        Ok(Self { width: 3 * sensors, sensors, straight, reflected, gap })
     }
 
-    /// Numbers a cell.
+    /// Numbers of the light of a cell.
     pub fn width(&self) -> usize {
         self.width
     }
 
     /// Adds a cell of some luminance.
-    #[inline]
     pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
-        add_scaled(out, &self.rows[cell * self.width..(cell + 1) * self.width], luminance);
-    }
-
-    /// Adds an indicatrix.
-    pub fn add_all(&self, luminance: &[f64], out: &mut [f64]) {
-        for (cell, &l) in luminance.iter().enumerate().filter(|(_, l)| **l != 0.0) {
-            self.add(cell, l, out);
+        if let Some(straight) = &self.straight {
+            straight.add(cell, luminance, out);
+        }
+        let Some(reflected) = &self.reflected else { return };
+        match &reflected.merging {
+            None => self.add_reflected(&reflected.rows[cell * reflected.width..][..reflected.width], luminance, out),
+            Some(merging) => {
+                for &(to, share) in merging.of(cell) {
+                    let row = &reflected.rows[to * reflected.width..][..reflected.width];
+                    self.add_reflected(row, share * luminance, out);
+                }
+            }
         }
     }
+
+    /// Adds an indicatrix; one without values is dark.
+    pub fn add_all(&self, luminance: &[f64], out: &mut [f64]) {
+        if let Some(straight) = &self.straight {
+            for (cell, &l) in luminance.iter().enumerate().filter(|(_, l)| **l != 0.0) {
+                straight.add(cell, l, out);
+            }
+        }
+        let Some(reflected) = self.reflected.as_ref().filter(|_| !luminance.is_empty()) else { return };
+        let merged = reflected.merging.as_ref().map(|merging| merging.onto.apply(luminance));
+        let luminance = merged.as_deref().unwrap_or(luminance);
+        let mut sum = vec![0.0; reflected.width];
+        for (row, &l) in reflected.rows.chunks_exact(reflected.width).zip(luminance).filter(|(_, l)| **l != 0.0) {
+            add_scaled(&mut sum, row, l);
+        }
+        self.add_reflected(&sum, 1.0, out);
+    }
+
+    /// A row of what the room makes of light, to all light and by itself.
+    fn add_reflected<T: Copy + Into<f64>>(&self, row: &[T], factor: f64, out: &mut [f64]) {
+        add_scaled(&mut out[..self.sensors], row, factor);
+        if self.width > self.sensors {
+            add_scaled(&mut out[self.sensors..], row, factor);
+        }
+    }
+}
+
+/// For every merged cell the bands that its mean is made of, with their shares.
+type BandShares = Vec<Vec<(usize, f64)>>;
+
+/// The same for all systems and states that scatter by so many bands.
+fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
+    static KEPT: Mutex<Vec<((bool, usize), Arc<BandShares>)>> = Mutex::new(Vec::new());
+    // What is kept is whole even if another thread has failed while it held the lock.
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, found)) = kept.iter().find(|(known, _)| *known == (upright, bands)) {
+        return Arc::clone(found);
+    }
+    let made = Arc::new(ProfileLight::shares_on(upright, bands, merged_cells()));
+    if kept.len() == MOST_BANDS {
+        kept.remove(0);
+    }
+    kept.push(((upright, bands), Arc::clone(&made)));
+    made
 }
 
 /// The light of an aperture of even luminance 1.
@@ -164,4 +235,35 @@ pub(super) fn even(
         }
     }
     Ok(light)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::lid::sun_cells;
+
+    #[test]
+    fn single_cells_add_up_to_an_indicatrix() {
+        let (basis, sensors) = (sun_cells(), 3);
+        let (cells, width) = (basis.len(), 2 * sensors);
+        let number = |k: usize| (0.618_034 * k as f64).fract();
+        // The last sensor sees a few cells only.
+        let weights = |s: usize| (0..cells).filter(move |c| s < 2 || *c < 7).map(move |c| (c, number(3 * c + s)));
+        let straight = SeenCells::new(cells, (0..sensors).map(weights));
+        let rows = (0..merged_cells().len() * width).map(|k| number(k + 5) as f32).collect();
+        let merging = Some(Merging { onto: merging(basis), cells, by_cell: OnceLock::new() });
+        let reflected = Some(Reflections { rows, width, merging });
+        let views = Views { width: 3 * sensors, sensors, straight: Some(Arc::new(straight)), reflected, gap: 0.0 };
+        let luminance: Vec<f64> = (0..cells).map(|c| if c % 5 == 0 { 0.0 } else { number(7 * c) }).collect();
+        let [mut all, mut one_by_one] = [vec![0.0; 3 * sensors], vec![0.0; 3 * sensors]];
+        views.add_all(&luminance, &mut all);
+        luminance.iter().enumerate().for_each(|(cell, l)| views.add(cell, *l, &mut one_by_one));
+        let apart = |(a, b): (&f64, &f64)| (a / b - 1.0).abs();
+        assert!(all.iter().zip(&one_by_one).map(apart).fold(0.0, f64::max) < 1e-9, "{all:?} {one_by_one:?}");
+        // The first row is what is seen straight and what the room makes of it.
+        let seen: f64 = (0..7).map(|c| luminance[c] * f64::from(number(3 * c + 2) as f32)).sum();
+        assert!((all[2] - all[5] - seen).abs() < 1e-9 * all[2]);
+        views.add_all(&[], &mut all);
+        assert!(all.iter().zip(&one_by_one).map(apart).fold(0.0, f64::max) < 1e-9);
+    }
 }

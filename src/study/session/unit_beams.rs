@@ -91,10 +91,8 @@ impl UnitBeam {
         let mut direct = vec![0.0; mesh.patches.len()];
         beam.add_to(mesh, &mut direct);
         let light = landed.of(radiosity, &direct);
-        let outlines = beam.outlines(mesh);
-        let sharp = scene.sensors.iter().map(|sensor| {
-            outlines.iter().map(|outline| outline.light_at(mesh, sensor.position, sensor.normal)).sum::<f64>()
-        });
+        let mut sharp = vec![0.0; scene.sensors.len()];
+        beam.outlines(mesh).iter().for_each(|outline| outline.add_light(mesh, &scene.sensors, &mut sharp));
         let numbers = light.values.iter().copied().chain(light.blur.iter().copied()).chain(sharp).map(|e| e as f32);
         let numbers = numbers.chain(light.columns.iter().copied()).collect();
         let lit = direct.iter().enumerate().filter(|(_, e)| **e != 0.0);

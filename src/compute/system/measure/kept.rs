@@ -8,7 +8,7 @@ use crate::compute::basis::RingBasis;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Divisions of the hemisphere that are kept; the oldest goes first.
-const MOST: usize = 4;
+const MOST: usize = 8;
 
 /// Something made once.
 #[derive(Debug)]
@@ -32,7 +32,14 @@ pub struct Kept<T>(Mutex<Vec<(RingBasis, Arc<T>)>>);
 
 impl<T> Default for Kept<T> {
     fn default() -> Self {
-        Self(Mutex::default())
+        Self::new()
+    }
+}
+
+impl<T> Kept<T> {
+    /// Nothing yet.
+    pub const fn new() -> Self {
+        Self(Mutex::new(Vec::new()))
     }
 }
 

@@ -8,6 +8,10 @@ pub const SAME: f64 = 1e-9;
 /// Beams that go the same way, from and to, as one with the sum of their shares. In an order that depends on the names
 /// alone.
 pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
+    let beams: Vec<Beam> = beams.into_iter().collect();
+    if beams.len() < 2 {
+        return beams;
+    }
     let mut placed: Vec<((bool, [i64; 4]), Beam)> = beams
         .into_iter()
         .map(|beam| {

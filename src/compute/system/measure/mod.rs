@@ -189,6 +189,11 @@ pub trait Specimen: Send + Sync {
 
     /// What else becomes of it, on emergent cells.
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
+
+    /// The same for whoever asks for what is transmitted alone: what is thrown back may be left out.
+    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered(name, side, emergent)
+    }
 }
 
 /// Balance and reciprocity of a measurement.

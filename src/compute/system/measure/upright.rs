@@ -56,6 +56,10 @@ impl Specimen for Upright {
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         self.0.scattered(to_described(name), side, &turned(emergent))
     }
+
+    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.0.scattered_through(to_described(name), side, &turned(emergent))
+    }
 }
 
 /// Cells as the described system has them: the turned system at φ is the described one at φ + 90°, cell by cell.

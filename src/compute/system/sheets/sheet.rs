@@ -101,7 +101,12 @@ impl Specimen for Sheet {
     }
 
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.scattered_with(name, side, emergent, self.transmission.diffuse.at(name.theta()))
+        let reflected = self.reflected(name, side, emergent);
+        ScatteredLight { reflected, ..self.scattered_through(name, side, emergent) }
+    }
+
+    fn scattered_through(&self, name: Dir<Facade>, _: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.transmitted_with(name, emergent, self.transmission.diffuse.at(name.theta()))
     }
 }
 
@@ -114,14 +119,16 @@ impl Sheet {
         }
     }
 
-    /// What is scattered, so much of it transmitted diffusely.
-    pub fn scattered_with(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
+    /// What is transmitted, so much of it diffusely.
+    pub fn transmitted_with(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
+        let transmitted = self.transmission.of(name, emergent, diffuse);
+        ScatteredLight { transmitted, error: TOTALS, ..ScatteredLight::default() }
+    }
+
+    /// q of what is thrown back.
+    pub fn reflected(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> Vec<f64> {
         let back = self.reflection(side);
-        ScatteredLight {
-            transmitted: self.transmission.of(name, emergent, diffuse),
-            reflected: back.of(name, emergent, back.diffuse.at(name.theta())),
-            error: TOTALS,
-        }
+        back.of(name, emergent, back.diffuse.at(name.theta()))
     }
 }
 

@@ -122,9 +122,14 @@ impl Specimen for Fabric {
     }
 
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let reflected = self.sheet.reflected(name, side, emergent);
+        ScatteredLight { reflected, ..self.scattered_through(name, side, emergent) }
+    }
+
+    fn scattered_through(&self, name: Dir<Facade>, _: Side, emergent: &RingBasis) -> ScatteredLight {
         let theta = name.theta();
         let through_yarns = self.woven.total(theta) - self.woven.open(theta);
-        self.sheet.scattered_with(name, side, emergent, through_yarns)
+        self.sheet.transmitted_with(name, emergent, through_yarns)
     }
 }
 

@@ -46,7 +46,7 @@ impl SlatArray {
         let balance = Balance::new(&section, &transport, &hat);
         let direct = Direct::without_knots(self);
         let one = |&psi: &f64| {
-            let node = beam(&section, psi, seed);
+            let node = beam(&section, psi, side, seed);
             let (landed, thrown) = (&node.landed[index(side)], &node.thrown[index(side)]);
             let cosine = psi.cos();
             let sum = |weights: &[f64]| weights.iter().zip(landed).map(|(a, b)| a * b).sum::<f64>() / cosine;

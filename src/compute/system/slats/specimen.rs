@@ -35,7 +35,6 @@ pub struct SlatSpecimen {
     mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
     solved: Once<Solved>,
-    weights: Kept<ProfileWeights>,
     known: Mutex<HashMap<Place, Arc<Vec<Thrown>>>>,
 }
 
@@ -78,7 +77,6 @@ impl SlatSpecimen {
             mirrors: OnceLock::new(),
             section: OnceLock::new(),
             solved: Once::default(),
-            weights: Kept::default(),
             known: Mutex::default(),
         }
     }
@@ -114,10 +112,12 @@ impl SlatSpecimen {
         let edge = (self.array.thickness() > 0.0).then(|| self.array.edge());
         [self.array.upper(), self.array.lower()].into_iter().chain(edge).any(|side| share(side) > 0.0)
     }
+}
 
-    fn weights(&self, cells: &RingBasis) -> Arc<ProfileWeights> {
-        self.weights.get(cells, || ProfileWeights::new(cells, ProfileGrid::new(STEP)))
-    }
+/// How profile angles spread over cells: the same for all slats.
+fn weights(cells: &RingBasis) -> Arc<ProfileWeights> {
+    static KEPT: Kept<ProfileWeights> = Kept::new();
+    KEPT.get(cells, || ProfileWeights::new(cells, ProfileGrid::new(STEP)))
 }
 
 /// Direction cosine along the slats, and profile angle.
@@ -182,7 +182,7 @@ impl Specimen for SlatSpecimen {
         {
             return None;
         }
-        let node = beam(self.section(), psi, SEED);
+        let node = beam(self.section(), psi, side, SEED);
         let sent = self.sent(&node, psi, side);
         Some(ProfileLight {
             upright: false,
@@ -192,27 +192,38 @@ impl Specimen for SlatSpecimen {
     }
 
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered_light(name, side, emergent, true)
+    }
+
+    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered_light(name, side, emergent, false)
+    }
+}
+
+impl SlatSpecimen {
+    /// `back`: what is thrown back, too.
+    fn scattered_light(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let (x, psi) = section_angles(name);
         let rough = self.has(|surface| surface.mirror * surface.spread);
         let matt = self.has(|surface| surface.diffuse);
         if psi.cos() <= 0.0 || !(matt || rough) {
             return ScatteredLight::default();
         }
-        let node = beam(self.section(), psi, SEED);
-        let mut light = if matt { self.matt(&node, psi, side, emergent) } else { ScatteredLight::default() };
+        let node = beam(self.section(), psi, side, SEED);
+        let mut light = if matt { self.matt(&node, psi, side, emergent, back) } else { ScatteredLight::default() };
         if rough {
             let thrown = &node.thrown[index(side)];
             add_rough(&mut light.transmitted, &thrown.through, [x, psi], emergent);
-            add_rough(&mut light.reflected, &thrown.back, [x, psi], emergent);
+            if back {
+                add_rough(&mut light.reflected, &thrown.back, [x, psi], emergent);
+            }
         }
         light
     }
-}
 
-impl SlatSpecimen {
     /// What mirrors throw of parallel light of a profile angle from a side, alike as one.
     fn thrown(&self, psi: f64, side: Side) -> Vec<Thrown> {
-        let node = beam(self.mirrors(), psi, SEED);
+        let node = beam(self.mirrors(), psi, side, SEED);
         let thrown = &node.thrown[index(side)];
         let mut all: Vec<Thrown> = Vec::new();
         for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
@@ -281,10 +292,10 @@ impl SlatSpecimen {
         landed.iter().enumerate().map(at).collect()
     }
 
-    /// What matt faces send on, by cells.
-    fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis) -> ScatteredLight {
+    /// What matt faces send on, by cells; `back`: what they throw back, too.
+    fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let sent = self.sent(node, psi, side);
-        let weights = self.weights(emergent);
+        let weights = weights(emergent);
         let by_cell = |rows: &[Vec<f64>], turned: bool| -> Vec<f64> {
             let mut widths: Vec<f64> = rows.iter().map(|row| dot(row, &sent)).collect();
             if turned {
@@ -300,7 +311,7 @@ impl SlatSpecimen {
         let landed = &self.solved().transport.landed;
         ScatteredLight {
             transmitted: by_cell(&landed[1 - index(side)], false),
-            reflected: by_cell(&landed[index(side)], true),
+            reflected: if back { by_cell(&landed[index(side)], true) } else { vec![] },
             error: self.doubt(node, psi, side),
         }
     }
@@ -354,6 +365,40 @@ mod tests {
             *sum += q.iter().zip(&solid).map(|(q, w)| q * w).sum::<f64>();
         }
         sums
+    }
+
+    #[test]
+    fn whoever_asks_for_what_is_transmitted_gets_all_of_it() {
+        let rough = Surface { diffuse: 0.1, mirror: 0.7, spread: 0.08 };
+        let cells = RingBasis::even(3_f64.to_radians());
+        for faces in [[Surface::matt(0.7); 2], [Surface::mirror(0.8), Surface::matt(0.3)], [rough, Surface::matt(0.3)]]
+        {
+            let specimen = SlatSpecimen::new(array(0.006, 0.3, faces));
+            for (side, theta) in Side::BOTH.into_iter().zip([0.4, 1.1]) {
+                let name = Dir::from_theta_phi(theta, 1.9);
+                let (all, through) =
+                    (specimen.scattered(name, side, &cells), specimen.scattered_through(name, side, &cells));
+                assert!(all.transmitted.iter().any(|q| *q > 0.0) && all.reflected.iter().any(|q| *q > 0.0));
+                assert!(all.transmitted == through.transmitted && through.reflected.is_empty());
+            }
+        }
+    }
+
+    /// What is left out where light comes from one side alone is what the other side's light does.
+    #[test]
+    fn light_from_one_side_meets_what_it_meets_beside_all_light() {
+        let specimen = SlatSpecimen::new(array(0.006, 0.2, [Surface::mirror(0.8), Surface::matt(0.3)]));
+        let section = specimen.section();
+        let landed = |psi: f64, side: Side| beam(section, psi, side, SEED).landed[index(side)].clone();
+        let grid = ProfileGrid::new(STEP);
+        let all = &specimen.solved().transport.landed;
+        for node in (5..grid.len() - 5).step_by(17) {
+            for side in Side::BOTH {
+                let own = landed(grid.psi(node), side);
+                let apart = own.iter().zip(&all[index(side)][node]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(apart < 1e-12, "{node} {side:?}: {apart}");
+            }
+        }
     }
 
     #[test]

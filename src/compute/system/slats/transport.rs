@@ -31,12 +31,13 @@ pub(super) struct Node {
     pub(super) thrown: [Thrown; 2],
 }
 
-/// Parallel light of one profile angle: what comes to every face and what mirrors throw out. \[rad\]
-pub(super) fn beam(section: &SlatSection, psi: f64, seed: u64) -> Node {
-    let size = section.faces.len();
-    let mut none =
-        Chunk { exchange: [Exchange::new(size), Exchange::new(size)], length: vec![0.0; size], nodes: vec![] };
-    let mut node = Tracer::new(section, psi, 0.0).node(&mut none, Sequence::new(seed, 0));
+/// Parallel light of one profile angle \[rad\] from a side: what comes to every face and what mirrors throw out. Of light from
+/// the other side nothing is told.
+pub(super) fn beam(section: &SlatSection, psi: f64, side: Side, seed: u64) -> Node {
+    // What faces exchange is not followed.
+    let mut none = Chunk { exchange: [Exchange::new(0), Exchange::new(0)], length: vec![], nodes: vec![] };
+    let tracer = Tracer { only: Some(side), ..Tracer::new(section, psi, 0.0) };
+    let mut node = tracer.node(&mut none, Sequence::new(seed, 0));
     for (landed, second) in node.landed.iter_mut().zip(&node.second) {
         landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
     }
@@ -131,6 +132,8 @@ struct Tracer<'a> {
     direction: Point,
     weight: f64,
     rough: bool,
+    /// Parallel light from this side alone is followed.
+    only: Option<Side>,
 }
 
 impl Transport {
@@ -214,7 +217,7 @@ impl Transport {
 
 impl<'a> Tracer<'a> {
     fn new(section: &'a SlatSection, psi: f64, weight: f64) -> Self {
-        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough() }
+        Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough(), only: None }
     }
 
     fn node(&self, part: &mut Chunk, mut sequence: Sequence) -> Node {
@@ -226,6 +229,9 @@ impl<'a> Tracer<'a> {
             for (from, to, direction, side) in
                 [(bundle.from, bundle.to, self.direction, Side::Back), (bundle.to, bundle.from, backwards, Side::Front)]
             {
+                if self.only.is_some_and(|only| from.is_some() || side != only) {
+                    continue;
+                }
                 if let Some(from) = from {
                     part.length[from.face] += self.weight * bundle.width;
                 }

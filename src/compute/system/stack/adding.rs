@@ -117,6 +117,13 @@ impl Specimen for Stack {
             layers => self.singles.scattered(layers, name, side, emergent),
         }
     }
+
+    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        match self.layers.as_slice() {
+            [only] => only.scattered_through(name, side, emergent),
+            layers => self.singles.scattered(layers, name, side, emergent),
+        }
+    }
 }
 
 impl Stack {

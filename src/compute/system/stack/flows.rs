@@ -6,14 +6,13 @@ use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::beams::mirror_images;
 use crate::compute::system::measure::{Measured, Setting, Side, Specimen, front_basis};
+use faer::Mat;
+use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Error at which the layers are measured.
 const ERROR: f64 = 0.01;
-/// Rounds through all layers at most, and the share of the light that may still be on its way after them.
-const ROUNDS: usize = 1000;
-const LEFT: f64 = 1e-7;
 
 /// The layers as matrices, light from either side by its own names.
 pub(super) struct Flows {
@@ -24,6 +23,9 @@ pub(super) struct Flows {
     /// The cell that each becomes when turned by 180° about the normal.
     turn: Vec<usize>,
     layers: Vec<[OneWay; 2]>,
+    /// Share of the light of a cell in a gap between layers that leaves through another in the end, inwards and outwards,
+    /// `[from · n + to]`, by gap and sense as [`between`] numbers them; names as light from the front has them.
+    ends: Vec<[Vec<f64>; 2]>,
     /// Largest estimated error of a layer.
     pub error: f64,
 }
@@ -53,11 +55,6 @@ impl Sources {
     pub fn at(&mut self, (gap, inwards): Place) -> &mut Vec<f64> {
         &mut self.gaps[gap][usize::from(!inwards)]
     }
-
-    /// All of it, as a share of the light that has come.
-    pub fn total(&self) -> f64 {
-        self.gaps.iter().flatten().flatten().sum()
-    }
 }
 
 impl Flows {
@@ -82,12 +79,13 @@ impl Flows {
             let straight = straight.collect();
             OneWay { back: flux(&seen.reflected), straight, through }
         };
-        let layers = layers
+        let layers: Vec<[OneWay; 2]> = layers
             .iter()
             .zip(&measured)
             .map(|(layer, measured)| Side::BOTH.map(|side| one_way(layer.as_ref(), measured, side)))
             .collect();
-        Self { cells, weight, turn, layers, error }
+        let ends = ends(&layers, &turn);
+        Self { cells, weight, turn, layers, ends, error }
     }
 
     /// What goes straight on through all layers that are left from a gap on, by cell; names as light from `asked`.
@@ -102,46 +100,155 @@ impl Flows {
     /// The light of the sources that leaves inwards and outwards in the end; names as light from `asked`.
     pub fn leaving(&self, sources: &Sources, asked: Side) -> [Vec<f64>; 2] {
         let n = self.layers.len();
-        let mut light = Sources::dark(n, self.turn.len());
-        let enough = LEFT * sources.total();
-        let mut before = 0.0;
-        for _ in 0..ROUNDS {
-            for k in 0..n {
-                let mut next = sources.gaps[k + 1][0].clone();
-                self.add(&mut next, &self.layers[k][0].through, &light.gaps[k][0], Side::Front == asked);
-                self.add(&mut next, &self.layers[k][1].back, &light.gaps[k + 1][1], Side::Back == asked);
-                light.gaps[k + 1][0] = next;
-            }
-            for k in (0..n).rev() {
-                let mut next = sources.gaps[k][1].clone();
-                self.add(&mut next, &self.layers[k][1].through, &light.gaps[k + 1][1], Side::Back == asked);
-                self.add(&mut next, &self.layers[k][0].back, &light.gaps[k][0], Side::Front == asked);
-                light.gaps[k][1] = next;
-            }
-            // Light only grows from round to round, and with it what is still missing shrinks.
-            let now = light.total();
-            if now - before <= enough {
-                break;
-            }
-            before = now;
+        // Names as light from the front has them, in and out.
+        let named = |light: &[f64]| match asked {
+            Side::Front => light.to_vec(),
+            Side::Back => self.turn.iter().map(|&c| light[c]).collect(),
+        };
+        let mut gaps: Vec<[Vec<f64>; 2]> =
+            sources.gaps.iter().map(|senses| [0, 1].map(|sense| named(&senses[sense]))).collect();
+        // What comes from outside all layers meets the first of them.
+        for (inwards, gap, layer, beyond) in [(true, 0, 0, 1), (false, n, n - 1, n - 1)] {
+            let sense = usize::from(!inwards);
+            let light = std::mem::take(&mut gaps[gap][sense]);
+            let OneWay { through, back, .. } = &self.layers[layer][sense];
+            let turn = (!inwards).then_some(self.turn.as_slice());
+            add(&mut gaps[beyond][sense], through, &light, turn);
+            add(&mut gaps[gap][1 - sense], back, &light, turn);
         }
-        let [inwards, outwards] = [(n, 0), (0, 1)].map(|(gap, sense)| std::mem::take(&mut light.gaps[gap][sense]));
-        [inwards, outwards]
+        let mut leaving = [(n, 0), (0, 1)].map(|(gap, sense)| std::mem::take(&mut gaps[gap][sense]));
+        for (ends, light) in self.ends.iter().zip(gaps[1..n].iter().flatten()) {
+            for (leaving, ends) in leaving.iter_mut().zip(ends) {
+                add(leaving, ends, light, None);
+            }
+        }
+        leaving.map(|light| named(&light))
+    }
+}
+
+/// Number of a place between layers: not outside all of them.
+fn between((gap, inwards): Place) -> usize {
+    2 * (gap - 1) + usize::from(!inwards)
+}
+
+/// What of the light between layers leaves in the end: light is what arises and what layers make of all light, a system of
+/// linear equations.
+fn ends(layers: &[[OneWay; 2]], turn: &[usize]) -> Vec<[Vec<f64>; 2]> {
+    let (n, cells) = (layers.len(), turn.len());
+    let places = 2 * (n - 1);
+    // Rows: where light is. Columns: where it goes.
+    let mut still = Mat::<f64>::identity(places * cells, places * cells);
+    let mut last = Mat::<f64>::zeros(places * cells, 2 * cells);
+    for (gap, inwards) in (1..n).flat_map(|gap| [(gap, true), (gap, false)]) {
+        let OneWay { through, back, .. } = &layers[if inwards { gap } else { gap - 1 }][usize::from(!inwards)];
+        let named = |c: usize| if inwards { c } else { turn[c] };
+        let from = between((gap, inwards)) * cells;
+        let beyond = if inwards { gap + 1 } else { gap - 1 };
+        for (matrix, to) in [(through, (beyond, inwards)), (back, (gap, !inwards))] {
+            for (i, o) in (0..cells).flat_map(|i| (0..cells).map(move |o| (i, o))) {
+                let share = matrix[named(i) * cells + named(o)];
+                if to.0 == 0 || to.0 == n {
+                    last[(from + i, usize::from(!inwards) * cells + o)] += share;
+                } else {
+                    still[(from + i, between(to) * cells + o)] -= share;
+                }
+            }
+        }
+    }
+    let solved = still.partial_piv_lu().solve(&last);
+    let block = |place: usize, sense: usize| -> Vec<f64> {
+        let entries = (0..cells).flat_map(|i| (0..cells).map(move |o| (i, o)));
+        entries.map(|(i, o)| solved[(place * cells + i, sense * cells + o)]).collect()
+    };
+    (0..places).map(|place| [0, 1].map(|sense| block(place, sense))).collect()
+}
+
+/// Adds what a matrix makes of light. With a turn, what comes and what it becomes change their names, row by row the matrix
+/// stays as it lies.
+fn add(to: &mut [f64], matrix: &[f64], light: &[f64], turn: Option<&[usize]>) {
+    if let Some(turn) = turn {
+        let mut turned = vec![0.0; turn.len()];
+        let light: Vec<f64> = turn.iter().map(|&i| light[i]).collect();
+        add(&mut turned, matrix, &light, None);
+        to.iter_mut().zip(turn).for_each(|(to, &o)| *to += turned[o]);
+        return;
+    }
+    for (&flux, row) in light.iter().zip(matrix.chunks_exact(light.len())).filter(|(flux, _)| **flux != 0.0) {
+        to.iter_mut().zip(row).for_each(|(to, share)| *to += flux * share);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::system::Family;
+    use crate::compute::system::sheets::{Hole, Perforated, diffuser};
+    use crate::compute::system::stack::DataLayer;
+
+    /// Grey holes whose walls rise inwards between two diffusers: nothing is alike upside down or from the other side.
+    fn layers() -> Vec<Box<dyn Specimen>> {
+        let holes = Perforated {
+            hole: Hole::Rhombus { width: 0.052, height: 0.018 },
+            area: 0.0008,
+            thickness: 0.008,
+            rise: 0.006,
+            reflectance: [0.6, 0.3, 0.5],
+        };
+        let sheet = |t, r| -> Box<dyn Specimen> { Box::new(DataLayer(diffuser::lambertian(t, r))) };
+        vec![sheet(0.4, 0.5), holes.specimen("").unwrap(), sheet(0.3, 0.6)]
     }
 
-    /// Adds what a matrix makes of light; `own`: the matrix has the names of the light. Else what comes and what it becomes
-    /// change theirs, row by row the matrix stays as it lies.
-    fn add(&self, to: &mut [f64], matrix: &[f64], light: &[f64], own: bool) {
-        let n = self.turn.len();
-        if own {
-            for (&flux, row) in light.iter().zip(matrix.chunks_exact(n)).filter(|(flux, _)| **flux != 0.0) {
-                to.iter_mut().zip(row).for_each(|(to, share)| *to += flux * share);
+    /// Light of one cell in every place in turn.
+    fn sources(flows: &Flows) -> impl Iterator<Item = Sources> {
+        let (n, cells) = (flows.layers.len(), flows.cells.len());
+        let places = (0..=n).flat_map(|gap| [(gap, true), (gap, false)]);
+        places.map(move |place| {
+            let mut sources = Sources::dark(n, cells);
+            sources.at(place)[17] = 0.7;
+            sources.at(place)[80] = 0.3;
+            sources
+        })
+    }
+
+    #[test]
+    fn what_leaves_is_what_goes_to_and_fro_without_end() {
+        let flows = Flows::new(&layers());
+        let n = flows.layers.len();
+        for asked in Side::BOTH {
+            let turn_of = |side: Side| (side != asked).then_some(flows.turn.as_slice());
+            for sources in sources(&flows) {
+                let mut light = Sources::dark(n, flows.cells.len());
+                for _ in 0..60 {
+                    let mut next = Sources { gaps: sources.gaps.clone() };
+                    for (k, layer) in flows.layers.iter().enumerate() {
+                        for (side, from, beyond) in [(Side::Front, k, k + 1), (Side::Back, k + 1, k)] {
+                            let sense = usize::from(side == Side::Back);
+                            let (own, turn) = (&light.gaps[from][sense], turn_of(side));
+                            add(&mut next.gaps[beyond][sense], &layer[sense].through, own, turn);
+                            add(&mut next.gaps[from][1 - sense], &layer[sense].back, own, turn);
+                        }
+                    }
+                    light = next;
+                }
+                for (found, followed) in
+                    flows.leaving(&sources, asked).iter().zip([&light.gaps[n][0], &light.gaps[0][1]])
+                {
+                    assert!(found.iter().zip(followed).all(|(a, b)| (a - b).abs() < 1e-9));
+                }
             }
-            return;
         }
-        let mut turned = vec![0.0; n];
-        let light: Vec<f64> = self.turn.iter().map(|&i| light[i]).collect();
-        self.add(&mut turned, matrix, &light, true);
-        to.iter_mut().zip(&self.turn).for_each(|(to, &o)| *to += turned[o]);
+    }
+
+    #[test]
+    fn what_nothing_absorbs_leaves() {
+        let white: Vec<Box<dyn Specimen>> = [(0.3, 0.7), (0.6, 0.4), (0.1, 0.9)]
+            .into_iter()
+            .map(|(t, r)| -> Box<dyn Specimen> { Box::new(DataLayer(diffuser::lambertian(t, r))) })
+            .collect();
+        let flows = Flows::new(&white);
+        for sources in sources(&flows) {
+            let all: f64 = flows.leaving(&sources, Side::Front).iter().flatten().sum();
+            assert!((all - 1.0).abs() < 1e-9, "{all}");
+        }
     }
 }

@@ -10,8 +10,10 @@ use crate::compute::system::measure::{Beam, Side, Specimen};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Light still on its way at which following ends, in all.
-const ENOUGH: f64 = 1e-7;
+/// Light still on its way at which following ends, in all: for a very direction, and where neighbours may share an answer.
+const ENOUGH: [f64; 2] = [1e-7, 1e-5];
+/// So much of it may be left out of every round, the faintest beams.
+const FAINT: f64 = 0.1;
 /// Width of the parts in which a fan meets a layer. \[rad\]
 const PIECE: f64 = 0.25 * std::f64::consts::PI / 180.0;
 /// Layers asked, each for another direction: up to the first number every beam is followed, up to the second those of at
@@ -57,6 +59,7 @@ pub(super) fn half_turn(name: Dir<Facade>) -> Dir<Facade> {
 /// `within` \[rad\] from the one asked for.
 pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
     let n = layers.len();
+    let enough = ENOUGH[usize::from(within > 0.0)];
     let mut passage = Passage::default();
     let mut known: BTreeMap<(usize, bool, [i64; 2]), usize> = BTreeMap::new();
     let start = if side == Side::Front { (0, true) } else { (n, false) };
@@ -119,11 +122,16 @@ pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side
                 place => light.extend(whole.map(|beam| (place, beam))),
             }
         }
-        if light.iter().map(|(_, beam)| beam.share).sum::<f64>() < ENOUGH {
+        if light.iter().map(|(_, beam)| beam.share).sum::<f64>() < enough {
             break;
         }
         // The strongest are asked for first, while there is room for them.
         light.sort_by(|a, b| b.1.share.total_cmp(&a.1.share));
+        let mut left_out = FAINT * enough;
+        while let Some((_, last)) = light.last().filter(|(_, last)| last.share <= left_out) {
+            left_out -= last.share;
+            light.pop();
+        }
     }
     passage.leaving = merged(passage.leaving);
     passage

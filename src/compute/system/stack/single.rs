@@ -9,8 +9,9 @@ use crate::compute::basis::{AzimuthMap, Resampling, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::middle;
 use crate::compute::system::measure::kept::{Kept, Once};
-use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen};
+use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen, front_basis};
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 /// Light that reaches the layers from directions of which each brings little, and beams too many to be followed: so much
 /// of each, in all, is taken for absorbed.
@@ -20,7 +21,6 @@ const NEGLECTED: f64 = 1e-4;
 #[derive(Default)]
 pub(super) struct Singles {
     flows: Once<Flows>,
-    emergent: Kept<Emergent>,
 }
 
 /// Emergent cells beside those of the matrices.
@@ -30,8 +30,13 @@ struct Emergent {
 }
 
 impl Emergent {
-    fn new(cells: &RingBasis, coarse: &RingBasis) -> Self {
-        Self { to_coarse: Resampling::new(cells, coarse), from_coarse: Resampling::new(coarse, cells) }
+    /// The same for all stacks.
+    fn of(cells: &RingBasis) -> Arc<Self> {
+        static KEPT: Kept<Emergent> = Kept::new();
+        KEPT.get(cells, || {
+            let coarse = front_basis();
+            Self { to_coarse: Resampling::new(cells, &coarse), from_coarse: Resampling::new(&coarse, cells) }
+        })
     }
 }
 
@@ -80,7 +85,7 @@ impl Singles {
         }
         error += faint;
         let flows = self.flows.get(|| Flows::new(layers));
-        let emergent = self.emergent.get(cells, || Emergent::new(cells, &flows.cells));
+        let emergent = Emergent::of(cells);
         let mut sources = Sources::dark(layers.len(), flows.cells.len());
         // What goes straight out, on the cells asked for; and the same on the coarse ones, to be taken from the whole.
         let mut straight = [true, false].map(|_| vec![0.0; cells.len()]);
