@@ -199,7 +199,8 @@ type BandShares = Vec<Vec<(usize, f64)>>;
 
 /// The same for all systems and states that scatter by so many bands.
 fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
-    static KEPT: Mutex<Vec<((bool, usize), Arc<BandShares>)>> = Mutex::new(Vec::new());
+    type Known = ((bool, usize), Arc<BandShares>);
+    static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
     // What is kept is whole even if another thread has failed while it held the lock.
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, found)) = kept.iter().find(|(known, _)| *known == (upright, bands)) {

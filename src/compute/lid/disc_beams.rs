@@ -1,0 +1,364 @@
+//! The very sun's beams behind a system that answers for single directions, as means over the disc.
+
+use super::{BeamLight, Facing};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::sky::SUN_HALF_ANGLE;
+use crate::compute::sky::sun_disc::Edge;
+use crate::compute::system::measure::{Beam, Side, Specimen, Structure};
+use glam::DVec3;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+/// Names closer than this are the same. \[rad\]
+const SAME: f64 = 1e-9;
+/// Longest piece of a fan that is one beam: a fraction of the sun's own width. \[rad\]
+const PIECE: f64 = 0.15 * PI / 180.0;
+/// Pieces of fans that fall together within this are one. \[rad\]
+const TOGETHER: f64 = 0.1 * PI / 180.0;
+/// Pairs of directions over the disc for the straight beam through what is no structure along an axis, one number after
+/// the other until its share stands ...
+const SEEDS: [usize; 4] = [16, 64, 256, MOST_SEEDS];
+/// Most of them.
+const MOST_SEEDS: usize = 1024;
+/// ... to this, relative to it and what little matters.
+const STANDS: f64 = 1e-4;
+/// Pairs of directions that take the place of the disc's middle where that cannot stand for it.
+const PARTS: usize = 64;
+/// A few of them: what tells whether anything is turned, and what scattered light is a mean over at grazing incidence.
+pub(super) const FEW: usize = 3;
+/// Where all hangs on a profile angle, strips of the disc and pairs of directions in all of them together: ever more until the
+/// middles of strips stand for these.
+const STRIPS: [[usize; 2]; 3] = [[5, 192], [11, 192], [24, 768]];
+/// Shares that go straight on and that are turned stand if known so well, relative to themselves and ...
+const LINEAR: [f64; 2] = [2e-4, 1e-3];
+/// ... so much of the light.
+const LITTLE: [f64; 2] = [0.005, 0.05];
+/// Directions as near as this may share what mirrors make of them: a tenth of the disc. \[rad\]
+const ABOUT: f64 = 0.05 * PI / 180.0;
+
+/// Directions evenly over the disc that nothing hides: a sunflower of so many seeds, each with its opposite.
+pub(super) fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
+    let (u, v) = sun.vector().any_orthonormal_pair();
+    let edges = facing.sun_edges();
+    let scale = SUN_HALF_ANGLE.tan() / (seeds as f64).sqrt();
+    sunflower()[..seeds]
+        .iter()
+        .flat_map(|&[a, b]| {
+            let aside = scale * (a * u + b * v);
+            [aside, -aside]
+        })
+        .filter_map(|aside| Dir::new(sun.vector() + aside))
+        .filter(|d| edges.iter().all(|edge| edge.normal.dot(d.vector()) > edge.offset))
+        .collect()
+}
+
+/// Places of the seeds of a sunflower whose first n fill a disc of radius √n.
+fn sunflower() -> &'static [[f64; 2]] {
+    static SEEDS_OF_ONE: OnceLock<Vec<[f64; 2]>> = OnceLock::new();
+    SEEDS_OF_ONE.get_or_init(|| {
+        let golden = PI * (3.0 - 5.0_f64.sqrt());
+        let seed = |k: usize| {
+            let (sin, cos) = (golden * k as f64).sin_cos();
+            [cos, sin].map(|c| c * (k as f64 + 0.5).sqrt())
+        };
+        (0..MOST_SEEDS).map(seed).collect()
+    })
+}
+
+/// Is nothing of the disc hidden?
+fn is_whole(facing: &Facing<'_>, sun: Dir<Facade>) -> bool {
+    // An edge that touches it, or hides 10⁻⁵ of it, takes nothing.
+    let free =
+        |edge: &Edge| edge.normal.dot(sun.vector()) - edge.offset > 0.999 * SUN_HALF_ANGLE * edge.normal.length();
+    facing.sun_edges().iter().all(free)
+}
+
+/// Opposite directions on the disc's rim.
+fn rim(sun: Dir<Facade>, aside: DVec3) -> [Dir<Facade>; 2] {
+    let aside = SUN_HALF_ANGLE.tan() * aside;
+    [aside, -aside].map(|aside| Dir::new(sun.vector() + aside).unwrap_or(sun))
+}
+
+pub(super) fn cosine(name: Dir<Facade>) -> f64 {
+    name.vector().z.max(0.0)
+}
+
+/// A part of the disc: where, its share of the disc as seen, and its cosine times that.
+struct Part {
+    name: Dir<Facade>,
+    weight: f64,
+    flux: f64,
+    /// What goes straight on of it.
+    straight: f64,
+    turned: Vec<Beam>,
+}
+
+impl Part {
+    fn new(specimen: &dyn Specimen, name: Dir<Facade>, weight: f64, flux: f64) -> Self {
+        let mut part = Self { name, weight, flux, straight: 0.0, turned: Vec::new() };
+        for beam in specimen.beams_about(name, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
+            if beam.names.iter().all(|other| other.vector().distance(name.vector()) <= SAME) {
+                part.straight += beam.share;
+            } else {
+                part.turned.push(beam);
+            }
+        }
+        part
+    }
+
+    fn shares(&self) -> [f64; 2] {
+        [self.straight, self.turned.iter().map(|beam| beam.share).sum()]
+    }
+}
+
+/// The disc by strips of about the same profile angle, each by its middle: x and y exchanged where `upright`.
+fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade>, f64, f64)> {
+    let angle = |name: &Dir<Facade>| {
+        let v = name.vector();
+        (if upright { v.x } else { v.y }).atan2(v.z)
+    };
+    let angles: Vec<f64> = names.iter().map(angle).collect();
+    let (low, high) = angles
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| (low.min(*angle), high.max(*angle)));
+    let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); count];
+    for (name, angle) in names.iter().zip(angles) {
+        let at = (count as f64 * (angle - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
+        let sum = &mut sums[at.min(count - 1)];
+        *sum = (sum.0 + name.vector(), sum.1 + 1.0, sum.2 + cosine(*name));
+    }
+    sums.into_iter().filter_map(|(sum, count, cosines)| Some((Dir::new(sum)?, count, cosines))).collect()
+}
+
+/// The sun's beams behind a system, as means over the disc.
+pub(super) fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
+    let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
+    if let Structure::Along { upright } = specimen.structure() {
+        return beams_by_strips(specimen, facing, sun, upright);
+    }
+    let asked = |name: &Dir<Facade>| Part::new(specimen, *name, 1.0, cosine(*name));
+    let few: Vec<Part> = if is_whole(facing, sun) {
+        let (u, v) = sun.vector().any_orthonormal_pair();
+        match by_middle(specimen, facing, sun, &[u, v]) {
+            Ok(beams) => return beams,
+            Err(parts) => parts,
+        }
+    } else {
+        disc(facing, sun, FEW).iter().map(asked).collect()
+    };
+    let mut beams: Vec<BeamLight> = straight_by_seeds(specimen, facing, sun).into_iter().collect();
+    if !few.is_empty() && few.iter().all(|part| part.turned.is_empty()) {
+        return beams;
+    }
+    let parts: Vec<Part> = disc(facing, sun, PARTS).iter().map(asked).collect();
+    // Every other pair of directions against all of them.
+    let mean = |pairs: usize| {
+        let some = parts.chunks(2).step_by(pairs).flatten();
+        let count = some.clone().count().max(1);
+        some.map(|part| part.shares()[1]).sum::<f64>() / count as f64
+    };
+    let error = (mean(1) - mean(2)).abs() / mean(1).max(f64::MIN_POSITIVE);
+    beams.extend(turned(facing, &parts, error));
+    beams
+}
+
+/// The whole disc by its middle and by opposite points of its rim beside it, `asides` across each other, where shares are as
+/// good as linear between them; else what was asked for. Weighted so a mean holds for polynomials of the third degree, and
+/// the rim tells what begins to pass there.
+fn by_middle(
+    specimen: &dyn Specimen,
+    facing: &Facing<'_>,
+    sun: Dir<Facade>,
+    asides: &[DVec3],
+) -> Result<Vec<BeamLight>, Vec<Part>> {
+    const RIM: f64 = 0.125;
+    let asked = |name: Dir<Facade>, weight: f64| Part::new(specimen, name, weight, weight * cosine(name));
+    let mut parts = vec![asked(sun, 1.0 - 2.0 * RIM * asides.len() as f64)];
+    parts.extend(asides.iter().flat_map(|aside| rim(sun, *aside)).map(|name| asked(name, RIM)));
+    let own = parts[0].shares();
+    let bent = [0, 1].map(|k| {
+        let pair = |pair: &[Part]| RIM * (pair[0].shares()[k] + pair[1].shares()[k] - 2.0 * own[k]).abs();
+        parts[1..].chunks_exact(2).map(pair).sum::<f64>()
+    });
+    if !stands(bent, own) {
+        return Err(parts);
+    }
+    // What is as good as linear the middle turns for all.
+    let turned = turned(facing, &parts[..1], bent[1] / own[1].max(f64::MIN_POSITIVE));
+    Ok(straight(facing, sun, &parts, true, bent[0]).into_iter().chain(turned).collect())
+}
+
+/// Are shares known to errors that do not matter?
+fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
+    (0..2).all(|k| errors[k] <= LINEAR[k] * (shares[k] + LITTLE[k]))
+}
+
+/// Where all hangs on a profile angle.
+fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
+    // Across the planes of equal profile angles.
+    let across = (if upright { DVec3::Y } else { DVec3::X }).cross(sun.vector()).try_normalize();
+    if let Some(across) = across.filter(|_| is_whole(facing, sun))
+        && let Ok(beams) = by_middle(specimen, facing, sun, &[across])
+    {
+        return beams;
+    }
+    let mut beams = Vec::new();
+    for (round, [count, pairs]) in STRIPS.into_iter().enumerate() {
+        let names = disc(facing, sun, pairs);
+        let whole = names.len() == 2 * pairs;
+        let parts: Vec<Part> = strips(&names, upright, count)
+            .into_iter()
+            .map(|(name, weight, flux)| Part::new(specimen, name, weight, flux))
+            .collect();
+        // Of the middle of a strip for all of it.
+        let flux: f64 = parts.iter().map(|part| part.flux).sum();
+        let off = [0, 1].map(|k| {
+            let bent = |three: &[Part]| {
+                three[1].flux * (three[0].shares()[k] + three[2].shares()[k] - 2.0 * three[1].shares()[k]).abs()
+            };
+            parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
+        });
+        let shares = [0, 1].map(|k| mean(&parts, |part| part.shares()[k]));
+        if stands(off, shares) || round + 1 == STRIPS.len() {
+            beams.extend(straight(facing, sun, &parts, whole, off[0]));
+            beams.extend(turned(facing, &parts, off[1] / shares[1].max(f64::MIN_POSITIVE)));
+            break;
+        }
+    }
+    beams
+}
+
+fn mean(parts: &[Part], of: impl Fn(&Part) -> f64) -> f64 {
+    let flux: f64 = parts.iter().map(|part| part.flux).sum();
+    parts.iter().map(|part| part.flux * of(part)).sum::<f64>() / flux.max(f64::MIN_POSITIVE)
+}
+
+/// The straight beam of a disc by its parts; `whole`: nothing hides any; `off`: error of the share.
+fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, off: f64) -> Option<BeamLight> {
+    let normal = facing.sun?.direct_normal;
+    let share = mean(parts, |part| part.straight);
+    let weight: f64 = parts.iter().map(|part| part.weight).sum();
+    let seen = parts.iter().map(|part| part.weight * part.straight).sum::<f64>() / weight;
+    // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is hidden in
+    // part is cut by what hides it, later.
+    let centre: DVec3 = parts.iter().map(|part| part.weight * part.straight * part.name.vector()).sum();
+    (share > 0.0).then(|| BeamLight {
+        to: if whole { Dir::new(centre).unwrap_or(sun) } else { sun },
+        exitance: share * facing.sun_illuminance(),
+        normal: seen * normal,
+        straight: true,
+        error: off / share.max(off),
+        doubt: 0.0,
+    })
+}
+
+/// The same by more and more directions until its share stands.
+fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
+    let mut found: Option<BeamLight> = None;
+    for (round, seeds) in SEEDS.into_iter().enumerate() {
+        let names = disc(facing, sun, seeds);
+        let part = |name: &Dir<Facade>| Part {
+            name: *name,
+            weight: 1.0,
+            flux: cosine(*name),
+            straight: specimen.straight(*name, Side::Front),
+            turned: Vec::new(),
+        };
+        let parts: Vec<Part> = names.iter().map(part).collect();
+        let exitance = |beam: Option<BeamLight>| beam.map_or(0.0, |beam| beam.exitance);
+        let before = exitance(found);
+        found = straight(facing, sun, &parts, names.len() == 2 * seeds, 0.0);
+        let now = exitance(found);
+        let change = (now - before).abs();
+        if let Some(beam) = &mut found {
+            beam.error = if round == 0 { 1.0 } else { (change / now).min(1.0) };
+        }
+        if round > 0 && change <= STANDS * (now + LITTLE[0] * facing.sun_illuminance()) {
+            break;
+        }
+    }
+    found
+}
+
+/// The beams that do not go straight on.
+fn turned(facing: &Facing<'_>, parts: &[Part], error: f64) -> Vec<BeamLight> {
+    let flux: f64 = parts.iter().map(|part| part.flux).sum();
+    let mut pieces = Pieces::default();
+    for part in parts {
+        let incident = facing.sun_illuminance() * part.flux / flux.max(f64::MIN_POSITIVE);
+        part.turned.iter().for_each(|beam| pieces.add(beam, incident));
+    }
+    pieces.beams(error)
+}
+
+/// Turned beams, those that fall together as one.
+#[derive(Default)]
+struct Pieces(BTreeMap<[i64; 2], (DVec3, f64)>);
+
+impl Pieces {
+    fn add(&mut self, beam: &Beam, incident: f64) {
+        let [a, b] = beam.names.map(Dir::vector);
+        let count = (a.angle_between(b) / PIECE).ceil().max(1.0) as usize;
+        for k in 0..count {
+            let to = a.lerp(b, (k as f64 + 0.5) / count as f64).normalize_or_zero();
+            let flux = beam.share * incident / count as f64;
+            let place = [to.x, to.y].map(|c| (c / TOGETHER).round() as i64);
+            let sum = self.0.entry(place).or_default();
+            sum.0 += flux * to;
+            sum.1 += flux;
+        }
+    }
+
+    fn beams(self, error: f64) -> Vec<BeamLight> {
+        let beam = |(sum, exitance): (DVec3, f64)| {
+            let to = Dir::<Facade>::new(sum)?;
+            let cosine = to.vector().z;
+            let normal = exitance / cosine;
+            let beam = BeamLight { to, exitance, normal, straight: false, error, doubt: 0.0 };
+            (cosine > 1e-6 && exitance > 0.0).then_some(beam)
+        };
+        self.0.into_values().filter_map(beam).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::direction::{Orientation, Surface as Face};
+    use crate::compute::sky::{Distribution, Outside, Sun};
+
+    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
+
+    /// Level flat slats, as far apart as 0.9 of their width, let 1 − tanψ/0.9 pass. Of a disc whose middle lies beyond that by
+    /// a part of its radius the rest is seen through them, down to a sliver at the rim.
+    #[test]
+    fn what_begins_to_pass_at_the_rim_counts() {
+        let flat = SlatProfile::Flat { width: 0.08 };
+        let specimen = SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, 0.0, [Surface::matt(0.5); 2]).unwrap());
+        let psi = 0.9_f64.atan();
+        let outside = Outside::new(Distribution::uniform(), 0.0).unwrap();
+        for (beyond, bound) in [(0.0_f64, 0.02), (0.5, 0.03), (0.8, 0.1), (0.9, 0.3)] {
+            let altitude = psi + beyond * SUN_HALF_ANGLE;
+            let direction = Dir::from_altitude_bearing(altitude, Bearing::from_degrees(180.0));
+            let sun = Sun { direction, direct_normal: 1e5 };
+            let facing = Facing {
+                outside: &outside,
+                sun: Some(&sun),
+                orientation: Orientation::new(Bearing::from_degrees(180.0)),
+                surface: Face::Facade,
+            };
+            let beams = sun_beams(&specimen, &facing);
+            let [beam] = &beams[..] else { panic!("{beams:?}") };
+            // ∫ (t − a) √(1 − t²) dt from a to 1, where the share grows in a straight line.
+            let rest = (1.0 - beyond * beyond).sqrt();
+            let moment = rest.powi(3) / 3.0 - 0.5 * beyond * (beyond.acos() - beyond * rest);
+            let share = SUN_HALF_ANGLE / (0.9 * psi.cos().powi(2)) * moment * 2.0 / PI;
+            let found = beam.exitance / facing.sun_illuminance();
+            let off = (found / share - 1.0).abs();
+            assert!(off < bound && off < 3.0 * beam.error + 5e-3, "{beyond}: {found} {share} {}", beam.error);
+            assert!(beam.to.vector().y.atan2(beam.to.vector().z) < psi, "the part that passes is the lower one");
+        }
+    }
+}
