@@ -192,6 +192,27 @@ fn beams_reach_apertures_that_reflect_by_direction() {
     agree("sun before mirrors", &scene, &[make(&clear(41.0, 190.0, 50_000.0))], 6e-3);
 }
 
+/// Where products follow each other, light is thrown back evenly over an aperture that is a Lambertian mirror of the room:
+/// an approximation beside a patch of sun, which the errors hold.
+#[test]
+fn what_is_thrown_back_evenly_stays_within_the_errors() {
+    let white = format!("{TRANSPARENT}\nreflectance = 0.4");
+    let scene = text(vec![facade([0.5, 1.0], [3.0, 1.5], &white)], 0.0, &clear(41.0, 190.0, 50_000.0)).scene();
+    let light = |session: &Session| -> Vec<Estimate> {
+        let coefficients = Coefficients::new(session, &scene, &Silent).unwrap();
+        let sun = coefficients.sun_estimate(&scene.sun.unwrap());
+        coefficients.sky_estimate(&scene.outside).into_iter().zip(sun).map(|(sky, sun)| sky + sun).collect()
+    };
+    let (own, evenly) = (light(&Session::new()), light(&Session::passing()));
+    for (a, b) in own.iter().zip(&evenly) {
+        assert!(
+            (a.value - b.value).abs() <= a.error + b.error && (b.value / a.value - 1.0).abs() < 0.02,
+            "{a:?} {b:?}"
+        );
+    }
+    assert!(own.iter().zip(&evenly).any(|(a, b)| (b.value / a.value - 1.0).abs() > 1e-5));
+}
+
 #[test]
 fn another_state_in_a_session_is_what_it_is_by_itself() {
     let state = |strength: f64| {

@@ -198,10 +198,12 @@ fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
 fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
     // Across the planes of equal profile angles.
     let across = (if upright { DVec3::Y } else { DVec3::X }).cross(sun.vector()).try_normalize();
-    if let Some(across) = across.filter(|_| is_whole(facing, sun))
-        && let Ok(beams) = by_middle(specimen, facing, sun, &[across])
-    {
-        return beams;
+    let mut begins = false;
+    if let Some(across) = across.filter(|_| is_whole(facing, sun)) {
+        match by_middle(specimen, facing, sun, &[across]) {
+            Ok(beams) => return beams,
+            Err(parts) => begins = parts.iter().any(|part| part.straight > 0.0),
+        }
     }
     let mut beams = Vec::new();
     for (round, [count, pairs]) in STRIPS.into_iter().enumerate() {
@@ -220,7 +222,9 @@ fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade
             parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
         });
         let shares = [0, 1].map(|k| mean(&parts, |part| part.shares()[k]));
-        if stands(off, shares) || round + 1 == STRIPS.len() {
+        // What passes at the rim alone may lie between the middles of wide strips.
+        let missed = begins && shares[0] <= 0.0;
+        if (stands(off, shares) && !missed) || round + 1 == STRIPS.len() {
             beams.extend(straight(facing, sun, &parts, whole, off[0]));
             beams.extend(turned(facing, &parts, off[1] / shares[1].max(f64::MIN_POSITIVE)));
             break;

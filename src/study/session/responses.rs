@@ -61,10 +61,11 @@ impl Session {
         count: usize,
         progress: &dyn Progress,
     ) -> Result<Responses, StudyError> {
-        // Apertures that reflect without direction are followed like those that reflect by cells, as one cell: the room is
-        // black to all of them, and the same whatever the system. Not where light may fall straight from one on another.
+        // Where products follow each other, apertures that reflect without direction are followed like those that reflect by
+        // cells, as one cell that is evenly bright: the room is black to all of them, and the same whatever the product. Not
+        // where light may fall straight from one on another.
         let surface = |one: &SceneAperture| one.aperture.surface;
-        let black = scene.apertures.windows(2).all(|pair| surface(&pair[0]) == surface(&pair[1]));
+        let black = self.evenly && scene.apertures.windows(2).all(|pair| surface(&pair[0]) == surface(&pair[1]));
         let lambertian: Vec<f64> =
             scene.apertures.iter().map(|one| if black { one.diffuse_reflectance() } else { 0.0 }).collect();
         let own = scene;
