@@ -113,6 +113,12 @@ impl Session {
         Self::keeping(3, true)
     }
 
+    /// The same with what is thrown back as it is from point to point: a room for every reflectance.
+    #[must_use]
+    pub fn point_by_point(self) -> Self {
+        Self { evenly: false, ..self }
+    }
+
     /// A part of what is kept usually.
     const fn keeping(part: usize, evenly: bool) -> Self {
         Self {

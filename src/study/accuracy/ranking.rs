@@ -100,7 +100,10 @@ pub fn ranking(
         }
         progress.advance("accuracy", k, efforts.len());
         let clock = Instant::now();
-        let lists = lists(groups, *effort, library, &Inner(progress))?;
+        // What is measured by leaves nothing out.
+        let finest = k + 1 == efforts.len();
+        let session = if finest { Session::passing().point_by_point() } else { Session::passing() };
+        let lists = lists(groups, *effort, library, &session, &Inner(progress))?;
         found.push((worth(&lists), clock.elapsed().as_secs_f64()));
     }
     let Some((finest, _)) = found.last() else { return Err(Cancelled.into()) };
@@ -135,6 +138,7 @@ fn lists(
     groups: &[Group],
     effort: Effort,
     library: &dyn SystemLibrary,
+    session: &Session,
     progress: &dyn Progress,
 ) -> Result<Vec<List>, StudyError> {
     let mut groups = groups.to_vec();
@@ -153,7 +157,7 @@ fn lists(
         }
     }
     let items = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
-    let outcomes = run(&groups, &items, library, &Session::passing(), &[stage], &|_| (), progress)?;
+    let outcomes = run(&groups, &items, library, session, &[stage], &|_| (), progress)?;
     Ok(lists_of(&groups, &items, outcomes, &vec![String::new(); items.len()]))
 }
 

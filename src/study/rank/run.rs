@@ -43,8 +43,9 @@ struct Ready {
     grouping: Grouping,
 }
 
-/// Computes items, those of few states first, and what an earlier stage found best before the rest. Results do not depend on the number of threads. All of them come
-/// through a stage before any enters the next; `told` hears of every result when it is there, from any thread.
+/// Computes items, those of few states first, and what an earlier stage found best before the rest. Results do not depend on
+/// the number of threads. All of them come through a stage before any enters the next; `told` hears of every result when it is
+/// there, from any thread.
 ///
 /// # Errors
 /// A climate that cannot be read, a figure that no year has; cancelled. What is wrong with a product is its outcome.
