@@ -48,7 +48,7 @@ pub(in crate::study) fn dark(outside: &Outside) -> Option<Outside> {
 }
 
 /// The skyline that rises and falls, if any does.
-pub(super) fn shape(outside: &Outside) -> Option<&Skyline> {
+pub(in crate::study) fn shape(outside: &Outside) -> Option<&Skyline> {
     outside.surroundings()?.skyline.as_ref()
 }
 

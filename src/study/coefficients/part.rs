@@ -3,7 +3,7 @@
 
 use super::described::{Described, DescribedViews};
 use super::far::{self, Constants};
-use super::sky_patches::SkyPatches;
+use super::sky_patches::{SkyPatches, illuminances};
 use super::straight::{StraightView, seen_exactly};
 use super::sun_way::SunWay;
 use super::transport::{self, ACROSS, Transport};
@@ -14,7 +14,7 @@ use crate::compute::direction::Dir;
 use crate::compute::dot::add_scaled;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::{Frame, Outside, incident_illuminances_within};
+use crate::compute::sky::Outside;
 use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -116,7 +116,7 @@ impl AperturePart {
                 (patches, spacing, Transport::new(session, scene, index, btdf, room, progress)?)
             }
         };
-        let sky = SkyPatches::of(session, scene, index, patches, spacing);
+        let sky = session.sky_patches(scene, index, patches, spacing);
         let patches = &sky.patches;
         let by_angle = match &transport {
             Transport::Described(own) => own.by_angle.clone(),
@@ -316,7 +316,3 @@ fn described_views(
 const EXACT: f64 = 1e-5;
 /// The same where fixed directions are tried against it, which are off by some 1e-4 and more.
 const TRIED: f64 = 1e-4;
-
-pub(super) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
-    incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
-}

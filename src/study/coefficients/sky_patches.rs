@@ -1,13 +1,9 @@
 //! The patches of the outside before an aperture, and what hangs on nothing but them: found once for all systems and states.
 
 use super::far::{self, Constants};
-use super::part::illuminances;
 use crate::compute::basis::RingBasis;
-use crate::compute::sky::{Frame, SkySamples};
-use crate::study::cache::bits;
+use crate::compute::sky::{Frame, Outside, SkySamples, incident_illuminances_within};
 use crate::study::scene::Scene;
-use crate::study::session::{Session, basis_key};
-use std::sync::Arc;
 
 /// Accuracy of what is even, whatever the sky.
 const RELATIVE: f64 = 1e-7;
@@ -30,19 +26,7 @@ pub(in crate::study) struct SkyPatches {
 
 impl SkyPatches {
     /// Before an aperture of a scene; `spacing` of the directions \[rad\].
-    pub fn of(session: &Session, scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Arc<Self> {
-        let surface = scene.facing(index).surface;
-        // A skyline that rises and falls has too much of a shape for a key.
-        if far::shape(&scene.outside).is_some() {
-            return Arc::new(Self::new(scene, index, patches, spacing));
-        }
-        let mut key = vec![surface as u64];
-        key.extend(bits([scene.facade.radians(), scene.outside.skyline_altitude(), spacing]));
-        key.extend(basis_key(Some(&patches)));
-        session.sky_patches(key, || Self::new(scene, index, patches, spacing))
-    }
-
-    fn new(scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Self {
+    pub fn new(scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Self {
         let frame = Frame::of_aperture(scene.orientation, scene.facing(index).surface);
         let mut samples = SkySamples::new(&patches, &frame, scene.outside.skyline_altitude(), spacing);
         let constants = Constants::of(&scene.outside);
@@ -56,4 +40,9 @@ impl SkyPatches {
         });
         Self { fingerprint: samples.fingerprint(), patches, frame, samples, ground, skyline }
     }
+}
+
+/// Of every patch. \[lx\]
+pub(super) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
+    incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
 }

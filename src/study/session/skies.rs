@@ -1,13 +1,16 @@
 //! Skies before an aperture: the hours of a year, found once for all systems that ask for the same directions; and single
 //! skies that many systems are tried under.
 
-use super::Session;
 use super::sky_year::SkyYear;
+use super::{Session, basis_key};
 use crate::compute::angle::Bearing;
+use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::Outside;
-use crate::study::cache::{Cache, Key};
+use crate::study::cache::{Cache, Key, bits};
+use crate::study::coefficients::far;
 use crate::study::coefficients::sky_patches::SkyPatches;
+use crate::study::scene::Scene;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -26,9 +29,25 @@ fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers
 }
 
 impl Session {
-    /// Patches before an aperture, found anew or kept.
-    pub(in crate::study) fn sky_patches(&self, key: Key, find: impl FnOnce() -> SkyPatches) -> Arc<SkyPatches> {
-        match self.sky_patches.get(key, || Ok::<_, std::convert::Infallible>(find())) {
+    /// Patches before an aperture, found anew or kept; `spacing` of the directions \[rad\].
+    pub(in crate::study) fn sky_patches(
+        &self,
+        scene: &Scene,
+        index: usize,
+        patches: RingBasis,
+        spacing: f64,
+    ) -> Arc<SkyPatches> {
+        // A skyline that rises and falls has too much of a shape for a key.
+        if far::shape(&scene.outside).is_some() {
+            return Arc::new(SkyPatches::new(scene, index, patches, spacing));
+        }
+        let mut key = vec![scene.facing(index).surface as u64];
+        key.extend(bits([scene.facade.radians(), scene.outside.skyline_altitude(), spacing]));
+        key.extend(basis_key(Some(&patches)));
+        match self
+            .sky_patches
+            .get(key, || Ok::<_, std::convert::Infallible>(SkyPatches::new(scene, index, patches, spacing)))
+        {
             Ok(kept) => kept,
             Err(never) => match never {},
         }

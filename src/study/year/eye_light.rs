@@ -76,7 +76,7 @@ impl EyeLight {
             Some(own) => (RingBasis::clone(own.1.basis()), SPACING),
             None => incident_patches(btdf, scene.interpolation),
         };
-        let sky = SkyPatches::of(session, scene, index, patches, spacing);
+        let sky = session.sky_patches(scene, index, patches, spacing);
         let emergent = match &own {
             Some(own) => Emergents::Described(&own.1, own.1.by_patch()),
             None => Emergents::new(session, scene, btdf),
