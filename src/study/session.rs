@@ -4,6 +4,7 @@
 mod behind;
 mod creases;
 mod emission;
+pub(super) mod far;
 pub mod glare;
 pub(super) mod interreflected;
 pub(super) mod landed;
@@ -13,7 +14,9 @@ mod part;
 pub(super) mod responses;
 mod results;
 mod seen;
+pub(super) mod seen_cells;
 mod skies;
+pub(super) mod sky_patches;
 pub(super) mod sky_year;
 mod split;
 mod surfaces;
@@ -24,8 +27,6 @@ pub(super) mod unit_beams;
 mod weights;
 
 use super::cache::{Cache, Key, bits};
-use super::coefficients::seen_cells::SeenCells;
-use super::coefficients::sky_patches::SkyPatches;
 use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
@@ -45,12 +46,13 @@ use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::compute::sky::Outside;
-use landed::Landed;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use results::all_numbers;
 pub use results::{LidResult, RoomResult, SensorResult};
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
+use seen_cells::SeenCells;
+use sky_patches::SkyPatches;
 use sky_year::SkyYear;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -58,6 +60,7 @@ use std::time::Instant;
 pub use surfaces::{PatchLight, SurfaceLight};
 pub(super) use targets::ORDINARY_TARGET;
 use targets::cubature;
+use unit_beams::UnitBeams;
 use weights::{ByCells, Response};
 
 /// What a room computes first, as progress names it.
@@ -74,7 +77,7 @@ pub struct Session {
     seen_cells: Cache<SeenCells>,
     patches: Cache<PatchWeights>,
     responses: Cache<Vec<Response>>,
-    landed: Cache<Landed>,
+    landed: Cache<UnitBeams>,
     sky_patches: Cache<SkyPatches>,
     sky_years: Cache<SkyYear>,
     seen_years: Cache<SkyYear>,

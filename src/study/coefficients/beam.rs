@@ -52,7 +52,7 @@ impl Coefficients {
             let (Some(room), Some(landed)) = (&self.room, &self.landed) else { continue };
             for beam in &beams {
                 // Others may ask for the suns of a year.
-                let shared = || landed.units.of(&self.scene, index, beam, &facing, (&room.radiosity, landed));
+                let shared = || landed.of(&self.scene, index, beam, &facing, &room.radiosity);
                 match (self.suns > 0).then(shared).flatten() {
                     Some(unit) => units.push((unit, beam.exitance * aperture.area())),
                     None => first.add_beam(aperture, beam, &facing),
@@ -60,7 +60,7 @@ impl Coefficients {
             }
         }
         if let (Some(room), Some(landed)) = (&self.room, &self.landed) {
-            self.add_landed(room, landed, (&units, first.beams), &mut sums);
+            self.add_landed(room, landed.landed(), (&units, first.beams), &mut sums);
         }
         let whole = |e: Estimate| Estimate::new(e.value.max(0.0), e.error + 1e-6 * e.value.abs());
         sums.into_iter().map(whole).collect()

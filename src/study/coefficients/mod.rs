@@ -21,10 +21,7 @@
 
 mod beam;
 mod described;
-pub(super) mod far;
 mod part;
-pub(super) mod seen_cells;
-pub(super) mod sky_patches;
 mod straight;
 mod sun_way;
 mod transport;
@@ -32,9 +29,10 @@ mod views;
 
 use super::error::StudyError;
 use super::scene::Scene;
+use super::session::far;
 use super::session::interreflected::{PATCHES, REST};
-use super::session::landed::Landed;
 use super::session::responses::Responses;
+use super::session::unit_beams::UnitBeams;
 use super::session::{ORDINARY_TARGET, Session};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
@@ -53,7 +51,7 @@ pub struct Coefficients {
     parts: Vec<AperturePart>,
     room: Option<Responses>,
     /// What the room makes of beams, where there may be any.
-    landed: Option<Arc<Landed>>,
+    landed: Option<Arc<UnitBeams>>,
     directions: f64,
     /// Suns that will be asked for, as far as is known.
     suns: usize,

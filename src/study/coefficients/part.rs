@@ -2,8 +2,6 @@
 //! is seen straight through, by directions of every sensor's own.
 
 use super::described::{Described, DescribedViews};
-use super::far::{self, Constants};
-use super::sky_patches::{SkyPatches, illuminances};
 use super::straight::{StraightView, seen_exactly};
 use super::sun_way::SunWay;
 use super::transport::{self, ACROSS, Transport};
@@ -19,7 +17,9 @@ use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
+use crate::study::session::far::{self, Constants};
 use crate::study::session::responses::Responses;
+use crate::study::session::sky_patches::{SkyPatches, illuminances};
 use crate::study::session::sky_year::SkyYear;
 use crate::study::system::VerySystem;
 use faer::linalg::matmul::matmul;

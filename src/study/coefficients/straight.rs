@@ -2,7 +2,6 @@
 //! taken together as moments over the cosine of incidence. They hang on the opening alone, so that one year of them
 //! serves every system behind it.
 
-use super::far::{self, Constants};
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
@@ -12,6 +11,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::through;
 use crate::compute::sky::Outside;
 use crate::study::scene::Scene;
+use crate::study::session::far::{self, Constants};
 use std::hash::{Hash, Hasher};
 
 /// Gauss points along each side of a piece of what a sensor sees straight through, at least.

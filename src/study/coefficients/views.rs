@@ -1,6 +1,5 @@
 //! V: what every sensor receives per luminance of every emergent cell of an aperture, directly and through the room.
 
-use super::seen_cells::SeenCells;
 use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Progress;
@@ -12,6 +11,7 @@ use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::responses::Responses;
+use crate::study::session::seen_cells::SeenCells;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Three rows of one number a sensor, one behind the other: all light, the interreflected part of it, and what that part

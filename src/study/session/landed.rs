@@ -2,7 +2,6 @@
 //! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches. What many
 //! systems send on in the same direction is found once, see [`super::unit_beams`].
 
-use super::unit_beams::UnitBeams;
 use super::weights::{Response, by_walls};
 use crate::compute::dot::{add_scaled, wide};
 use crate::compute::room::gather::Reconstruction;
@@ -16,8 +15,6 @@ pub(in crate::study) struct Landed {
     /// Patch by patch: values of the light after two reflections or more, its differences of the two densities by wall,
     /// and the light after one.
     rows: Vec<f32>,
-    /// Beams whose light is kept.
-    pub units: UnitBeams,
 }
 
 /// The light of one or more beams.
@@ -69,7 +66,7 @@ impl Landed {
                 put(walls[count] + s, k, *seen);
             }
         }
-        Self { sensors: count, walls, rows, units: UnitBeams::default() }
+        Self { sensors: count, walls, rows }
     }
 
     /// No light yet.

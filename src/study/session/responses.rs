@@ -7,6 +7,7 @@ use super::landed::{Landed, LandedLight};
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
+use super::unit_beams::UnitBeams;
 use super::weights::{Response, TOGETHER, by_walls};
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
@@ -97,11 +98,11 @@ impl Session {
     }
 
     /// What the sensors of [`Self::responses`] get of beams.
-    pub(in crate::study) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<Landed>, StudyError> {
+    pub(in crate::study) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
         let key = [&room.room.key[..], &room.room.sensor_key].concat();
         self.landed.get(key, || {
             let gather = self.gathering(scene, room.count, &room.radiosity)?;
-            Ok(Landed::new(&room.radiosity, &gather, &room.room.sensors))
+            Ok(UnitBeams::new(Landed::new(&room.radiosity, &gather, &room.room.sensors)))
         })
     }
 }

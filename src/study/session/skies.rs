@@ -1,6 +1,8 @@
 //! Skies before an aperture: the hours of a year, found once for all systems that ask for the same directions; and single
 //! skies that many systems are tried under.
 
+use super::far;
+use super::sky_patches::SkyPatches;
 use super::sky_year::SkyYear;
 use super::{Session, basis_key};
 use crate::compute::angle::Bearing;
@@ -8,8 +10,6 @@ use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::Outside;
 use crate::study::cache::{Cache, Key, bits};
-use crate::study::coefficients::far;
-use crate::study::coefficients::sky_patches::SkyPatches;
 use crate::study::scene::Scene;
 use std::f64::consts::TAU;
 use std::sync::Arc;

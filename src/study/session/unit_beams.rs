@@ -25,9 +25,11 @@ const IMAGES: [DVec3; 4] =
 /// The aperture that a beam comes through, and its direction.
 type Key = (usize, [u64; 3]);
 
-/// Light of such beams, as far as it was asked for.
-#[derive(Default)]
-pub(in crate::study) struct UnitBeams(Mutex<HashMap<Key, Arc<UnitBeam>>>);
+/// What the room makes of beams, and that of such as many systems send, as far as it was asked for.
+pub(in crate::study) struct UnitBeams {
+    landed: Landed,
+    known: Mutex<HashMap<Key, Arc<UnitBeam>>>,
+}
 
 /// A beam of 1 lm.
 pub(in crate::study) struct UnitBeam {
@@ -57,6 +59,16 @@ fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
 }
 
 impl UnitBeams {
+    /// None of them yet.
+    pub fn new(landed: Landed) -> Self {
+        Self { landed, known: Mutex::default() }
+    }
+
+    /// For beams of any direction.
+    pub fn landed(&self) -> &Landed {
+        &self.landed
+    }
+
     /// What a beam through an aperture of the scene makes, times its flux; `None` where it has to be found by itself.
     pub fn of(
         &self,
@@ -64,16 +76,16 @@ impl UnitBeams {
         index: usize,
         beam: &BeamLight,
         facing: &Facing<'_>,
-        (radiosity, landed): (&Radiosity, &Landed),
+        radiosity: &Radiosity,
     ) -> Option<Arc<UnitBeam>> {
         let to = standing_for(beam, facing)?;
         let key = (index, to.vector().to_array().map(f64::to_bits));
         // What is kept is whole even if another thread has failed while it held the lock.
-        let known = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(unit) = known().get(&key) {
             return Some(Arc::clone(unit));
         }
-        let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, landed));
+        let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, &self.landed));
         let mut known = known();
         if known.len() * unit.numbers.len() < MOST_NUMBERS {
             known.insert(key, Arc::clone(&unit));

@@ -1,6 +1,5 @@
 //! `[year]` judged: ranges, and what must agree with the rest of the scene.
 
-use super::steps::Step;
 use crate::compute::room::direct::Sensor;
 use crate::compute::year::lighting::{Control, Lamps, Zone};
 use crate::study::error::StudyError;
@@ -21,13 +20,6 @@ pub struct Settings {
     pub lamps: Option<Lamps>,
     /// Does anyone ask what light there is while nobody is in? Else those hours are left out.
     pub unoccupied: bool,
-}
-
-impl Settings {
-    /// Is the light of a step to be computed?
-    pub(super) fn asks(&self, step: &Step) -> bool {
-        step.hour.is_lit() && (self.unoccupied || step.occupied)
-    }
 }
 
 fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, StudyError> {

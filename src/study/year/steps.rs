@@ -213,3 +213,10 @@ impl Steps {
         outside_of_hour(&hour, &sky, &site).map_err(|SkyKeyError { key, message }| StudyError::key(key, message))
     }
 }
+
+impl Settings {
+    /// Is the light of a step to be computed?
+    pub(super) fn asks(&self, step: &Step) -> bool {
+        step.hour.is_lit() && (self.unoccupied || step.occupied)
+    }
+}

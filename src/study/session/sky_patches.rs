@@ -43,6 +43,6 @@ impl SkyPatches {
 }
 
 /// Of every patch. \[lx\]
-pub(super) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
+pub(in crate::study) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
 }

@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Outsides of which all others are made.
-pub(super) struct Constants {
+pub(in crate::study) struct Constants {
     /// Black sky, black skyline, ground of luminance 1.
     pub ground: Option<Outside>,
     /// Black sky and ground, skyline of luminance 1; `None` without one.
@@ -64,7 +64,7 @@ pub(in crate::study) fn luminance(outside: &Outside) -> f64 {
 }
 
 /// Do two outsides hide the same of the sky?
-pub(super) fn same(one: &Outside, other: &Outside) -> bool {
+pub(in crate::study) fn same(one: &Outside, other: &Outside) -> bool {
     one.skyline_altitude() == other.skyline_altitude()
         && match (shape(one), shape(other)) {
             (None, None) => true,
