@@ -136,8 +136,10 @@ fn a_build_that_is_interrupted_keeps_what_is_finished() {
     while waiting() > all - 3 && start.elapsed() < Duration::from_secs(120) {
         std::thread::sleep(Duration::from_millis(20));
     }
-    // Not by INT: what a shell starts behind itself ignores that, and so does what it starts.
-    let interrupt = std::process::Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap();
+    // `kill` of the shell: the program of that name is in a package of its own. Not INT, which what a shell starts in the
+    // background ignores.
+    let terminate = format!("kill -TERM {}", child.id());
+    let interrupt = std::process::Command::new("sh").args(["-c", &terminate]).status().unwrap();
     assert!(interrupt.success() && !child.wait().unwrap().success());
     let left = waiting();
     assert!(left <= all - 3 && left > 0, "{left} of {all}");
