@@ -1,6 +1,9 @@
-//! Draws a year as a compact table from a weather file: `cargo run --example draw_weather IN.epw OUT.weather.txt NAME REGION COUNTRY SOURCE`.
+//! Converts a weather file into the compact table of a built-in year (`assets/weather`).
 //!
-//! Where the file's clock is off by its own irradiances, the table states the shift at which they close, and how well.
+//! `cargo run --example draw_weather IN.epw OUT.weather.txt NAME REGION COUNTRY SOURCE`
+//!
+//! If the clock of the file is shifted, the table states by how much (`clock`) and how well global = diffuse + direct
+//! · sin h then fits (`closure`). Look at the printed line: number of records, size and clock.
 
 use cfs::compute::weather::Station;
 use cfs::formats::weather::table;

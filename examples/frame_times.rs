@@ -1,11 +1,12 @@
-//! What a frame of the window costs while the sun is dragged: six tiles at 1280 × 720, with the real engine's results, without
-//! a display. Prints our code's time a frame on the thread that draws, apart by tile, and what egui takes beside it to turn
-//! shapes into triangles.
+//! Measures the time per frame of the window, without a display: six tiles at 1280 × 720 with results of the real
+//! engine.
 //!
-//! Then what it costs to scroll the list of products, and how long a letter in its search field takes to its result.
+//! `cargo run --release --example frame_times [FRAMES] [CATALOGUE]`
 //!
-//! `cargo run --release --example frame_times [FRAMES] [CATALOGUE]`; 240 frames unless told otherwise, and the built-in
-//! products; `large_catalogue` writes larger ones. Medians: a frame in which the machine did something else counts as one.
+//! By default 240 frames and the built-in products; `large_catalogue` writes larger catalogues. Look at the median
+//! times: those of this program on the drawing thread while the sun is dragged, in total and per tile; those of egui
+//! for tessellation; then scrolling of the product list, and the time from a letter in the search field to its
+//! result.
 
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
@@ -21,19 +22,19 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Longest that the first results are waited for.
+/// Maximum waiting time for results.
 const PATIENCE: Duration = Duration::from_secs(600);
-/// How far the sun goes from one frame to the next. \[min\]
+/// Step of the clock from one frame to the next. \[min\]
 const STEP: i32 = 1;
 
-/// A window that is drawn by hand.
+/// Window that is drawn frame by frame, without a display.
 struct Window {
     ctx: egui::Context,
     app: App,
     time: f64,
 }
 
-/// What one frame took.
+/// Times and size of one frame.
 struct Frame {
     logic: Duration,
     draw: Duration,
@@ -87,12 +88,12 @@ impl Window {
     }
 }
 
-/// The catalogue that is named, or a new one.
+/// Opens the catalogue named as the second argument, or a new one in memory.
 fn shelf() -> Result<Arc<dyn Shelf>, AppError> {
     std::env::args_os().nth(2).map_or_else(memory_shelf, |path| open_shelf(Some(Path::new(&path))))
 }
 
-/// Our code's time of each of so many frames in which the list of products is scrolled.
+/// Scrolls the list of products for `frames` frames; returns the time of this program per frame.
 fn scroll(window: &mut Window, frames: usize) -> Vec<Duration> {
     let over = pos2(120.0, 400.0);
     window.frame(vec![Event::PointerMoved(over)]);
@@ -105,7 +106,7 @@ fn scroll(window: &mut Window, frames: usize) -> Vec<Duration> {
     };
     let mut ours = Vec::new();
     for number in 0..frames {
-        // Through all of the list and back, as far as it is.
+        // Down the list and back.
         let down = number < frames / 2;
         let frame = window.frame(vec![wheel(if down { -400.0 } else { 400.0 })]);
         ours.push(frame.logic + frame.draw);
@@ -114,7 +115,7 @@ fn scroll(window: &mut Window, frames: usize) -> Vec<Duration> {
     ours
 }
 
-/// From each letter typed into the search field to the list that answers it.
+/// Types a word into the search field; returns the time from each letter to its result.
 fn search(window: &mut Window) -> anyhow::Result<Vec<Duration>> {
     let key =
         |pressed| Event::Key { key: Key::F, physical_key: None, pressed, repeat: false, modifiers: Modifiers::COMMAND };
@@ -170,7 +171,7 @@ fn main() -> anyhow::Result<()> {
         }
         results += u64::from(moved != window.app.results.lid.revision);
         moved = window.app.results.lid.revision;
-        // As a display of sixty frames a second leaves the other threads their time.
+        // Leaves other threads time to work, as a display with 60 frames per second does.
         std::thread::sleep(Duration::from_millis(8));
     }
     println!("{frames} frames, {results} new light distributions, {triangles} triangles; milliseconds:");

@@ -1,9 +1,15 @@
-//! Looks for bytes that readers do not stand: `cargo run --example fuzz TARGET FILE…` reads files as that target does,
-//! `cargo run --example fuzz TARGET --random RUNS [SEED]` makes files at random and damages them, `--seeds FOLDER COUNT`
-//! writes inputs to begin with, `--list` tells the targets. Says how many were taken; a fault is a panic that tells the input.
+//! Searches for input on which a reader panics.
 //!
-//! Built with `--cfg fuzzing` it is a program of libFuzzer instead, guided by coverage, as `.ci/fire-readers` does; the target
-//! is named by `CFS_FUZZ`.
+//! - `cargo run --example fuzz -- --list` prints the targets, which are the readers.
+//! - `cargo run --example fuzz -- TARGET --random RUNS [SEED]` makes random files, damages them and reads them.
+//! - `cargo run --example fuzz -- TARGET FILE…` reads files.
+//! - `cargo run --example fuzz -- TARGET --seeds FOLDER COUNT` writes inputs to start from.
+//! - `cargo run --example fuzz -- TARGET --file INPUT PATH` writes the file that an input of decisions produces.
+//!
+//! Look at the number of inputs that were read ("taken"). A failure is a panic that names the seed or the file.
+//!
+//! Built with `--cfg fuzzing`, as by `.ci/fire-readers`, this is a program of libFuzzer, guided by coverage. The
+//! environment variable `CFS_FUZZ` then names the target.
 
 #![cfg_attr(fuzzing, no_main)]
 
@@ -20,7 +26,7 @@ mod guided {
     static RUNS: AtomicU64 = AtomicU64::new(0);
     static TAKEN: AtomicU64 = AtomicU64::new(0);
 
-    // libFuzzer's entry is exported by the macro, which is of another crate: nothing of this one is unsafe.
+    // The macro exports the unsafe entry point of libFuzzer from its own crate; this crate has no unsafe code.
     libfuzzer_sys::fuzz_target!(|input: &[u8]| {
         let target = TARGET.get_or_init(|| {
             let name = std::env::var("CFS_FUZZ").unwrap_or_default();
@@ -29,7 +35,7 @@ mod guided {
         let taken = target.run(input);
         let (runs, taken) =
             (RUNS.fetch_add(1, Relaxed) + 1, TAKEN.fetch_add(u64::from(taken), Relaxed) + u64::from(taken));
-        // Often enough that the last one is near the end.
+        // Often enough that the last line is close to the final counts.
         if runs.is_multiple_of(500) {
             eprintln!("TAKEN {taken} OF {runs}");
         }
@@ -41,7 +47,7 @@ fn main() -> std::process::ExitCode {
     use readers::{TARGETS, Target, random_input};
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let number = |word: &str| word.parse::<u64>().unwrap_or_else(|_| panic!("\"{word}\" is no number"));
+    let number = |word: &str| word.parse::<u64>().unwrap_or_else(|_| panic!("\"{word}\" is not a number"));
     let target = |name: &str| Target::named(name).unwrap_or_else(|| panic!("no target \"{name}\"; see --list"));
     match words[..] {
         ["--list"] => TARGETS.iter().for_each(|target| println!("{}", target.name)),
@@ -49,7 +55,7 @@ fn main() -> std::process::ExitCode {
             let (target, first) = (target(name), seed.first().map_or(0, |seed| number(seed)));
             let mut taken = 0;
             for seed in first..first + number(runs) {
-                // Told before it is read: a fault ends the program.
+                // The seed is named if reading panics, which ends the program.
                 let input = random_input(seed);
                 let read = std::panic::catch_unwind(|| target.run(&input));
                 taken += u64::from(read.unwrap_or_else(|_| panic!("{name}: seed {seed}")));
@@ -64,7 +70,7 @@ fn main() -> std::process::ExitCode {
             }
         }
         [name, "--file", input, path] => {
-            // The file that an input of decisions stands for.
+            // Writes the file that is made from an input of decisions.
             let bytes = std::fs::read(input).expect("an input");
             std::fs::write(path, target(name).file(&bytes)).expect("a file to write to");
         }

@@ -1,8 +1,12 @@
-//! What an eye sees, as fisheye pictures of Radiance with the program's own luminances, beside its own glare probability:
-//! `cargo run --example glare_pictures -- FOLDER`. `.ci/glare` lets `evalglare` judge them.
+//! Writes fisheye pictures (Radiance HDR) of what an observer sees, with the luminances of this program, and
+//! `glare.csv` with the DGP that this program computes.
 //!
-//! Four systems (opening, fabric, blind, laser-cut panel), three suns, two eyes. Surfaces of the room are as even as the
-//! illuminance at the eye says; the sun's disc is whole pixels of its own light.
+//! `cargo run --example glare_pictures -- FOLDER`
+//!
+//! `.ci/glare` compares the DGP with that of `evalglare` for the same pictures. There are four systems (open
+//! aperture, fabric, blind, laser-cut panel), three positions of the sun and two observers. The surfaces of the room
+//! have a uniform luminance that matches the vertical illuminance at the observer. The solar disc fills whole pixels.
+//! Look at the printed lines: DGP with its uncertainty, and the glare sources.
 
 use anyhow::Context as _;
 use cfs::compute::direction::{Dir, Emergent};
@@ -17,7 +21,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Pixels along a side: 0.15° each.
+/// Pixels along a side of the picture, 0.15° each.
 const SIDE: usize = 1200;
 const BLIND: &str = "name = \"Blind\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 0.072\nangles = [30.0]\n\
     upper = { reflectance = 0.6 }\nlower = { reflectance = 0.6 }\n";
@@ -27,7 +31,7 @@ const SYSTEMS: [(&str, &str); 4] = [
     ("blind", "{ file = \"blind.system.toml\" }"),
     ("laser-cut", "{ file = \"SYSTEMS/laser-cut-panel.system.toml\" }"),
 ];
-/// Altitude and azimuth; illuminances of sky and sun.
+/// Solar altitude and azimuth \[°\], diffuse horizontal and direct normal illuminance \[lx\].
 const SUNS: [[f64; 4]; 3] = [[14.0, 184.0, 4e3, 6e2], [38.0, 165.0, 1e4, 1.5e4], [55.0, 215.0, 9e3, 3e4]];
 const EYES: [([f64; 3], [f64; 3]); 2] = [([2.5, 2.0, 1.2], [0.0, -1.0, 0.0]), ([1.2, 3.0, 1.2], [0.8, -0.6, 0.0])];
 
@@ -44,14 +48,14 @@ fn scene(system: &str, [altitude, azimuth, sky, sun]: [f64; 4], base: &Path) -> 
     Ok(Scene::resolve(&SceneFile::parse(&text)?, base, &Library::default())?)
 }
 
-/// Luminances of the picture, row by row from above.
+/// Computes the luminances of the pixels, row by row from the top. \[cd/m²\]
 fn picture(scene: &Scene, lids: &[Lid], eye: &Sensor, found: &EyeGlare) -> Vec<f64> {
     let gaze = Gaze::new(eye);
     let step = PI / SIDE as f64;
     let mut luminance = vec![0.0; SIDE * SIDE];
     let mut walls = Vec::new();
     let (mut lit, mut dark) = (0.0, 0.0);
-    // Pixels of each disc, and what they would send to the eye.
+    // Pixels of each disc, and their solid angle.
     let mut discs: Vec<(Vec<usize>, f64)> = vec![(Vec::new(), 0.0); found.discs.len()];
     for (at, pixel) in luminance.iter_mut().enumerate() {
         let place = step * DVec2::new((at % SIDE) as f64 + 0.5, (SIDE - 1 - at / SIDE) as f64 + 0.5) - 0.5 * PI;
@@ -98,7 +102,7 @@ fn picture(scene: &Scene, lids: &[Lid], eye: &Sensor, found: &EyeGlare) -> Vec<f
     luminance
 }
 
-/// As Radiance writes it: shared exponents, 179 lm/W.
+/// Formats a picture as Radiance HDR: pixels with shared exponents, 179 lm/W.
 fn radiance(luminance: &[f64]) -> Vec<u8> {
     let mut bytes = format!(
         "#?RADIANCE\nVIEW= -vta -vp 0 0 0 -vd 0 1 0 -vu 0 0 1 -vh 180 -vv 180\nFORMAT=32-bit_rle_rgbe\n\n-Y {SIDE} +X {SIDE}\n"
@@ -111,7 +115,7 @@ fn radiance(luminance: &[f64]) -> Vec<u8> {
             continue;
         }
         let exponent = value.log2().floor() as i32 + 1;
-        // Radiance reads the middle of a step.
+        // Rounded down, because Radiance reads a mantissa as the middle of its step.
         let mantissa = (value * 256.0 / 2_f64.powi(exponent)).min(255.0) as u8;
         bytes.extend([mantissa, mantissa, mantissa, (exponent + 128) as u8]);
     }

@@ -1,7 +1,10 @@
-//! Writes a catalogue of many made products, and says how long it takes to open and to search it.
+//! Writes a catalogue with many artificial products and measures the time to open and to search it.
 //!
-//! `cargo run --release --example large_catalogue FILE [PRODUCTS] [DATASETS]`; then `cfs --catalogue FILE` is the window
-//! on it. One product in twenty has ten states. A file that exists is measured as it is.
+//! `cargo run --release --example large_catalogue FILE [PRODUCTS] [DATASETS]`
+//!
+//! By default 10 000 products share 500 datasets; one product in twenty has ten states. An existing file is not
+//! written again, only measured. Look at the times of opening and of each search. `cfs --catalogue FILE` opens the
+//! window with it.
 
 use cfs::catalogue::{Catalogue, NewProduct, Query};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
@@ -10,7 +13,7 @@ use cfs::compute::direction::{Dir, Facade};
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// States of a product that moves.
+/// Number of states of a product with several states.
 const STATES: usize = 10;
 
 const KINDS: [&str; 5] = ["venetian", "screen", "prismatic", "diffusing glass", "laser-cut panel"];
@@ -54,7 +57,7 @@ fn milliseconds(time: std::time::Duration) -> f64 {
 fn fill(file: &std::path::Path, products: usize, datasets: usize) -> anyhow::Result<()> {
     let made: Vec<Dataset> = (0..datasets).map(|number| dataset(number, datasets)).collect();
     let mut catalogue = Catalogue::open(file)?;
-    // In transactions of a size that is kept in memory.
+    // Transactions of 500 products fit into memory.
     for first in (0..products).step_by(500) {
         let some = (first..products.min(first + 500)).map(|number| {
             let states = if number % 20 == 0 { STATES } else { 1 };
@@ -78,7 +81,7 @@ fn fill(file: &std::path::Path, products: usize, datasets: usize) -> anyhow::Res
     Ok(())
 }
 
-/// A lobe on the Tregenza patches that turns and widens with the number.
+/// Makes a dataset with a lobe on the Tregenza patches, whose direction and width depend on `number`.
 fn dataset(number: usize, of: usize) -> Dataset {
     let share = number as f64 / of as f64;
     let turned = (share * 140.0 - 70.0).to_radians();

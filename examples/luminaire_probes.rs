@@ -1,7 +1,10 @@
-//! Writes luminaire files with known light, to find out how a lighting program places and turns them:
-//! a Lambertian opening (1.2 m × 1.0 m, 1000 cd/m²) and one that only shines up and to the right seen from outside.
+//! Writes luminaire files with a known distribution, to find out how a lighting program places and rotates them.
 //!
 //! `cargo run --example luminaire_probes FOLDER`
+//!
+//! One aperture is Lambertian (1.2 m × 1.0 m, 1000 cd/m²), the other emits only upwards and to the right, seen from
+//! outside. Both are written as EULUMDAT and as IES (LM-63-2002 and LM-63-2019), mounted as on the façade and aimed
+//! down. Import the files into the lighting program and look at the direction of the light.
 
 use cfs::compute::direction::{Dir, Facade, Surface};
 use cfs::compute::lid::c_gamma::{Aim, CGammaTable, Step};

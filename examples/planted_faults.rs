@@ -1,12 +1,18 @@
-//! What the data doctor makes of faults whose truth is known: good files with one fault planted in each, and the good
-//! files themselves. Prints, fault by fault, how often it was mended unasked, asked about with the right repair among
-//! those offered, told without it, missed, or made worse; then every genuine file that is touched or asked about, and the
-//! genuine files whose best explanation comes nearest to being asked about.
+//! Tests the data check with known faults: it plants one fault at a time in good datasets and examines the result.
 //!
-//! `cargo run --release --example planted_faults [FILE…]`; without files all XML under `$CFS_TEST_DATA` or `../shared`.
+//! `cargo run --release --example planted_faults [FILE…]`
 //!
-//! By these tables are judged `scale`, `ASK` and `SURE` of `compute::doctor::judgement`: nothing may be made worse, and no
-//! genuine file may be asked about what stands in the list of hypotheses.
+//! Without files it takes all BSDF XML files of the reference data (`CFS_TEST_DATA`). Look at the counts per fault:
+//! - *repaired*: repaired automatically, and correctly;
+//! - *asked*: the correct repair is among those offered;
+//! - *general*: the correct repair is offered by the finding that every file with a preferred direction gets;
+//! - *reported*: a new finding, without the correct repair;
+//! - *missed*: no new finding;
+//! - *worse*: an automatic repair that is wrong.
+//!
+//! Then follow the genuine files that get an automatic repair or an offer beyond the general one, and those that are
+//! nearest to an offer. The constants `scale`, `ASK` and `SURE` of `compute::doctor::judgement` are chosen by these
+//! tables: no file may become worse, and no genuine file may get an offer from the list of hypotheses.
 
 use anyhow::Context as _;
 use cfs::compute::basis::{AzimuthMap, Cell, RingBasis};
@@ -18,16 +24,16 @@ use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Changes below this cannot be told from measuring error; weighted share.
+/// Weighted relative change below which two datasets count as equal, since measurement errors are larger.
 const NOTHING: f64 = 0.02;
 
-/// A good dataset, and where it comes from.
+/// Good dataset, with the name of its file.
 struct Good {
     name: String,
     dataset: Dataset,
 }
 
-/// Every XML file below a folder.
+/// Lists all XML files in a folder and its subfolders.
 fn walk(folder: &Path, list: &mut Vec<PathBuf>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for path in entries.flatten().map(|entry| entry.path()) {
@@ -39,7 +45,7 @@ fn walk(folder: &Path, list: &mut Vec<PathBuf>) {
     }
 }
 
-/// Files of products, each content once. Parser samples and a hand-made tree of numbers are none.
+/// Reads the files of products, without duplicates. Parser samples and an artificial tensor tree are left out.
 fn products(mut files: Vec<PathBuf>) -> anyhow::Result<Vec<Good>> {
     files.sort();
     let mut seen = BTreeSet::new();
@@ -58,15 +64,15 @@ fn products(mut files: Vec<PathBuf>) -> anyhow::Result<Vec<Good>> {
     Ok(list)
 }
 
-/// Systems made here, reciprocal by construction: slats that throw light from above back, steeper and flatter, clearer
-/// and darker, and a frosted pane without direction.
+/// Makes datasets that are reciprocal by construction: blinds of different transmittance, reflection and asymmetry.
 fn made() -> Vec<Good> {
     let blind = |amount: f64, slope: f64, aside: f64| {
         let rise = |cell: &Cell| cell.centre().vector().y;
         let right = |cell: &Cell| cell.centre().vector().x;
         let enters = move |cell: &Cell| amount * (1.0 - 0.9 * rise(cell)) * (1.0 + aside * right(cell));
         let leaves = move |cell: &Cell| (1.0 + 0.5 * rise(cell)) * cell.theta().cos();
-        // Names of reflected light are turned by 180°, which makes r(ω, ω′) = r(ω′, ω) a product of turned halves.
+        // Directions of reflected light are stored rotated by 180°; a product of rotated factors then has r(ω, ω′) =
+        // r(ω′, ω).
         let mirror = move |i: &Cell, o: &Cell, a: f64| 0.3 * (1.0 + a * rise(i)) * (1.0 - a * rise(o)) / PI;
         let matrix = |map, q: &dyn Fn(&Cell, &Cell) -> f64| {
             let basis = RingBasis::klems_full(map);
@@ -96,13 +102,13 @@ fn made() -> Vec<Good> {
     parts.into_iter().map(of).collect()
 }
 
-/// What is done to a good dataset.
+/// Fault to plant in a good dataset.
 enum Fault {
-    /// A repair that makes it worse.
+    /// A repair, which damages good data.
     Done(&'static str),
-    /// One function under the name of another.
+    /// One block of data under the name of another.
     Copied(Component, Component),
-    /// A function of zeros.
+    /// A block of zeros.
     Zeroed(Component),
 }
 
@@ -157,7 +163,7 @@ const FAULTS: &[(&str, Fault)] = &[
 ];
 
 impl Fault {
-    /// The dataset with the fault; `None` where it lacks what the fault is about.
+    /// Returns the dataset with the fault, or `None` if it lacks the block that the fault concerns.
     fn planted(&self, dataset: &Dataset) -> Option<Dataset> {
         match self {
             Self::Done(word) => done(dataset, word.parse().ok()?),
@@ -181,7 +187,7 @@ fn cells(dataset: &Dataset, component: Component) -> Option<&CellMatrix> {
     }
 }
 
-/// Other values in the place of a function.
+/// Replaces the values of a block.
 fn with(dataset: &Dataset, component: Component, target: &CellMatrix, values: Vec<f64>) -> Option<Dataset> {
     let mut planted = dataset.clone();
     let matrix = CellMatrix::new(target.incident().clone(), target.emergent().clone(), values)?;
@@ -192,7 +198,7 @@ fn with(dataset: &Dataset, component: Component, target: &CellMatrix, values: Ve
 fn done(dataset: &Dataset, repair: Repair) -> Option<Dataset> {
     let own = |c: &Component| dataset.visible.get(*c).is_some() && !dataset.derived.contains(c);
     let pairs = repair.blocks == BlockScope::Transmission || repair.kind == RepairKind::SwapSides;
-    // What belongs together only makes sense in pairs.
+    // Repairs of pairs need both blocks.
     let there = match repair.blocks {
         BlockScope::One(component) => own(&component),
         _ if pairs => own(&FRONT) && own(&BACK),
@@ -201,7 +207,7 @@ fn done(dataset: &Dataset, repair: Repair) -> Option<Dataset> {
     if !there {
         return None;
     }
-    // A file that lost a function is read again: what was derived is derived anew.
+    // Blocks that were derived when the file was read are derived again from the damaged data.
     let mut source = dataset.clone();
     for component in &dataset.derived {
         let drop = Repair { blocks: BlockScope::One(*component), ..Repair::whole(RepairKind::DropBlock) };
@@ -217,7 +223,7 @@ fn done(dataset: &Dataset, repair: Repair) -> Option<Dataset> {
     Some(planted)
 }
 
-/// Largest weighted relative change of any function.
+/// Returns the largest weighted relative change of any block.
 fn change(before: &Dataset, after: &Dataset) -> f64 {
     let mut largest = 0.0_f64;
     for component in Component::ALL {
@@ -246,20 +252,20 @@ fn change(before: &Dataset, after: &Dataset) -> f64 {
     largest
 }
 
-/// What became of one planted fault.
+/// Outcome of the data check for one planted fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
-    /// Put right without being asked.
+    /// Repaired automatically, and correctly.
     Mended,
-    /// The right repair is among those asked about.
+    /// The correct repair is among those offered.
     Asked,
-    /// The question that every file with a direction gets would put it right.
+    /// The correct repair is offered by the finding that every file with a preferred direction gets.
     General,
-    /// Something new is told, without a repair that puts it right.
+    /// There is a new finding, without the correct repair.
     Told,
-    /// Nothing new is told.
+    /// There is no new finding.
     Missed,
-    /// What is made unasked does not put it right.
+    /// An automatic repair is wrong.
     Worse,
 }
 
@@ -267,7 +273,7 @@ impl Outcome {
     const ALL: [Self; 6] = [Self::Mended, Self::Asked, Self::General, Self::Told, Self::Missed, Self::Worse];
 }
 
-/// Repairs that a finding names: its own, and those that its words call as well possible.
+/// Returns the repairs that a finding offers: its own, and the alternatives that its message names.
 fn offered(one: &Diagnosis) -> Vec<Repair> {
     let words = one.finding.message.split(['(', ')']).filter_map(|word| word.parse().ok());
     one.repair.into_iter().chain(words).collect()
@@ -285,7 +291,7 @@ fn outcome(good: &Dataset, planted: &Dataset, before: &[Diagnosis], found: &[Dia
         return if right(&sure) { Outcome::Mended } else { Outcome::Worse };
     }
     for one in found {
-        // A finding about several functions asks for one repair of each.
+        // A finding about several blocks offers one repair for each.
         let together: Vec<Repair> =
             found.iter().filter(|other| other.finding == one.finding).filter_map(|other| other.repair).collect();
         if right(&together) && !together.is_empty() || offered(one).iter().any(|repair| right(&[*repair])) {
@@ -311,13 +317,13 @@ fn main() -> anyhow::Result<()> {
     goods.extend(made());
     let before: Vec<Vec<Diagnosis>> = goods.iter().map(|good| examine(&good.dataset)).collect();
 
-    println!("{:<26} planted  mended  asked  general  told  missed  worse   what was not asked about", "fault");
+    println!("{:<26} planted  repaired  asked  general  reported  missed  worse   not asked about", "fault");
     let (mut totals, mut spent, mut slowest) = ([0_usize; 6], Duration::ZERO, Duration::ZERO);
     for (name, fault) in FAULTS {
         let mut counts = [0_usize; 6];
         let mut rest = Vec::new();
         for (good, before) in goods.iter().zip(&before) {
-            // Trees take long and add no other kind of fault.
+            // Tensor trees take long and add no other kind of fault.
             if good.dataset.format.contains("tree") {
                 continue;
             }
@@ -346,7 +352,7 @@ fn main() -> anyhow::Result<()> {
         1e3 * slowest.as_secs_f64()
     );
 
-    println!("\ngenuine files that are mended unasked, or asked about beyond the question that all get:");
+    println!("\ngenuine files with an automatic repair (SURE), or an offer beyond the general one:");
     for (good, found) in goods.iter().zip(&before) {
         for one in found.iter().filter(|one| one.sure || one.finding.severity > Severity::Info) {
             if let Some(repair) = one.repair {
@@ -354,7 +360,7 @@ fn main() -> anyhow::Result<()> {
             }
         }
     }
-    println!("\ngenuine files nearest to a question, with what their best explanation gains and how far it leads:");
+    println!("\ngenuine files nearest to an offer: gain and lead of their best hypothesis, and its repairs:");
     let mut near: Vec<_> = goods.iter().filter_map(|good| Some((standing(&good.dataset)?, &good.name))).collect();
     near.sort_by(|a, b| b.0.gain.total_cmp(&a.0.gain));
     for (best, name) in near.iter().take(8) {
@@ -365,7 +371,7 @@ fn main() -> anyhow::Result<()> {
 }
 
 fn row(name: &str, counts: &[usize; 6]) -> String {
-    let widths = [8, 7, 9, 6, 8, 7];
+    let widths = [10, 7, 9, 10, 8, 7];
     let cells: String =
         Outcome::ALL.iter().zip(widths).map(|(one, w)| format!("{:>w$}", counts[*one as usize])).collect();
     format!("{name:<26}{:>8}{cells}", counts.iter().sum::<usize>())

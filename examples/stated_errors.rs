@@ -1,37 +1,41 @@
-//! What the stated errors of the ordinary method are worth: beside reference cases, folder by folder, and beside much
-//! finer runs of rooms made here. Prints how many sensors keep to what they state and how many state far too much.
+//! Tests the stated numerical uncertainty of the default method against the reference data, and against much finer
+//! runs of rooms made here.
 //!
-//! `cargo run --release --example stated_errors [FOLDER…]`; the cases are in `$CFS_TEST_DATA` or `../shared`.
+//! `cargo run --release --example stated_errors [FOLDER…]`
 //!
-//! Only sensors count whose truth is known well enough to tell: its uncertainty at most a tenth of the stated error, and
-//! that above 0.1 % of the scene's mean. Both errors are those of the computation: all runs read the same data.
+//! FOLDER is a folder of reference cases, or `made`; the reference data are found through `CFS_TEST_DATA`. Look at
+//! "held", the share of sensors whose error is within the stated uncertainty, and at "> 10×", the share whose stated
+//! uncertainty is more than ten times the error.
 //!
-//! By this table are judged `SEEN` of `study::session`, how tight the cubature of direct light is, and `DIFFERENCE`, `REST`
-//! and `NEAR` of `study::session::interreflected`.
+//! Only sensors count whose reference is accurate enough: its uncertainty is at most a tenth of the stated one, which
+//! is above 0.1 % of the mean of the scene. All runs use the same data, so that only numerical errors are compared.
+//!
+//! This table is the source of `SEEN` of `study::session::targets`, of the tolerance of the cubature of direct light,
+//! and of `DIFFERENCE`, `REST` and `NEAR` of `study::session::interreflected`.
 
 use anyhow::Context as _;
 use cfs::compute::estimate::{Estimate, Silent};
 use cfs::study::{Library, RoomResult, Scene, SceneFile, Session, load_scene};
 use std::path::{Path, PathBuf};
 
-/// Folders of the reference cases whose numbers are those of the data at their word.
+/// Folders of reference cases that use patch-averaged data as given.
 const FOLDERS: [&str; 5] = ["direct", "sun", "inter", "systems", "extreme"];
-/// The reference's uncertainty in shares of the stated error, up to which it can tell ten from one.
+/// Maximum uncertainty of the reference, relative to the stated uncertainty, at which it can judge a factor of ten.
 const WELL_KNOWN: f64 = 0.1;
-/// Stated errors below this share of the scene's mean harm nobody.
+/// Share of the mean of the scene below which a stated uncertainty does not count.
 const SMALL: f64 = 1e-3;
-/// Stated in multiples of the true error, from which on it is padding.
+/// Ratio of stated uncertainty to error above which the uncertainty counts as far too large.
 const PADDED: f64 = 10.0;
 
-/// Errors of one sensor: as stated, and against the truth. \[lx\]
+/// Stated uncertainty of one sensor, and its error compared with the reference. \[lx\]
 struct Pair {
     stated: f64,
     real: f64,
-    /// Of the truth.
+    /// Uncertainty of the reference.
     open: f64,
 }
 
-/// A row of the table.
+/// Row of the table.
 #[derive(Default)]
 struct Row {
     scenes: usize,
@@ -40,7 +44,7 @@ struct Row {
 }
 
 impl Row {
-    /// Takes up a scene.
+    /// Adds the sensors of a scene.
     fn add(&mut self, result: &RoomResult, truth: &[Estimate]) {
         let mean = truth.iter().map(|e| e.value).sum::<f64>() / truth.len().max(1) as f64;
         self.scenes += 1;
@@ -83,23 +87,23 @@ fn main() -> anyhow::Result<()> {
         if path.is_dir() {
             cases(&path)?.print(folder);
         } else {
-            println!("{folder:<24} not there: {} (CFS_TEST_DATA)", path.display());
+            println!("{folder:<24} not found: {} (CFS_TEST_DATA)", path.display());
         }
     }
     if asked("made") {
         for reflects in [false, true] {
             for target in [None, Some(0.1), Some(0.03), Some(0.01), Some(0.003)] {
                 let kind = if reflects { "all light" } else { "direct" };
-                let name = target.map_or_else(|| "ordinary".to_owned(), |target| format!("{} %", 100.0 * target));
+                let name = target.map_or_else(|| "default".to_owned(), |target| format!("{} %", 100.0 * target));
                 made(reflects, target)?.print(&format!("made, {kind}, {name}"));
             }
         }
     }
-    println!("held: stated ≥ true; median: of stated over true error");
+    println!("held: stated uncertainty ≥ error; median: of stated uncertainty / error");
     Ok(())
 }
 
-/// Every scene of a folder beside its table.
+/// Compares every scene of a folder with its table.
 fn cases(folder: &Path) -> anyhow::Result<Row> {
     let mut scenes: Vec<PathBuf> = std::fs::read_dir(folder)?.map(|e| Ok(e?.path())).collect::<std::io::Result<_>>()?;
     scenes.retain(|path| path.extension().is_some_and(|e| e == "toml") && path.with_extension("csv").exists());
@@ -112,7 +116,7 @@ fn cases(folder: &Path) -> anyhow::Result<Row> {
     Ok(row)
 }
 
-/// The expected illuminances of a table.
+/// Reads the illuminances of a reference table.
 fn expected(path: &Path) -> anyhow::Result<Vec<Estimate>> {
     let mut reader = csv::Reader::from_path(path)?;
     let header = reader.headers()?.clone();
@@ -129,14 +133,14 @@ fn expected(path: &Path) -> anyhow::Result<Vec<Estimate>> {
         .collect()
 }
 
-/// What stands in the openings of the rooms made here.
+/// Systems of the rooms made here.
 const SYSTEMS: [&str; 3] = [
     "{ ideal = \"transparent\", transmittance = 0.8 }",
     "{ ideal = \"diffuse\", transmittance = 0.6 }",
     "{ file = \"assets/systems/low-e-double.system.toml\" }",
 ];
 
-/// What they look at.
+/// Skies of the rooms made here.
 const SKIES: [&str; 4] = [
     "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0",
     "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 15000.0\n\
@@ -148,21 +152,21 @@ const SKIES: [&str; 4] = [
      obstruction = { altitude = 25.0, luminance = 900.0 }",
 ];
 
-/// Where the opening is.
+/// Apertures of the rooms made here.
 const OPENINGS: [&str; 3] = [
     "surface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]",
     "surface = \"facade\"\norigin = [1.7, 0.2]\nsize = [0.3, 2.6]",
     "surface = \"roof\"\norigin = [1.0, 2.0]\nsize = [1.5, 1.5]",
 ];
 
-/// Rooms with an error target, or none, beside much finer runs.
+/// Compares rooms with an error target, or none, with much finer runs.
 fn made(reflects: bool, target: Option<f64>) -> anyhow::Result<Row> {
     let mut row = Row::default();
-    // Without interreflection the cubature reaches any error; with it this is the finest mesh.
+    // Without interreflection the cubature reaches any error target; with it, 1e-5 is the finest mesh.
     let finest = if reflects { 1e-5 } else { 1e-8 };
     for (k, system) in SYSTEMS.into_iter().enumerate() {
         for (i, sky) in SKIES.into_iter().enumerate() {
-            // With interreflection a third of them, each opening as often: seconds a room.
+            // With interreflection a room takes seconds: only a third of them, with each aperture equally often.
             for opening in OPENINGS.into_iter().enumerate().filter(|(j, _)| !reflects || (i + j + k) % 3 == 0) {
                 let text = room(system, sky, opening.1, reflects);
                 let file = SceneFile::parse(&text).with_context(|| text.clone())?;

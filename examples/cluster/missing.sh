@@ -1,5 +1,6 @@
 #!/bin/sh
-# The numbers of the pieces that are not there yet, as `sbatch --array` takes them: missing.sh PIECES. Nothing: all are there.
+# Prints the numbers of the missing pieces, separated by commas, for `sbatch --array`; nothing if all are there:
+#   ./missing.sh PIECES
 n=0
 while [ "$n" -lt "$1" ]; do
   [ -s "out/shard-$n.csv" ] || echo "$n"

@@ -1,4 +1,4 @@
-//! Paper for the figures: panels with axes and lines (SVG), hemispheres in colour (PNG).
+//! Drawing of the figures: panels with axes and lines (SVG), hemispheres in false colours (PNG).
 
 use cfs::compute::direction::Dir;
 use cfs::compute::direction::Facade;
@@ -6,7 +6,7 @@ use cfs::drawing::{Align, Drawing, Rgb, Shape, TEXT};
 use glam::DVec3;
 use image::RgbImage;
 
-/// Colours that keep apart for all common kinds of colour vision (after Okabe and Ito).
+/// Colours that can be distinguished with all common kinds of colour vision (after Okabe and Ito).
 pub const COLOURS: [Rgb; 8] = [
     [30, 30, 30],
     [0, 114, 178],
@@ -20,7 +20,7 @@ pub const COLOURS: [Rgb; 8] = [
 const INK: Rgb = [30, 30, 30];
 const FAINT: Rgb = [222, 222, 222];
 
-/// A named line.
+/// Line of a panel, with its name in the legend.
 pub struct Line {
     pub name: String,
     pub points: Vec<[f64; 2]>,
@@ -29,18 +29,18 @@ pub struct Line {
 }
 
 impl Line {
-    /// In colour number `k`.
+    /// Creates a line in colour number `k`.
     pub fn new(name: impl Into<String>, k: usize, points: Vec<[f64; 2]>) -> Self {
         Self { name: name.into(), points, colour: COLOURS[k % COLOURS.len()], width: 1.6 }
     }
 
-    /// Wider, to lie under another.
+    /// Returns the line wider and paler, to be drawn under another one.
     pub fn wide(self) -> Self {
         Self { width: 5.0, colour: self.colour.map(|c| 255 - (255 - c) / 3), ..self }
     }
 }
 
-/// Axes and lines.
+/// Axes with lines.
 pub struct Panel {
     pub title: String,
     /// Names of the axes.
@@ -51,7 +51,7 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Ranges that hold all lines; y from 0.
+    /// Creates a panel with ranges that hold all lines; y starts at 0.
     pub fn new(title: impl Into<String>, axes: [&'static str; 2], lines: Vec<Line>) -> Self {
         let all = || lines.iter().flat_map(|line| &line.points);
         let x = all().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], p| [a.min(p[0]), b.max(p[0])]);
@@ -60,7 +60,7 @@ impl Panel {
     }
 }
 
-/// The next number up that is 1, 1.5, 2, 3, 4, 5, 6 or 8 times a power of ten.
+/// Returns the smallest round number (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten) of at least `top`.
 fn nice(top: f64) -> f64 {
     if top <= 0.0 {
         return 1.0;
@@ -70,7 +70,7 @@ fn nice(top: f64) -> f64 {
     steps.into_iter().map(|s| s * power).find(|s| *s >= 0.999 * top).unwrap_or(10.0 * power)
 }
 
-/// A step of about a fifth of a range.
+/// Returns a round step of about a fifth of a range.
 fn step(range: f64) -> f64 {
     let power = 10_f64.powf((range / 5.0).log10().floor());
     [1.0, 2.0, 2.5, 5.0, 10.0].into_iter().map(|s| s * power).find(|s| range / s <= 6.0).unwrap_or(range)
@@ -84,7 +84,7 @@ fn label(value: f64, step: f64) -> String {
 
 const CELL: [f64; 2] = [500.0, 340.0];
 
-/// Panels in rows of `columns`.
+/// Draws panels in rows of `columns`.
 pub fn sheet(panels: &[Panel], columns: usize) -> Drawing {
     let rows = panels.len().div_ceil(columns);
     let mut shapes = Vec::new();
@@ -140,11 +140,11 @@ fn draw(panel: &Panel, [left, top]: [f64; 2], shapes: &mut Vec<Shape>) {
     }
 }
 
-/// A hemisphere seen along the normal (direction cosines), one value a direction.
+/// Values over a hemisphere, drawn as seen along the normal (direction cosines).
 pub struct Disc {
-    /// Above it.
+    /// Title above the disc.
     pub title: String,
-    /// By pixel, row by row.
+    /// Values per pixel, row by row.
     pub values: Vec<f64>,
 }
 
@@ -152,7 +152,7 @@ pub struct Disc {
 const DISC: usize = 200;
 
 impl Disc {
-    /// Samples a function of the through-name.
+    /// Samples a function of the through direction.
     pub fn new(title: impl Into<String>, value: impl Fn(Dir<Facade>) -> f64) -> Self {
         let at = |k: usize| {
             let [x, y] = [k % DISC, k / DISC].map(|i| 2.0 * (i as f64 + 0.5) / DISC as f64 - 1.0);
@@ -163,7 +163,7 @@ impl Disc {
     }
 }
 
-/// Discs in rows; each row shares one scale, from 0 to its largest value times `white`.
+/// Draws rows of discs as PNG. The discs of a row share one scale, from 0 to the largest value of the row.
 pub fn discs(rows: &[Vec<Disc>], gamma: f64) -> Result<Vec<u8>, image::ImageError> {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let (wide, high) = (DISC + 40, DISC + 44);
@@ -194,7 +194,7 @@ fn paint(picture: &mut RgbImage, disc: &Disc, [left, top]: [usize; 2], most: f64
     }
 }
 
-/// Dark blue over green to yellow: brighter for more light, also in print.
+/// Returns the colour of a value from 0 to 1: dark blue, green, yellow, so that more light is brighter in print too.
 fn shade(share: f64) -> Rgb {
     const STOPS: [[f64; 3]; 6] = [
         [38.0, 8.0, 62.0],
@@ -204,7 +204,7 @@ fn shade(share: f64) -> Rgb {
         [150.0, 214.0, 58.0],
         [253.0, 236.0, 110.0],
     ];
-    // In 64 steps, which the file's compression likes.
+    // 64 steps keep the compressed file small.
     let place = (share * 63.0).round() / 63.0 * (STOPS.len() - 1) as f64;
     let k = (place as usize).min(STOPS.len() - 2);
     let t = place - k as f64;

@@ -1,5 +1,5 @@
-//! Characteristic curves of blinds: slat tilt over the sun's profile angle, continuous and in the states of a device.
-//! Shared by the picture and by the test of its claims.
+//! Control curves of blinds: slat angle over the profile angle of the sun, continuous and in the states of a device.
+//! Used by the picture and by the test of its statements.
 
 #![allow(dead_code, reason = "the picture and the test each use their own part")]
 
@@ -8,28 +8,28 @@ use cfs::compute::control::cut_off::SlatRow;
 use cfs::compute::sky::SUN_HALF_ANGLE;
 use cfs::compute::system::slats::SlatProfile;
 
-/// Elevation that the redirecting blind aims at. \[°\]
+/// Elevation at which the redirecting blind sends light into the room. \[°\]
 pub const ELEVATION: f64 = 30.0;
-/// Steps of the device. \[°\]
+/// Step between the states of the device. \[°\]
 pub const STEP: f64 = 5.0;
 
-/// A curve and what a device makes of it.
+/// Control curve, and the states of a device that follows it.
 pub struct Characteristic {
     pub name: &'static str,
-    /// (profile angle, tilt). \[°\]
+    /// Points (profile angle, slat angle). \[°\]
     pub points: Vec<[f64; 2]>,
-    /// The same in the device's states, for the sun's disc about the angle.
+    /// Points (profile angle, slat angle of the state), chosen for the whole solar disc. \[°\]
     pub steps: Vec<[f64; 2]>,
-    /// Slats, for rules that need them.
+    /// Section of the slats, for rules that need it.
     pub section: Option<SlatRow>,
 }
 
-/// Flat slats, 80 mm every 72 mm.
+/// Section of flat slats, 80 mm every 72 mm.
 pub fn flat() -> Option<SlatRow> {
     SlatRow::new(SlatProfile::Flat { width: 0.080 }, 0.072)
 }
 
-/// Slats on an arc, the same chord and pitch, crown 16 mm over the chord.
+/// Section of slats on an arc, chord 80 mm, pitch 72 mm, crown 16 mm over the chord.
 pub fn curved() -> Option<SlatRow> {
     SlatRow::new(SlatProfile::Arc { width: 0.080, rise: 0.016 }, 0.072)
 }
@@ -39,7 +39,7 @@ fn angles() -> impl Iterator<Item = f64> {
     (1..=179).map(|k| 0.5 * f64::from(k))
 }
 
-/// A rule on a device of 5° steps over a range of tilts \[°\].
+/// Computes the curve of a rule, and the states of a device in steps of 5° over a range of slat angles \[°\].
 fn characteristic(name: &'static str, rule: Rule, [low, high]: [i32; 2]) -> Option<Characteristic> {
     let section = match &rule {
         Rule::CutOff { section, .. } => Some(section.clone()),
@@ -66,7 +66,7 @@ fn characteristic(name: &'static str, rule: Rule, [low, high]: [i32; 2]) -> Opti
     Some(Characteristic { name, points, steps: steps.collect(), section })
 }
 
-/// Cut-off of flat and of curved slats; retro-reflection and redirection of mirror slats.
+/// Computes all curves: cut-off of flat and of curved slats; retro-reflection and redirection of mirror slats.
 pub fn all() -> Option<Vec<Characteristic>> {
     let cut_off = |section| Rule::CutOff { section, tolerance: 0.0 };
     Some(vec![
@@ -77,8 +77,8 @@ pub fn all() -> Option<Vec<Characteristic>> {
     ])
 }
 
-/// The greatest share of direct light that the states let through, for any of the disc, with all states more open by
-/// `shift`. \[°\]
+/// Returns the largest share of direct sun, over all points of the solar disc, that the states pass if all of them are
+/// more open by `shift`. \[°\]
 pub fn leak(curve: &Characteristic, shift: f64) -> f64 {
     let Some(section) = &curve.section else { return 0.0 };
     let shares = curve.steps.iter().flat_map(|[psi, tilt]| {
@@ -90,7 +90,7 @@ pub fn leak(curve: &Characteristic, shift: f64) -> f64 {
     shares.fold(0.0, f64::max)
 }
 
-/// How far the states are from the curve at most, while it is within their range. \[°\]
+/// Returns the largest difference between states and curve, while the curve is within their range. \[°\]
 pub fn rounding(curve: &Characteristic) -> f64 {
     let points: Vec<(f64, f64)> = curve.points.iter().map(|p| (p[0], p[1])).collect();
     let off = |p: &[f64; 2]| cfs::compute::control::curve_value(&points, p[0]).map_or(0.0, |tilt| (p[1] - tilt).abs());

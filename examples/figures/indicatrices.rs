@@ -1,4 +1,5 @@
-//! Numbers of Figures 7–9, 11 and 12: what happens to luminances and indicatrices before they reach a room.
+//! Numbers of Figures 7–9, 11 and 12: averaging of the outside, and filtering, compression and interpolation of
+//! indicatrices.
 
 use crate::outlines::outside;
 use crate::systems::{self, Law, OVERCAST, measured, redirecting};
@@ -18,25 +19,25 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Direction in the vertical section through the sun, an angle from the normal towards it. \[°\]
+/// Returns the direction in the vertical section through the sun at an angle from the normal towards the sun. \[°\]
 pub fn in_section(degrees: f64, towards: f64) -> Dir<Facade> {
     let (sin, cos) = degrees.to_radians().sin_cos();
     Dir::from_unit(DVec3::new(0.0, towards * sin, cos))
 }
 
-/// Figure 7: a section through an outside over a roof, and amplitudes of its Fourier transform.
+/// Figure 7: section through the luminances outside, as seen from a roof, and amplitudes of its Fourier transform.
 pub struct Section {
     pub name: &'static str,
-    /// Angle from the zenith towards the sun \[°\], luminance, mean of its Tregenza patch, mean within 6° around; of the
-    /// largest luminance.
+    /// Angle from the zenith towards the sun \[°\], luminance, mean of its Tregenza patch, mean within 6° around it;
+    /// luminances relative to the largest.
     pub points: Vec<[f64; 4]>,
-    /// Frequency \[1/°\], amplitude of luminance and of patch means, of the amplitude at 0.
+    /// Frequency \[1/°\], amplitudes of the luminance and of the patch means, relative to the amplitude at frequency 0.
     pub spectrum: Vec<[f64; 3]>,
-    /// Share of the luminance's variance at frequencies above 1/(24°), where samples 12° apart mistake it.
+    /// Share of the variance of the luminance at frequencies above 1/(24°), which samples 12° apart cannot resolve.
     pub lost: f64,
 }
 
-/// Overcast, clear with the sun at 20°, and overcast above a dark obstruction up to 40°.
+/// Computes the sections: overcast, clear with the sun at 20°, and overcast above a dark obstruction up to 40°.
 pub fn sections() -> Result<Vec<Section>> {
     let blocked = format!("{OVERCAST}\nobstruction = {{ altitude = 40.0, luminance = 200.0 }}");
     [("overcast", OVERCAST), ("clear, sun at 20°", systems::CLEAR), ("overcast, obstructed to 40°", &*blocked)]
@@ -82,7 +83,7 @@ fn section(name: &'static str, facing: &Facing<'_>) -> Section {
     Section { name, points, spectrum, lost }
 }
 
-/// Mean luminance within an angle around a direction, of what lies above the plane.
+/// Returns the mean luminance within `radius` around a direction, without directions below the plane.
 fn within(facing: &Facing<'_>, d: Dir<Facade>, radius: f64) -> f64 {
     let (x, y) = d.vector().any_orthonormal_pair();
     let (mut sum, mut count) = (0.0, 0.0);
@@ -98,7 +99,7 @@ fn within(facing: &Facing<'_>, d: Dir<Facade>, radius: f64) -> f64 {
     sum / count
 }
 
-/// The kernels of Figure 8, and shift-and-weight beside them.
+/// Kernels of Figure 8, and shift-and-weight, which has none.
 pub const KERNELS: [(&str, Option<Filter>); 6] = [
     ("unfiltered", Some(Filter { kernel: Kernel::None, sharp_only: false })),
     ("narrow 6°", Some(Filter { kernel: Kernel::NARROW, sharp_only: false })),
@@ -108,19 +109,19 @@ pub const KERNELS: [(&str, Option<Filter>); 6] = [
     ("shift-and-weight", None),
 ];
 
-/// Diffuse light through indicatrices in one of the ways.
+/// Diffuse light through indicatrices, by one of the methods of [`KERNELS`].
 pub struct Superposed {
     pub name: &'static str,
     pub grid: Grid,
-    /// By cell of `grid`. \[cd/m²\]
+    /// Luminance per cell of `grid`. \[cd/m²\]
     pub luminance: Vec<f64>,
     /// Standard deviation over mean of the luminance, by projected solid angle, within 78° of the normal.
     pub unevenness: f64,
-    /// ½Σ|L − L_e| PΩ / Σ L_e PΩ against the outside seen through (scattering systems: against dense incidence).
+    /// Misplaced flux ½Σ|L − L_e| PΩ / Σ L_e PΩ, where L_e is computed from 2304 incident directions.
     pub misplaced: f64,
 }
 
-/// A law under a sky through a roof, every way of adding up its indicatrices.
+/// Computes the luminance of a rooflight with a law of scattering under a sky, by every method of [`KERNELS`].
 pub fn superposed(law: Law, sky: &str) -> Result<Vec<Superposed>> {
     let scene = systems::top_lit(sky, vec![[2.0, 3.0, 0.0]]).scene(&Arc::new(systems::open()))?;
     let facing = scene.facing(0);
@@ -155,7 +156,7 @@ pub fn superposed(law: Law, sky: &str) -> Result<Vec<Superposed>> {
         .collect()
 }
 
-/// Luminance of the cells from incidence at 2304 directions, each with its own indicatrix.
+/// Computes the luminance of the cells from 2304 incident directions, each with its exact indicatrix.
 fn dense(law: Law, emergent: &RingBasis, through: &dyn Fn(&RingBasis) -> Vec<f64>) -> Vec<f64> {
     use rayon::prelude::*;
     let fine = RingBasis::equal_area(24);
@@ -173,14 +174,14 @@ fn dense(law: Law, emergent: &RingBasis, through: &dyn Fn(&RingBasis) -> Vec<f64
     (0..emergent.len()).map(|k| parts.iter().map(|part| part[k]).sum()).collect()
 }
 
-/// Figure 11: one system at one threshold.
+/// Figure 11: compression of one system at one threshold.
 pub struct Compression {
     pub system: &'static str,
     pub criterion: &'static str,
     pub report: CompactReport,
 }
 
-/// The thresholds: the report's energies, root mean squares, misplaced flux.
+/// Thresholds: energy as in the report, root mean square, misplaced flux.
 pub const CRITERIA: [(&str, Criterion); 8] = [
     ("energy 1 %", Criterion::Energy(0.01)),
     ("energy 5 %", Criterion::Energy(0.05)),
@@ -192,7 +193,7 @@ pub const CRITERIA: [(&str, Criterion); 8] = [
     ("misplaced flux 1.5 %", Criterion::Misplaced(0.015)),
 ];
 
-/// What Figure 11 compresses: 9 incident directions on 9216 cells, with the noise of a measurement (2 % of every value).
+/// Data of Figure 11: 9 incident directions on 9216 cells, with the noise of a measurement (2 % of every value).
 pub fn compressed_systems() -> [(&'static str, Indicatrices); 2] {
     let (lattice, emergent) = (incidences(), RingBasis::equal_area(48));
     [("light-redirecting glass", redirecting as Law), ("diffuser", systems::opal as Law)].map(|(name, law)| {
@@ -207,14 +208,14 @@ pub fn compressed_systems() -> [(&'static str, Indicatrices); 2] {
     })
 }
 
-/// The direction of the report's Figure 3 (altitude 48°, from above) first.
+/// Returns nine incident directions, first that of Figure 3 of the report (altitude 48°, from above).
 fn incidences() -> Vec<Dir<Facade>> {
     let at = |theta: f64, phi: f64| Dir::from_theta_phi(theta.to_radians(), phi.to_radians());
     let around = (0..8).map(|k| at(12.0 + 9.0 * f64::from(k), 30.0 + 40.0 * f64::from(k)));
     std::iter::once(at(42.0, 90.0)).chain(around).collect()
 }
 
-/// Even between −√3 and √3: variance 1. The same on every run.
+/// Returns a number uniformly distributed between −√3 and √3 (variance 1), equal in every run.
 fn noise(seed: u64) -> f64 {
     let mut z = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -222,7 +223,7 @@ fn noise(seed: u64) -> f64 {
     ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 * 12_f64.sqrt() - 3_f64.sqrt()
 }
 
-/// All thresholds for one system, and the first indicatrix at 1 % of the energy.
+/// Compresses one system with all thresholds; also returns the first indicatrix at the first threshold (1 % energy).
 pub fn compressions(system: &'static str, data: &Indicatrices) -> Result<(Vec<Compression>, Vec<f64>)> {
     let mut first = Vec::new();
     let mut list = Vec::new();
@@ -238,18 +239,18 @@ pub fn compressions(system: &'static str, data: &Indicatrices) -> Result<(Vec<Co
     Ok((list, first))
 }
 
-/// Figure 12: the sun within a triangle of incident directions.
+/// Figure 12: interpolation for a sun within a triangle of incident directions.
 pub struct Between {
     pub grid: Grid,
-    /// The three data around, with their weights.
+    /// Data of the three directions around the sun, with their weights.
     pub around: Vec<(f64, Vec<f64>)>,
-    /// What the system does in truth.
+    /// Exact indicatrix of the system.
     pub truth: Vec<f64>,
-    /// Every scheme: its word, its indicatrix, the flux it misplaces, and what it foretells.
+    /// Per scheme: its key, its indicatrix, its misplaced flux, and the misplaced flux that is predicted for it.
     pub schemes: Vec<(&'static str, Vec<f64>, f64, f64)>,
 }
 
-/// The light-redirecting glass, known at 145 directions, the sun at θ = 42°, φ = 75°.
+/// Computes the light-redirecting glass from data at 145 incident directions, with the sun at θ = 42°, φ = 75°.
 pub fn between() -> Between {
     let emergent = RingBasis::equal_area(40);
     let data = measured(&RingBasis::tregenza(), &emergent, redirecting);
@@ -260,7 +261,7 @@ pub fn between() -> Between {
     let place = model.lattice().locate(sun);
     let around = (0..3).map(|k| (place.weights[k], data.row(place.vertices[k]).into_owned())).collect();
     let weights = emergent.projected_solid_angles();
-    // The report's three first.
+    // The three schemes of the report first.
     let list = SunScheme::ALL.into_iter().cycle().skip(1).take(SunScheme::ALL.len()).map(|scheme| {
         let q = scheme.coefficient(&model, sun, model.grid(), 3);
         let error = Criterion::ARCHIVE.error(&weights, &truth, &q);

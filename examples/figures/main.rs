@@ -1,7 +1,8 @@
-//! The report's Figures 7–9, 11, 12, 14, 19–21 and 23–25 as this program computes them, each with the numbers behind it.
+//! Figures 7–9, 11, 12, 14, 19–21 and 23–25 of the IEA SHC Task 31 report of 2005, computed by this program.
 //!
-//! `cargo run --release --example figures [-- FOLDER]` writes pictures, tables (CSV) and a list into `screenshots/figures`
-//! or the folder given. Nothing is read: all systems are closed forms.
+//! `cargo run --release --example figures [-- FOLDER]` writes a picture and a table (CSV) for each figure, and
+//! `README.md` with their key numbers, into `screenshots/figures` or the given folder. It reads no files: all systems
+//! are closed forms. Look at the column "key numbers" of `README.md`.
 
 mod chart;
 mod curves;
@@ -15,27 +16,29 @@ use anyhow::{Context as _, Result};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// One figure, ready to be written.
+/// Figure, ready to be written.
 pub struct Figure {
-    /// Name of its files.
+    /// Name of its files, without ending.
     pub file: &'static str,
     /// Number in the report.
     pub number: &'static str,
-    /// What it shows.
+    /// Content of the figure, for the list.
     pub shows: &'static str,
-    /// The numbers to remember.
+    /// Key numbers, for the list.
     pub key: String,
-    /// Ending and bytes of the picture.
+    /// File name ending and bytes of the picture.
     pub picture: (&'static str, Vec<u8>),
-    /// The numbers behind it.
+    /// CSV table of the numbers behind the picture.
     pub table: String,
 }
 
-const HEAD: &str = "# The report's figures, computed\n\n\
-    Written by `cargo run --release --example figures`; every number comes from that run. Figures are numbered as in the \
-    IEA SHC Task 31 report of 2005. Systems are closed forms, sampled where data are asked for. *Misplaced flux* is half \
-    the flux of the difference of two distributions over the flux of one. The tables (`.csv`) hold the numbers behind each \
-    picture. Claims are held by `tests/compute/figures.rs`.\n\n\
+const HEAD: &str = "# Figures of the report, computed by the program\n\n\
+    Written by `cargo run --release --example figures`; all numbers are results of that run. Figures and equations \
+    have the numbers of the IEA SHC Task 31 report of 2005: eq 19 is the luminous intensity of an ideal diffuser, eq \
+    20 that of an open aperture, which has the luminance of the outside seen through it. Systems are closed forms, \
+    sampled where data are needed. *Misplaced flux* is half the flux of the absolute difference of two \
+    distributions, relative to the flux of the exact one. The tables (`.csv`) hold the numbers behind each picture. \
+    `tests/compute/figures.rs` checks the main statements.\n\n\
     | figure | what it shows | key numbers | files |\n| --- | --- | --- | --- |\n";
 
 fn main() -> Result<()> {

@@ -1,4 +1,5 @@
-//! Numbers of Figure 21 and of the open aperture: luminous-intensity distributions against eq 19 and 20.
+//! Numbers of Figure 21: luminous intensity distributions of the ideal diffuser and of the open aperture, compared with
+//! eq 19 and eq 20 of the report.
 
 #![allow(dead_code, reason = "the pictures and the test each use their own part")]
 
@@ -13,7 +14,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// The four situations: name, room, sky.
+/// Returns the four situations: name, room with sky.
 pub fn situations() -> [(&'static str, Place); 4] {
     [
         ("roof, overcast", systems::top_lit(OVERCAST, vec![[2.0, 3.0, 0.0]])),
@@ -23,11 +24,11 @@ pub fn situations() -> [(&'static str, Place); 4] {
     ]
 }
 
-/// The finest of the measured data.
+/// Name of the finest of the measured data.
 pub const FINEST: &str = "directions: 145, cells of 1.2°";
 
-/// The open aperture in data of rising density, as cells and as seen by an instrument with a beam of 2° (standard
-/// deviation). The last needs no data.
+/// Returns datasets of the open aperture with increasing resolution: patch-averaged data, and data as measured by an
+/// instrument with a beam of 2° (standard deviation). The last one is regular transmission.
 pub fn resolutions() -> Vec<(&'static str, Arc<Dataset>)> {
     let klems = |basis: fn(AzimuthMap) -> RingBasis| systems::open_cells(&basis(AzimuthMap::KLEMS_FRONT));
     [
@@ -46,12 +47,12 @@ pub fn resolutions() -> Vec<(&'static str, Arc<Dataset>)> {
     .collect()
 }
 
-/// Luminance of the outside behind an emergent direction: eq 20 with τ = 1. \[cd/m²\]
+/// Returns the luminance of the outside seen through the aperture: eq 20 with τ = 1. \[cd/m²\]
 pub fn outside(facing: &Facing<'_>, twin: Dir<Facade>) -> f64 {
     facing.outside.luminance(facing.orientation.world_from_room(facing.surface.room_dir(twin)))
 }
 
-/// Share of the flux that goes elsewhere than eq 20 says: ½∫|L − L_e| cosθ dω / ∫L_e cosθ dω, at 40 000 directions.
+/// Returns the misplaced flux compared with eq 20, ½∫|L − L_e| cosθ dω / ∫L_e cosθ dω, at 40 000 directions.
 pub fn misplaced(lid: &Lid, facing: &Facing<'_>) -> f64 {
     let (mut off, mut all) = (0.0, 0.0);
     for cell in RingBasis::equal_area(100).cells() {
@@ -63,7 +64,8 @@ pub fn misplaced(lid: &Lid, facing: &Facing<'_>) -> f64 {
     0.5 * off / all
 }
 
-/// Illuminance of the opening by Gauss points in altitude and azimuth, sky and ground apart: a way of its own. \[lx\]
+/// Computes the illuminance of the aperture with Gauss points in altitude and azimuth, separately for sky and ground.
+/// Independent of the method of the program. \[lx\]
 pub fn illuminance(facing: &Facing<'_>) -> f64 {
     let normal = facing.surface.room_from_facade(DVec3::Z);
     let nodes: Vec<(f64, f64)> = (0..24)
@@ -74,7 +76,7 @@ pub fn illuminance(facing: &Facing<'_>) -> f64 {
         for &(x, wx) in &nodes {
             let (sin, cos) = (low + (high - low) * x).sin_cos();
             for &(u, wu) in &nodes {
-                // Half a turn before the façade, on both sides of its normal −y; the other half is behind it.
+                // Two half circles of azimuth: one in front of the façade (normal −y), one behind it.
                 for half in [0.0, PI] {
                     let (sin_phi, cos_phi) = (half + PI * u).sin_cos();
                     let d = DVec3::new(cos * cos_phi, -cos * sin_phi, sin);
@@ -90,8 +92,8 @@ pub fn illuminance(facing: &Facing<'_>) -> f64 {
     sum
 }
 
-/// The ideal diffuser: largest relative deviation of its luminance from E/π, over the hemisphere, the three ways it may
-/// be given (constant, by cells, measured at 145 directions).
+/// Returns the largest relative deviation of the luminance of an ideal diffuser from E/π over the hemisphere, for three
+/// forms of data (constant, patch-averaged, measured at 145 directions).
 pub fn diffuser_deviation(place: &Place) -> Result<f64> {
     let klems = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
     let emergent = RingBasis::equal_area(12);
@@ -113,16 +115,16 @@ pub fn diffuser_deviation(place: &Place) -> Result<f64> {
     Ok(worst)
 }
 
-/// One line of the table of Figure 21.
+/// Row of the table of Figure 21.
 pub struct Line {
     pub situation: &'static str,
     pub resolution: &'static str,
     pub misplaced: f64,
-    /// Flux into the room over the flux on the opening.
+    /// Flux into the room relative to the flux on the aperture.
     pub transmittance: f64,
 }
 
-/// All resolutions in all situations.
+/// Computes all resolutions in all situations.
 pub fn table() -> Result<Vec<Line>> {
     let mut lines = Vec::new();
     for (resolution, system) in resolutions() {
@@ -141,8 +143,8 @@ pub fn table() -> Result<Vec<Line>> {
     Ok(lines)
 }
 
-/// Intensity normalised to 1000 lm along the vertical section through the sun: angles from the normal in degrees, up
-/// (roof: towards the sun's side) negative. \[cd\]
+/// Samples an intensity along the vertical section through the sun, at angles of −90° to 90° from the normal; `towards`
+/// is the sign of y at positive angles. \[°, unit of `intensity`\]
 pub fn section(intensity: impl Fn(Dir<Facade>) -> f64, towards: f64) -> Vec<[f64; 2]> {
     (-90..=90)
         .map(|k| {

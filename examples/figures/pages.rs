@@ -1,4 +1,4 @@
-//! From numbers to pictures, tables and one line of what to remember.
+//! Pages of the figures: picture, table and key numbers of each, made from the numbers of the other modules.
 
 use crate::Figure;
 use crate::chart::{Disc, Line, Panel, discs, sheet};
@@ -11,13 +11,13 @@ use cfs::compute::incidence::grid::Grid;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// All figures in the report's order.
+/// All figures, in the order of the report.
 pub const ALL: [fn() -> Result<Figure>; 12] = [
     figure_7, figure_8, figure_9, figure_11, figure_12, figure_14, figure_19, figure_20, figure_21, figure_23,
     figure_24, figure_25,
 ];
 
-/// A table's head and rows.
+/// CSV table with its header and rows.
 struct Table(String);
 
 impl Table {
@@ -32,7 +32,7 @@ impl Table {
     }
 }
 
-/// Six significant digits.
+/// Formats a number with six significant digits.
 fn rounded(n: f64) -> String {
     if n == 0.0 || !n.is_finite() {
         return format!("{n}");
@@ -46,7 +46,7 @@ fn percent(x: f64) -> String {
     format!("{} %", rounded((1e5 * x).round() / 1e3))
 }
 
-/// Column of rows with the first column.
+/// Returns column `k` of the rows, each with the first column as x.
 fn column<const N: usize>(rows: &[[f64; N]], k: usize) -> Vec<[f64; 2]> {
     rows.iter().map(|row| [row[0], row[k]]).collect()
 }
@@ -81,9 +81,9 @@ fn figure_7() -> Result<Figure> {
     Ok(Figure {
         file: "fig07-outside",
         number: "7",
-        shows: "sections through luminances over a roof, before and after averaging over Tregenza patches; amplitudes of \
-                their Fourier transform",
-        key: format!("share of the variance finer than 24°: {}", key.join("; ")),
+        shows: "section through the luminances outside, as seen from a roof, before and after averaging over Tregenza \
+                patches, and amplitudes of its Fourier transform",
+        key: format!("share of the variance at periods below 24°: {}", key.join("; ")),
         picture: ("svg", sheet(&panels, 3).to_svg().into_bytes()),
         table: table.0,
     })
@@ -115,9 +115,10 @@ fn figure_8() -> Result<Figure> {
     Ok(Figure {
         file: "fig08-kernels",
         number: "8",
-        shows: "indicatrices of 145 directions added up under uniform light: no filter, the report's kernels (narrow, \
-                matched, wide), kernels with the shape of the patches, and shift-and-weight, which is what the program uses",
-        key: format!("unevenness of what should be even (standard deviation / mean): {}", key.join("; ")),
+        shows: "indicatrices of 145 incident directions, superposed under uniform light: without filter, with the \
+                kernels of the report (narrow, matched, wide), with kernels of the shape of the patches, and by \
+                shift-and-weight, the method of the program",
+        key: format!("standard deviation / mean of the luminance, which should be uniform: {}", key.join("; ")),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
     })
@@ -136,20 +137,20 @@ fn figure_9() -> Result<Figure> {
         let [low, high] = one.luminance.iter().fold([f64::INFINITY, 0.0], |[a, b], l| [l.min(a), l.max(b)]);
         table.row(&[one.name], &[one.misplaced, one.unevenness, low, mean, high]);
     }
-    // Each with its own scale: the spots of the first would leave the others dark.
+    // One scale for all would show only the bright spots of the first.
     let rows: Vec<Vec<Disc>> = vec![pictures];
     Ok(Figure {
         file: "fig09-rooflight",
         number: "9",
-        shows: "luminance of a clear rooflight under the CIE overcast sky from its indicatrices at 145 directions, seen along \
-                the normal",
-        key: format!("misplaced flux against eq 20: {}", key.join(", ")),
+        shows: "luminance of a clear rooflight under the CIE overcast sky, computed from its indicatrices at 145 \
+                incident directions and seen along the normal",
+        key: format!("misplaced flux compared with eq 20: {}", key.join(", ")),
         picture: ("png", discs_own_scale(rows)?),
         table: table.0,
     })
 }
 
-/// Discs of one row, each scaled by its 99th percentile.
+/// Draws rows of discs, each disc scaled by its 99th percentile.
 fn discs_own_scale(rows: Vec<Vec<Disc>>) -> Result<Vec<u8>> {
     let scaled = rows.into_iter().map(|row| {
         let row = row.into_iter().map(|mut disc| {
@@ -189,8 +190,9 @@ fn figure_11() -> Result<Figure> {
     Ok(Figure {
         file: "fig11-compression",
         number: "11",
-        shows: "values given for every number kept, noise of 2 % in the data; pictures: incidence at θ 42°, φ 90° and the same \
-                from 1 % dropped energy (Σc², which is 10 % rms), top the glass, bottom the diffuser",
+        shows: "compression ratio (values in the data per value stored) at several thresholds, for data with 2 % \
+                noise; pictures: incident direction θ 42°, φ 90°, original and with 1 % of the energy dropped (Σc², \
+                which is 10 % rms); top: glass, bottom: diffuser",
         key: key.join("; "),
         picture: ("png", discs(&rows, 0.5)?),
         table: table.0,
@@ -208,16 +210,16 @@ fn figure_12() -> Result<Figure> {
     let mut shown = Vec::new();
     for (name, q, error, foretold) in &between.schemes {
         table.row(&[name], &[*error, *foretold]);
-        key.push(format!("{name} {} (foretold {})", percent(*error), percent(*foretold)));
+        key.push(format!("{name} {} (predicted {})", percent(*error), percent(*foretold)));
         shown.push(disc(&name.replace('-', " "), q));
     }
     rows.push(shown);
     Ok(Figure {
         file: "fig12-sun-between",
         number: "12",
-        shows: "light-redirecting glass, known at 145 directions, for a sun between three of them: the data around, the truth, \
-                and every scheme",
-        key: format!("misplaced flux: {}", key.join(", ")),
+        shows: "light-redirecting glass with data at 145 incident directions, for a sun between three of them: the \
+                data of these three, the exact distribution (truth), and the result of each interpolation scheme",
+        key: format!("misplaced flux, in brackets predicted from the data alone: {}", key.join(", ")),
         picture: ("png", discs(&rows, 0.5)?),
         table: table.0,
     })
@@ -232,14 +234,14 @@ fn figure_14() -> Result<Figure> {
         for (k, curve) in pair.iter().enumerate() {
             curve.points.iter().for_each(|p| table.row(&[curve.name, "curve"], p));
             curve.steps.iter().for_each(|p| table.row(&[curve.name, "states of 5 deg"], p));
-            // Both ends of every step, so that it is drawn upright.
+            // Both ends of every step, so that steps are drawn vertical.
             let upright =
                 curve.steps.windows(2).flat_map(|w| [w[0], [w[1][0], w[0][1]]]).chain(curve.steps.last().copied());
             lines.push(Line::new(format!("{} in 5° steps", curve.name), 5 + k, upright.collect()));
             lines.push(Line::new(curve.name, 1 + k, curve.points.clone()));
             let words = match curve.section {
                 Some(_) => format!(
-                    "direct light through the states {}, through states 2° more open up to {}",
+                    "direct light passed by the states {}, by states 2° more open up to {}",
                     percent(curves::leak(curve, 0.0)),
                     percent(curves::leak(curve, 2.0))
                 ),
@@ -254,10 +256,11 @@ fn figure_14() -> Result<Figure> {
     Ok(Figure {
         file: "fig14-control",
         number: "14",
-        shows: "slat tilt over the sun's profile angle (> 0: outer edge lowered) and the states of a device in 5° steps: \
-                cut-off of flat slats (80 mm every 72 mm) and of slats on an arc (crown 16 mm), rounded towards closed for the \
-                whole disc of the sun; mirror slats that throw the sun back (90° − ψ), rounded towards closed, or send it \
-                into the room at 30° ((30° − ψ)/2), rounded to the nearest",
+        shows: "slat angle over the profile angle of the sun (> 0°: outer edge lowered), as a curve and in states of \
+                5°: cut-off of flat slats (80 mm every 72 mm) and of slats on an arc (crown 16 mm), rounded to the \
+                more closed state for the whole solar disc; mirror slats that return the sun (90° − ψ), rounded to the \
+                more closed state, or send it into the room at 30° elevation ((30° − ψ)/2), rounded to the nearest \
+                state",
         key: key.join("; "),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
@@ -273,7 +276,10 @@ fn figure_19() -> Result<Figure> {
             let profile = rooms::shadow(altitude, spread)?;
             if spread.is_none() {
                 let off = rooms::shadow_deviation(altitude, &profile);
-                key.push(format!("{altitude}°: disc within {} of full sun of the closed form", percent(off)));
+                key.push(format!(
+                    "solar altitude {altitude}°: largest difference from the closed form {} of full sun",
+                    percent(off)
+                ));
             }
             key.push(format!("{} {:.3} m (closed form {:.3})", profile.name, profile.width, profile.expected));
             for [x, share] in &profile.points {
@@ -291,9 +297,9 @@ fn figure_19() -> Result<Figure> {
     Ok(Figure {
         file: "fig19-shadow-edge",
         number: "19",
-        shows: "transition at a shadow's edge 1 m above a horizontal plane: the sun's disc of 0.533° through an opening, and \
-                beams that a system spreads",
-        key: format!("10–90 % widths, {}", key.join("; ")),
+        shows: "illuminance of a horizontal plane across the shadow of an edge 1 m above it: direct sun (disc of \
+                0.533°) through an open aperture, and beams that a system spreads",
+        key: format!("width of the transition from 10 to 90 %; {}", key.join("; ")),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0.replacen("beam", "spread_deg", 1),
     })
@@ -312,7 +318,8 @@ fn figure_20() -> Result<Figure> {
             percent((row - 1.0).abs())
         };
         key.push(format!(
-            "period {period} m, spots: {} at 0.1 m, {} at 0.3 m, {} at 1 m; even area to be trusted from {} m",
+            "period {period} m, difference of the spots: {} at 0.1 m, {} at 0.3 m, {} at 1 m; uniform area valid from \
+             {} m on",
             at(0.0999),
             at(0.299),
             at(0.999),
@@ -337,7 +344,8 @@ fn figure_20() -> Result<Figure> {
     Ok(Figure {
         file: "fig20-lines",
         number: "20",
-        shows: "illuminance at sill height before bright spots above each other, and before bright lines, over that before an even area of the same flux",
+        shows: "illuminance at sill height in front of bright spots one above the other, and in front of bright lines, \
+                relative to that in front of a uniform area of the same flux",
         key: key.join("; "),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
@@ -384,21 +392,21 @@ fn figure_21() -> Result<Figure> {
             ["145, cells of 3.7", "145, cells of 1.9", "145, cells of 1.2"].map(|what| percent(off(what))).join(" / ");
         let cells = ["quarter", "full", "2304"].map(|what| percent(off(what))).join(" / ");
         key.push(format!(
-            "{name}: diffuser within {}; open aperture, misplaced flux: 145 directions on cells of 3.7°/1.9°/1.2° {series}, \
-             41/145/2304 cells {cells}, regular {}",
+            "{name}: diffuser within {} of eq 19; open aperture, misplaced flux compared with eq 20: 145 directions \
+             and cells of 3.7°/1.9°/1.2° {series}, 41/145/2304 cells {cells}, regular transmission {}",
             percent(outlines::diffuser_deviation(&place)?),
             percent(off("regular")),
         ));
     }
     let worst = lines.iter().map(|line| (line.transmittance - 1.0).abs()).fold(0.0, f64::max);
-    key.push(format!("transmittance of the open aperture, all data and skies: 100 % within {}", percent(worst)));
+    key.push(format!("transmittance of the open aperture, all data and skies: within {} of 100 %", percent(worst)));
     Ok(Figure {
         file: "fig21-intensity",
         number: "21",
-        shows: "luminous intensity of the ideal diffuser and the open aperture against eq 19 and 20, and what the open \
-                aperture's data of rising density make of it. Measured data: beam of 2° (standard deviation), picked among \
-                1° to 3.5° as what suits the finest cells; finer emergent cells help, more incident directions do not. On \
-                façades the beam reaches over the horizon",
+        shows: "luminous intensity of the ideal diffuser and the open aperture compared with eq 19 and eq 20, the open \
+                aperture also from data of increasing resolution. Measured data are simulated with a beam of 2° \
+                (standard deviation), which of 1° to 3.5° suits the finest cells best. Finer emergent cells improve \
+                the result, more incident directions do not. On façades the beam extends across the horizon",
         key: key.join("; "),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,
@@ -409,13 +417,19 @@ fn figure_23() -> Result<Figure> {
     depth_figure(
         "fig23-direct",
         "23",
-        "direct illuminance along the model rooms (4 × 6 × 3 m, 0.85 m above the floor), transparent and diffuse",
+        "direct illuminance along the depth of the model rooms (4 × 6 × 3 m, 0.85 m above the floor), ideal clear \
+         (transparent) and ideal diffuser (diffuse)",
         1,
     )
 }
 
 fn figure_24() -> Result<Figure> {
-    depth_figure("fig24-interreflected", "24", "the same with interreflection (ρ = 0.2, 0.5, 0.7)", 2)
+    depth_figure(
+        "fig24-interreflected",
+        "24",
+        "illuminance in the rooms of figure 23 with interreflection (reflectance of floor 0.2, walls 0.5, ceiling 0.7)",
+        2,
+    )
 }
 
 fn depth_figure(file: &'static str, number: &'static str, shows: &'static str, of: usize) -> Result<Figure> {
@@ -432,7 +446,7 @@ fn depth_figure(file: &'static str, number: &'static str, shows: &'static str, o
             key.push(format!("{}, {} {number}", one.situation, one.system));
         }
     }
-    let what = if of == 1 { "mean distance from 200 × 200 point sources" } else { "largest stated error" };
+    let what = if of == 1 { "mean difference from 200 × 200 point sources" } else { "largest relative uncertainty" };
     Ok(Figure {
         file,
         number,
@@ -455,9 +469,14 @@ fn figure_25() -> Result<Figure> {
         let full = patch.points.iter().map(|p| p[2]).fold(0.0, f64::max);
         let off = patch.points.iter().map(|p| (p[1] - p[2]).abs()).fold(0.0, f64::max) / full;
         key.push(format!(
-            "{altitude}°: open aperture within {} of full sun of the closed form, penumbra included; 145 directions: edge \
-             blurred over {:.2} m by the data's own lobe of {:.2}° (its closed form {:.2} m), light {}",
-            percent(off), patch.blur[0], patch.data, patch.blur[1], percent(patch.light)
+            "solar altitude {altitude}°: largest difference of the open aperture from the closed form with penumbra {} \
+             of full sun; data at 145 directions: edge blurred over {:.2} m by the lobe of {:.2}° in the data (closed \
+             form {:.2} m), light {} of the open aperture's",
+            percent(off),
+            patch.blur[0],
+            patch.data,
+            patch.blur[1],
+            percent(patch.light)
         ));
         let lines = vec![
             Line::new("closed form", 5, column(&patch.points, 2)).wide(),
@@ -469,7 +488,7 @@ fn figure_25() -> Result<Figure> {
     Ok(Figure {
         file: "fig25-sun-patch",
         number: "25",
-        shows: "the sun through the side-lit room's open aperture, 0.1 m above the floor, nothing interreflected",
+        shows: "direct sun through the open aperture of the side-lit room, 0.1 m above the floor; no interreflection",
         key: key.join("; "),
         picture: ("svg", sheet(&panels, 2).to_svg().into_bytes()),
         table: table.0,

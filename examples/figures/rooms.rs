@@ -1,4 +1,4 @@
-//! Numbers of Figures 19, 20 and 23–25: shadow edges, lines of light, illuminance along the depth of a room.
+//! Numbers of Figures 19, 20 and 23–25: shadow edges, bright lines, illuminance along the depth of a room.
 
 #![allow(dead_code, reason = "the pictures and the test each use their own part")]
 
@@ -14,26 +14,27 @@ use std::sync::Arc;
 
 /// Width over which a normal distribution goes from 10 to 90 %, in standard deviations.
 pub const NORMAL_WIDTH: f64 = 2.563;
-/// The same for a straight edge across a uniform disc, in radii.
+/// Width from 10 to 90 % for a straight edge across a uniform disc, in radii.
 pub const DISC_WIDTH: f64 = 1.3741;
-/// Illuminance of a plane that faces the sun. \[lx\]
+/// Direct normal illuminance. \[lx\]
 const DIRECT: f64 = 80_000.0;
 
 /// Height of the shadow's edge above the plane in Figure 19. \[m\]
 pub const EDGE: f64 = 1.0;
 
-/// A profile across a shadow's edge. The distance is from where the middle of the beam meets the plane. \[m, share\]
+/// Illuminance profile across the edge of a shadow.
 pub struct Profile {
     pub name: String,
+    /// Distance from the point where the middle of the beam meets the plane \[m\], share of full sun.
     pub points: Vec<[f64; 2]>,
-    /// From 10 to 90 %. \[m\]
+    /// Width of the transition from 10 to 90 %. \[m\]
     pub width: f64,
-    /// What closed forms say. \[m\]
+    /// Width by the closed form. \[m\]
     pub expected: f64,
 }
 
-/// Light of an edge 1 m above the plane for a beam at `altitude` \[°\]; `spread`: standard deviation of the system
-/// \[°\], `None` for nothing but the sun's disc.
+/// Computes the profile of an edge 1 m above the plane for a beam at `altitude` \[°\]. `spread` is the standard
+/// deviation of the system \[°\], `None` for the solar disc alone.
 pub fn shadow(altitude: f64, spread: Option<f64>) -> Result<Profile> {
     let h = altitude.to_radians();
     let (name, sigma) = match spread {
@@ -59,26 +60,27 @@ pub fn shadow(altitude: f64, spread: Option<f64>) -> Result<Profile> {
     let full = DIRECT * h.sin();
     let points: Vec<[f64; 2]> = ys.iter().zip(&lux).map(|(y, e)| [y - middle, e / full]).collect();
     let most = points.iter().map(|p| p[1]).fold(0.0, f64::max);
-    // A wide beam is not level behind its edge: widths are of the profile's own height.
+    // Behind its edge a wide beam is not uniform: its width refers to the maximum of the profile.
     let top = if spread.is_none() { 1.0 } else { most };
     let at = |share: f64| crossing(&points, share * top);
     Ok(Profile { name, width: at(0.9) - at(0.1), expected, points })
 }
 
-/// Where a rising profile reaches a value.
+/// Returns the position at which a rising profile reaches a value.
 fn crossing(points: &[[f64; 2]], value: f64) -> f64 {
     let k = points.iter().position(|p| p[1] >= value).unwrap_or(points.len() - 1).max(1);
     let ([xa, ya], [xb, yb]) = (points[k - 1], points[k]);
     if yb > ya { xa + (xb - xa) * ((value - ya) / (yb - ya)).clamp(0.0, 1.0) } else { xb }
 }
 
-/// Share of the sun's disc above an edge seen at `edge` \[rad\], the sun's centre at `sun`: a circular segment.
+/// Returns the share of the solar disc above an edge at altitude `edge`, with the centre of the sun at altitude
+/// `sun`: a circular segment. \[rad\]
 pub fn disc_share(sun: f64, edge: f64) -> f64 {
     let t = ((sun - edge) / SUN_HALF_ANGLE).clamp(-1.0, 1.0);
     0.5 + (t.asin() + t * (1.0 - t * t).sqrt()) / PI
 }
 
-/// Largest distance of the program's shadow from the closed form, as a share of full sun.
+/// Returns the largest difference between the computed profile and the closed form, as a share of full sun.
 pub fn shadow_deviation(altitude: f64, profile: &Profile) -> f64 {
     let h = altitude.to_radians();
     let middle = EDGE / h.tan();
@@ -86,17 +88,17 @@ pub fn shadow_deviation(altitude: f64, profile: &Profile) -> f64 {
     profile.points.iter().map(|[x, share]| (share - truth(*x)).abs()).fold(0.0, f64::max)
 }
 
-/// Figure 20: illuminance of a horizontal plane at sill height over that by an even area of the same flux.
+/// Figure 20: illuminance of a horizontal plane at sill height, relative to that from a uniform area of the same flux.
 pub struct Lines {
     pub period: f64,
-    /// Distance \[m\]; share by spots, their closed form; share by endless lines, their closed form.
+    /// Distance \[m\]; relative illuminance from spots, its closed form; from endless lines, its closed form.
     pub points: Vec<[f64; 5]>,
-    /// Distance from which on the even area may be trusted. \[m\]
+    /// Distance from which on the uniform area is a valid approximation. \[m\]
     pub trusted: f64,
 }
 
-/// Spots above each other, as the report has them, on an opening 1 m high: 1 mm high, every `period`; and the same as
-/// lines 60 m wide.
+/// Computes an aperture 1 m high with bright spots one above the other, 1 mm high, every `period`, as in the report;
+/// and with lines 60 m wide instead of spots.
 pub fn lines(period: f64) -> Result<Lines> {
     const LINE: f64 = 1e-3;
     let distances: Vec<f64> = (0..=60).map(|k| 0.05 * 60_f64.powf(f64::from(k) / 60.0)).collect();
@@ -118,7 +120,7 @@ pub fn lines(period: f64) -> Result<Lines> {
     let (spots, wide) = (shares(LINE)?, shares(60.0)?);
     let points = distances.iter().enumerate().map(|(k, &d)| {
         let truth = 1.0 + homogeneity::deviation(period, 1.0, d, 0.5).unwrap_or(0.0);
-        // Endless lines: E of each goes with y d/(y² + d²)^1.5, of the area with 1 − d/√(1 + d²).
+        // Endless lines: E of each is proportional to y d/(y² + d²)^1.5, of the area to 1 − d/√(1 + d²).
         let line = |y: f64| y * d / (y * y + d * d).powf(1.5);
         let sum: f64 = (0..count).map(|k| line((k as f64 + 0.5) * period)).sum();
         [d, spots[k], truth, wide[k], sum * period / (1.0 - d / 1_f64.hypot(d))]
@@ -126,23 +128,24 @@ pub fn lines(period: f64) -> Result<Lines> {
     Ok(Lines { period, points: points.collect(), trusted: homogeneity::distance(period) })
 }
 
-/// Figure 25: a depth, and illuminance there in the open aperture, from closed form and from 145 directions.
+/// Figure 25: illuminance along the depth of the room with an open aperture, by three methods.
 pub struct SunPatch {
     pub altitude: f64,
-    /// Depth \[m\], open aperture, closed form, 145 directions. \[lx\]
+    /// Depth \[m\]; illuminance of open aperture, closed form, and data at 145 directions \[lx\].
     pub points: Vec<[f64; 4]>,
-    /// From 10 to 90 % of the edge under the sill, as the 145 directions give it, and as their own lobe says. \[m\]
+    /// Width from 10 to 90 % of the edge under the sill: from data at 145 directions, and by the closed form of their
+    /// lobe. \[m\]
     pub blur: [f64; 2],
-    /// Standard deviation of the data's lobe. \[°\]
+    /// Standard deviation of the lobe in the data. \[°\]
     pub data: f64,
-    /// Light on the line of sensors from 145 directions over that of the open aperture.
+    /// Light on all sensor points from data at 145 directions, relative to that of the open aperture.
     pub light: f64,
 }
 
-/// The model room's sensors of Figure 25 are 0.1 m above the floor.
+/// Height of the sensor points of Figure 25 above the floor. \[m\]
 pub const PLANE: f64 = 0.1;
 
-/// Sun at 24° or 60° through the open aperture of the side-lit room.
+/// Computes direct sun at `altitude` \[°\] through the open aperture of the side-lit room.
 pub fn sun_patch(altitude: f64, data: &Arc<Dataset>) -> Result<SunPatch> {
     let h = altitude.to_radians();
     let ys: Vec<f64> = (1..=240).map(|k| 0.025 * f64::from(k)).collect();
@@ -168,8 +171,8 @@ pub fn sun_patch(altitude: f64, data: &Arc<Dataset>) -> Result<SunPatch> {
     })
 }
 
-/// Standard deviation, along one axis, of the indicatrix nearest to a sun straight before the façade, cells included.
-/// \[rad\]
+/// Returns the standard deviation, along one axis, of the indicatrix nearest to a sun perpendicular to the façade in
+/// plan; the size of the cells is included. \[rad\]
 fn spread_of(data: &Dataset, altitude: f64) -> f64 {
     use cfs::compute::btdf::Scattered;
     use cfs::compute::direction::Dir;
@@ -189,22 +192,22 @@ fn spread_of(data: &Dataset, altitude: f64) -> f64 {
     (0.5 * moment / flux).sqrt()
 }
 
-/// The open aperture measured at Tregenza's directions with a beam of 1° on cells of 1.9°.
+/// Returns the open aperture as measured at the 145 Tregenza directions with a beam of 1° on cells of 1.9°.
 pub fn tregenza_data() -> Arc<Dataset> {
     Arc::new(systems::open_measured(&RingBasis::tregenza(), 48, systems::clear))
 }
 
-/// One curve of Figures 23 and 24.
+/// Curve of Figures 23 and 24.
 pub struct Depth {
     pub situation: &'static str,
     pub system: &'static str,
-    /// Depth \[m\], direct \[lx\], total \[lx\], stated error of the total \[lx\].
+    /// Depth \[m\]; direct and total illuminance, uncertainty of the total \[lx\].
     pub points: Vec<[f64; 4]>,
-    /// Mean relative distance of the direct component from 200 × 200 point sources.
+    /// Mean relative difference of the direct component from that of 200 × 200 point sources.
     pub distance: f64,
 }
 
-/// Figures 23 and 24 in the model rooms: overcast and clear, side- and top-lit, diffuse and transparent.
+/// Computes Figures 23 and 24 in the model rooms: overcast and clear, side-lit and top-lit, diffuse and transparent.
 pub fn depths() -> Result<Vec<Depth>> {
     let ys: Vec<f64> = (1..=12).map(|k| 0.5 * f64::from(k) - 0.25).collect();
     let points = along(2.0, 0.85, ys.iter().copied());

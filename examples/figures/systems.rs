@@ -1,5 +1,5 @@
-//! Systems of closed form, sampled as a goniophotometer would, and the scenes they stand in. Shared by the pictures and
-//! by the test of their numbers.
+//! Analytic systems, sampled as by a goniophotometer, and the scenes that contain them. Used by the pictures and by the
+//! test of their numbers.
 
 #![allow(dead_code, reason = "the pictures and the test each use their own part")]
 
@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Share of the light that leaves about a direction (through-name) with a spread. \[rad\]
+/// Light that leaves around a through direction `centre`, with standard deviation `sigma` \[rad\] and a share `flux`.
 #[derive(Debug, Clone, Copy)]
 pub struct Lobe {
     pub flux: f64,
@@ -26,31 +26,31 @@ pub struct Lobe {
     pub sigma: f64,
 }
 
-/// A system: its lobes for an incident direction, and the share that leaves evenly.
+/// Law of scattering: returns the lobes for an incident direction, and the share that is scattered uniformly.
 pub type Law = fn(Dir<Facade>) -> (Vec<Lobe>, f64);
 
-/// An open aperture as an instrument with a beam of 1° (standard deviation) sees it.
+/// Open aperture as measured by an instrument with a beam of 1° (standard deviation).
 pub fn clear(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 1_f64.to_radians() }], 0.0)
 }
 
-/// The same with a beam of 2°.
+/// Open aperture as measured by an instrument with a beam of 2° (standard deviation).
 pub fn clear_2(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 2_f64.to_radians() }], 0.0)
 }
 
-/// A pane that scatters about the straight direction, standard deviation 10°.
+/// Pane that scatters around the undeviated direction with a standard deviation of 10°.
 pub fn scattering(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 0.9, centre: d.vector(), sigma: 10_f64.to_radians() }], 0.0)
 }
 
-/// A diffuser without a preferred direction.
+/// Diffuser without a preferred direction.
 pub fn opal(_: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (Vec::new(), 0.5)
 }
 
-/// A light-redirecting glass: of light from above, a share after Edmonds is turned up and spread, the rest goes straight
-/// on; a tenth is haze.
+/// Light-redirecting glass: of light from above, a share after Edmonds is redirected upwards and spread, the rest is
+/// undeviated; a tenth of all light is haze.
 pub fn redirecting(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     let v = d.vector();
     let inner = (1.0 - v.truncate().length_squared() / 2.25).sqrt();
@@ -65,7 +65,8 @@ pub fn redirecting(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (lobes.into_iter().filter(|lobe| lobe.flux > 0.0).collect(), 0.1 * tau)
 }
 
-/// q of one incident direction as means over the cells; every lobe keeps its flux exactly. \[1/sr\]
+/// Returns the luminance coefficients q of one incident direction as cell means; the flux of every lobe is exact.
+/// \[1/sr\]
 pub fn indicatrix(basis: &RingBasis, law: Law, d: Dir<Facade>) -> Vec<f64> {
     let (lobes, even) = law(d);
     let mut q = vec![even / PI; basis.len()];
@@ -77,7 +78,7 @@ pub fn indicatrix(basis: &RingBasis, law: Law, d: Dir<Facade>) -> Vec<f64> {
     q
 }
 
-/// Mean of a lobe (not normalised) over a cell.
+/// Returns the mean of a lobe (not normalised) over a cell.
 fn mean_of(lobe: &Lobe, cell: &cfs::compute::basis::Cell) -> f64 {
     let reach = 6.0 * lobe.sigma + 2.0 * cell.solid_angle().sqrt();
     if (cell.centre().vector() - lobe.centre).length() > reach {
@@ -86,31 +87,31 @@ fn mean_of(lobe: &Lobe, cell: &cfs::compute::basis::Cell) -> f64 {
     cfs::compute::basis::cell_mean(cell, 4, |w| ((w.vector().dot(lobe.centre) - 1.0) / lobe.sigma.powi(2)).exp())
 }
 
-/// A law measured at the centres of a lattice.
+/// Samples a law at the incident directions of a lattice.
 pub fn measured(lattice: &RingBasis, emergent: &RingBasis, law: Law) -> Indicatrices {
     let incident: Vec<Incident> = lattice.cells().map(|cell| Incident(cell.centre())).collect();
     let values = incident.iter().flat_map(|d| indicatrix(emergent, law, d.0)).collect();
     Indicatrices::new(incident, emergent.clone(), values).expect("one row a direction, all directions differ")
 }
 
-/// As a dataset.
+/// Creates a dataset from front transmission data.
 pub fn dataset(name: &str, transmission: Btdf) -> Dataset {
     let mut dataset = Dataset { name: name.to_owned(), ..Dataset::default() };
     dataset.visible.transmission_front = Some(transmission);
     dataset
 }
 
-/// Indicatrices as a dataset.
+/// Creates a dataset from indicatrices.
 pub fn of_directions(name: &str, data: Indicatrices) -> Dataset {
     dataset(name, Btdf { regular: None, scattered: Some(Scattered::Directions(Arc::new(data))) })
 }
 
-/// Nothing in the opening: every ray goes straight on.
+/// Returns the open aperture: regular transmission of 1.
 pub fn open() -> Dataset {
     dataset("open", Btdf { regular: Some(AngularTransmittance::Constant(1.0)), scattered: None })
 }
 
-/// The ideal diffuser.
+/// Returns the ideal diffuser.
 pub fn diffuser() -> Dataset {
     dataset(
         "diffuser",
@@ -118,7 +119,7 @@ pub fn diffuser() -> Dataset {
     )
 }
 
-/// The open aperture as a matrix: light of every cell stays in that cell.
+/// Returns the open aperture as patch-averaged data: light of every cell stays in that cell.
 pub fn open_cells(basis: &RingBasis) -> Dataset {
     let n = basis.len();
     let mut values = vec![0.0; n * n];
@@ -129,13 +130,13 @@ pub fn open_cells(basis: &RingBasis) -> Dataset {
     dataset("open, by cells", Btdf::from_cells(matrix))
 }
 
-/// The open aperture measured at a lattice of directions, `rings` of emergent cells.
+/// Returns an aperture measured at a lattice of incident directions, on emergent cells in `rings` rings.
 pub fn open_measured(lattice: &RingBasis, rings: usize, law: Law) -> Dataset {
     of_directions("open, measured", measured(lattice, &RingBasis::equal_area(rings), law))
 }
 
-/// A beam at altitude `altitude` straight before the façade, spread in altitude alone as a normal distribution.
-/// \[rad\]
+/// Returns a system that spreads a beam at `altitude`, perpendicular to the façade in plan, in altitude alone, as a
+/// normal distribution with standard deviation `sigma`. \[rad\]
 pub fn spread_beam(altitude: f64, sigma: f64) -> Dataset {
     let steps = 160;
     let edge = |k: i32| (altitude + sigma * f64::from(k) / 20.0).clamp(1e-3, 0.5 * PI - 1e-3);
@@ -158,21 +159,21 @@ pub fn spread_beam(altitude: f64, sigma: f64) -> Dataset {
     of_directions("beam", data)
 }
 
-/// A room with one kind of opening.
+/// Room whose apertures all have the same system.
 #[derive(Debug, Clone)]
 pub struct Place {
     pub size: [f64; 3],
-    /// `surface`, `origin`, `size` of every opening.
+    /// Surface, origin and size of every aperture.
     pub apertures: Vec<(Surface, [f64; 2], [f64; 2])>,
     pub ground: f64,
     pub sky: String,
     pub points: Vec<[f64; 3]>,
     pub reflectance: [f64; 3],
-    /// Further keys of `[compute]`.
+    /// Additional keys of `[compute]`.
     pub compute: &'static str,
 }
 
-/// The side-lit model room: 4 × 6 × 3 m, opening of 4 × 2 m from 1 m up to the ceiling.
+/// Returns the side-lit model room: 4 × 6 × 3 m, aperture of 4 × 2 m from 1 m height to the ceiling.
 pub fn side_lit(sky: &str, points: Vec<[f64; 3]>) -> Place {
     Place {
         size: [4.0, 6.0, 3.0],
@@ -185,20 +186,20 @@ pub fn side_lit(sky: &str, points: Vec<[f64; 3]>) -> Place {
     }
 }
 
-/// The top-lit model room: the same with an opening of 2 × 2 m in the middle of the roof.
+/// Returns the top-lit model room: 4 × 6 × 3 m, aperture of 2 × 2 m in the middle of the roof.
 pub fn top_lit(sky: &str, points: Vec<[f64; 3]>) -> Place {
     Place { apertures: vec![(Surface::Roof, [1.0, 2.0], [2.0, 2.0])], ..side_lit(sky, points) }
 }
 
 /// CIE overcast sky, 10 klx.
 pub const OVERCAST: &str = "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0";
-/// CIE clear sky, the sun at 20° straight before the façade but for its disc.
+/// CIE clear sky without solar disc, the sun at 20°, perpendicular to the façade in plan.
 pub const CLEAR: &str = "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 10000.0\n\
                          sun = { altitude = 20.0, azimuth = 180.0, direct_normal = 0.0 }";
-/// The same luminance everywhere (with a ground that reflects all).
+/// Uniform sky; with a ground that reflects everything, the luminance is the same in all directions.
 pub const UNIFORM: &str = "model = \"uniform\"\ndiffuse_horizontal = 10000.0";
 
-/// The sun alone, straight before the façade, 80 klx on a plane that faces it.
+/// Returns a sky of direct sun alone, perpendicular to the façade in plan, with 80 klx direct normal illuminance.
 pub fn sun_alone(altitude: f64) -> String {
     format!(
         "model = \"uniform\"\ndiffuse_horizontal = 0.0\n\
@@ -224,7 +225,7 @@ impl SystemLibrary for Only {
 }
 
 impl Place {
-    /// With a system in all openings.
+    /// Creates the scene with a system in all apertures.
     pub fn scene(&self, system: &Arc<Dataset>) -> Result<Scene> {
         let ([w, d, h], [floor, walls, ceiling]) = (self.size, self.reflectance);
         let openings: String = self
@@ -249,12 +250,12 @@ impl Place {
         Ok(Scene::resolve(&SceneFile::parse(&text)?, Path::new("."), &Only(Arc::clone(system)))?)
     }
 
-    /// Illuminances of the points. \[lx\]
+    /// Computes the illuminances of the points. \[lx\]
     pub fn room(&self, system: &Arc<Dataset>) -> Result<RoomResult> {
         Ok(SESSION.room(&self.scene(system)?, &Silent)?)
     }
 
-    /// Light of the first opening.
+    /// Computes the luminous intensity distribution of the first aperture.
     pub fn lid(&self, system: &Arc<Dataset>) -> Result<(Scene, LidResult)> {
         let scene = self.scene(system)?;
         let light = SESSION.lid(&scene, 0, &Silent)?;
@@ -264,12 +265,12 @@ impl Place {
 
 static SESSION: Session = Session::new();
 
-/// Totals alone. \[lx\]
+/// Returns the total illuminances. \[lx\]
 pub fn totals(result: &RoomResult) -> Vec<f64> {
     result.sensors.iter().map(|sensor| sensor.total().value).collect()
 }
 
-/// Points along the middle of a room. \[m\]
+/// Returns points at the given depths. \[m\]
 pub fn along(x: f64, z: f64, depths: impl IntoIterator<Item = f64>) -> Vec<[f64; 3]> {
     depths.into_iter().map(|y| [x, y, z]).collect()
 }
