@@ -20,61 +20,102 @@ use serde_json::json;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Error against run time of a scene, by method and effort
+/// Arguments of `cfs accuracy`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs accuracy office.toml                                   table on standard output
-  cfs accuracy office.toml --csv ladder.csv --plot ladder.svg
-  cfs accuracy office.toml --reference measured.csv          true errors, against a file
-  cfs accuracy office.toml --year                            of its year: hours and figures against the finest year
-  cfs accuracy rank.toml --rank --products blind             of its ranking: worth and pairs against the finest ranking
+#[command(after_help = "\
+Examples:
+  cfs accuracy office.toml --csv accuracy.csv --plot accuracy.svg
+                                      test all methods on a scene
+  cfs accuracy office.toml --reference office.csv
+                                      compare with a table of cfs room
+  cfs accuracy rank.toml --rank       test a ranking
 
-Every method computes the scene with rising effort; the ordinary one by error targets, which a scene asks for by
-compute.error_target. Methods that a scene chooses by compute.near_field are compared by their direct component.
+Every method computes the scene with rising effort. The effort of the default method is set by error targets \
+(compute.error_target); the other methods of compute.near_field are compared by the direct component alone. At most \
+256 sensor points are used.
 
-Without --reference the errors are numerical: against the ordinary method's finest run, with more effort than any line of
-the table; how far it lies from the second finest is stated, and a line that it hardly refines has no error. With it they
-are true errors against the file, whose own uncertainty counts; columns as `cfs room` writes them: x,y,z,E_lx of the
-scene's sensors in its order, beside these E_error_lx, and E_direct_lx for the direct component where the room reflects.
+Without --reference, the errors are numerical: differences from a run of the default method with more effort than \
+any row of the table. A row that this run hardly refines has a remark instead of errors. With --reference, they are \
+differences from a file with the columns x,y,z,E_lx and optionally nx,ny,nz, E_direct_lx and E_error_lx, its rows in \
+the order of the scene's sensor points. With --year and --rank, they are differences from the run with the most \
+effort.
 
-Errors are relative, over sensors above 1 % of the mean. held: stated ≥ found error; > 10×: stated above ten times of it.
-Times are seconds of one thread: set-up once for a room, then each new sky, each new position of the sun.
+Except those of scores, errors are relative; values below 1 % of the mean are excluded. In the printed table, held \
+is share_held and > 10× is share_padded_10 of the list below. Without --year and --rank, times are those of one \
+thread.
 
-Of data at single incident directions the reference interpolates as well. What that is worth is told beneath: every
-direction is left out and foretold from those around it, by responses and by the report's three schemes
-(compute.sun_interpolation); --json lists all directions and where another scheme would have been better.
+For data at single incident directions, every direction is also left out and predicted from its neighbours, by all \
+schemes of compute.sun_interpolation. --json lists all directions.
 
-Columns of the CSV: method, quantity, against (finest run, or the file), setting, setup_s, sky_s, sun_s, stated_max,
-error_rms, error_max, sensors, share_held, share_padded_10, data_open, remark. With --year: setting,
-seconds, stated_mean, error_rms, error_max, values (hours × places that are not dark), share_held, share_padded_10, then of every
-figure its value, its stated error and its distance from the finest year's. With --rank: setting, seconds, stated_mean, error_rms,
-error_max (of what products are worth, 0 to 1), products, share_held, share_padded_10, pairs, and of these pairs_apart (in the
-finest, by more than twice what it states of both), pairs_told (told apart here, too) and pairs_reversed.")]
+Columns of --csv:
+  method           method; room: default method with interreflection
+  quantity         direct or total illuminance
+  against          finest run, or name of the reference file
+  setting          effort
+  setup_s          set-up time, once for a room [s]
+  sky_s            time for each new sky [s]
+  sun_s            time for each new position of the sun [s]
+  stated_max       largest uncertainty, relative
+  error_rms        root mean square error, relative
+  error_max        largest error, relative
+  sensors          number of sensor points
+  share_held       share of them with uncertainty ≥ error
+  share_padded_10  share of them with uncertainty > 10 × error
+  data_open        uncertainty due to the data, relative
+  remark           reason why errors are not given
+
+Columns of --csv with --year:
+  setting          effort
+  seconds          run time [s]
+  stated_mean      mean uncertainty of the illuminances, relative
+  error_rms        root mean square error, relative
+  error_max        largest error, relative
+  values           number of hours × places that are not dark
+  share_held, share_padded_10
+                   as above, of the values
+  FIGURE           value of an annual figure, followed by
+  FIGURE_stated    its uncertainty
+  FIGURE_off       its difference from the year with the most effort
+
+Columns of --csv with --rank:
+  setting          effort
+  seconds          run time [s]
+  stated_mean      mean uncertainty of the scores
+  error_rms        root mean square error of the scores (0 to 1)
+  error_max        largest error of the scores
+  products         number of products
+  share_held, share_padded_10
+                   as above, of the products
+  pairs            number of pairs of products
+  pairs_apart      pairs that the ranking with the most effort separates by
+                   more than twice its uncertainty
+  pairs_told       of these, pairs that are separated in the same order
+  pairs_reversed   of these, pairs that are separated in reverse order")]
 pub struct AccuracyArgs {
-    /// Scene file (TOML)
+    /// Scene file (.toml)
     pub scene: PathBuf,
-    /// Illuminances of the scene's sensors that are taken as true, with columns as `cfs room` writes them
+    /// Compare with the illuminances of this file, which has the columns of `cfs room`
     #[arg(long, value_name = "FILE.csv")]
     pub reference: Option<PathBuf>,
-    /// CSV file to write
+    /// Write the table to a CSV file, too
     #[arg(long, value_name = "FILE.csv")]
     pub csv: Option<PathBuf>,
-    /// Picture to write: time against error, stated against found error
+    /// Draw run time against error, and uncertainty against error, to a picture file
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub plot: Option<PathBuf>,
-    /// Of the scene's year instead: all its hours, and the figures they come to
+    /// Test the annual simulation of `[year]` instead: its hours and its figures
     #[arg(long, conflicts_with_all = ["reference", "plot"])]
     pub year: bool,
-    /// Of the scene's ranking instead: what products are worth, and which of them are told apart
+    /// Test the ranking of `[rank]` instead: its scores, and which products it separates
     #[arg(long, conflicts_with_all = ["reference", "plot", "year"])]
     pub rank: bool,
-    /// Words as in the window's search, instead of rank.products
+    /// Rank the products found by these search words instead of those of rank.products
     #[arg(long, value_name = "WORDS", requires = "rank")]
     pub products: Option<String>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Results for programs, on standard output
+    /// Print the results as JSON
     #[arg(long)]
     pub json: bool,
 }

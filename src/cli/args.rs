@@ -1,71 +1,55 @@
-//! What can be typed.
+//! Arguments of the command line.
 
 use super::{
     accuracy::AccuracyArgs, catalogue::CatalogueArgs, compact::CompactArgs, compare::CompareArgs, control::ControlArgs,
     convert::ConvertArgs, goniophotometer::GoniophotometerArgs, info::InfoArgs, lid::LidArgs, picture::PictureArgs,
     rank::RankArgs, repair::RepairArgs, report::ReportArgs, room::RoomArgs, sky::SkyArgs, year::YearArgs,
 };
-use crate::compute::limits;
 use clap::CommandFactory as _;
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// What can be typed, below all help.
-const EXAMPLES: &str = "Without a command the window opens.
+/// Part of the help below the options.
+const EXAMPLES: &str = "\
+Without a command the window opens.
 
 Examples:
-  cfs                                   the window
-  cfs blind.xml office.toml             the window, with a dataset to import and a scene to show
-  cfs info blind.xml                    what a dataset is, what it transmits, what is odd about it
-  cfs room office.toml --out office.csv illuminance at every sensor
-  cfs accuracy office.toml              error against run time of every method for this scene
-  cfs compare office.toml               figures of what the scene compares, with errors
-  cfs lid office.toml --out office.ldt  an aperture's light as a luminaire file
-  cfs picture office.toml --tile room --out room.svg         a tile of the window as a picture
-  cfs report office.toml --out office.pdf                    a study, or a product sheet, as PDF
-  cfs control blind.toml --out year.csv a year of states of controlled systems
-  cfs year office.toml --out hours.csv --json                a year of weather, hour by hour
-  cfs rank rank.toml --out rank.csv     which product for this façade, with errors and reasons
-  cfs sky office.toml                   luminances of the 145 sky patches
-  cfs repair blind.xml --repair transpose --out mended.xml   what cfs info offers
-  cfs convert blind.xml copy.xml        between dataset formats
-  cfs compact blind.btdf.txt            the compact form: ratio, errors, effect in a room
-  cfs goniophotometer blind.system.toml --out blind.cfsp   datasets from geometry and material
-  cfs catalogue list --search blind     products, built in and your own
+  cfs                                       open the window
+  cfs blind.xml office.toml                 open the window with files
+  cfs info blind.xml                        inspect a data file
+  cfs room office.toml --out office.csv     compute illuminances in a room
+  cfs lid office.toml --out office.ldt      write a luminaire file
+  cfs year year.toml --out hours.csv        simulate a year of weather
+  cfs rank rank.toml --out rank.csv         rank products for a façade
+  cfs report office.toml --out office.pdf   write a report
+  cfs goniophotometer blind.system.toml     compute data from geometry
+  cfs catalogue list --search blind         search the catalogue
 
-On bad input every command ends with status 2 and one line that says what would be right; at a fault of the program
-itself with status 101 and one line that says where the report on it is.";
+Exit status:
+  0    success
+  1    data that are not fit for use, packages that differ, a damaged catalogue
+  2    invalid input; one line says where, what was found and what was expected
+  101  internal error; one line names the file with a report on it
 
-/// The same with the table of limits, for `--help`.
-fn with_limits() -> String {
-    let mut text = format!("{EXAMPLES}\n\nLimits, each told by name where something is over it:\n");
-    for limit in limits::TABLE {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "  {limit}");
-    }
-    text
-}
+'cfs limits' prints the limits of files and scenes.";
 
-/// From a complex fenestration system's BTDF to the light in a room
+/// Compute what complex fenestration systems do to daylight in rooms, and compare and rank them
 #[derive(Debug, clap::Parser)]
 #[command(
     name = "cfs",
     version,
-    about,
-    after_help = EXAMPLES,
-    after_long_help = with_limits()
+    after_help = EXAMPLES
 )]
 pub struct Arguments {
-    /// Catalogue file (default: the user's data folder, or CFS_CATALOGUE)
+    /// Catalogue file (default: catalogue.sqlite in the user's data folder)
     #[arg(long, global = true, value_name = "FILE", env = "CFS_CATALOGUE")]
     pub catalogue: Option<PathBuf>,
-    /// Open the window with these files, or with what a folder holds; the same as naming them without --open
+    /// Open the window with these files or folders
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub open: Vec<PathBuf>,
-    /// Open the window with these: datasets to import, a package, a system, a scene, a folder of datasets
+    /// Open the window with these datasets, packages, system descriptions, scenes or folders
     #[arg(value_name = "FILE")]
     pub files: Vec<PathBuf>,
-    /// What to do; nothing opens the window
+    /// Command to run
     #[command(subcommand)]
     pub command: Option<Command>,
 }
@@ -137,54 +121,48 @@ fn distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-/// Subcommands.
+/// Subcommand with its arguments.
 #[derive(Debug, clap::Subcommand)]
 pub enum Command {
-    /// Illuminance at every sensor of a scene
+    /// Compute the illuminance at every sensor point of a scene
     Room(RoomArgs),
-    /// Error against run time of a scene, by method and effort
-    Accuracy(AccuracyArgs),
-    /// Figures of scenes and products side by side, with errors
-    Compare(CompareArgs),
-    /// Luminous-intensity distribution of an aperture as a luminaire file
-    Lid(LidArgs),
-    /// A tile of the window as a picture (.svg or .png)
-    Picture(PictureArgs),
-    /// A report as PDF: on a scene, or a product sheet
-    Report(ReportArgs),
-    /// Luminances of the 145 Tregenza patches of the sky dome
-    Sky(SkyArgs),
-    /// Compute a system's scattering from its geometry and material
-    Goniophotometer(GoniophotometerArgs),
-    /// A year of states of a scene's controlled systems
-    Control(ControlArgs),
-    /// A year of weather in a room, hour by hour, and what it comes to
+    /// Simulate a year of weather in a room: illuminances, glare, lighting energy, daylight metrics
     Year(YearArgs),
-    /// Products of the catalogue in a scene's year, put in order by its objectives
+    /// Rank the products of the catalogue for a façade
     Rank(RankArgs),
-    /// What a dataset file is
+    /// Compare scenes and products by their figures, with uncertainties
+    Compare(CompareArgs),
+    /// Compute the states of controlled systems for every hour of a year
+    Control(ControlArgs),
+    /// Compute the luminances of the 145 Tregenza patches of a scene's sky
+    Sky(SkyArgs),
+    /// Measure run time and error of every method and effort for a scene
+    Accuracy(AccuracyArgs),
+    /// Write the light of an aperture as a luminaire file
+    Lid(LidArgs),
+    /// Draw a tile of the window as a picture
+    Picture(PictureArgs),
+    /// Write a report on a scene or a product sheet as PDF
+    Report(ReportArgs),
+    /// Inspect dataset, luminaire, weather and system description files
     Info(InfoArgs),
-    /// A dataset mended as its findings offer
+    /// Repair a dataset as its findings propose
     Repair(RepairArgs),
-    /// A dataset in another format
+    /// Convert a dataset to another format
     Convert(ConvertArgs),
-    /// What the compact form of a dataset saves and costs
+    /// Report size and error of the compact form of a dataset
     Compact(CompactArgs),
-    /// List, show, import, export, validate products
+    /// Compute a dataset from a description of geometry and material
+    Goniophotometer(GoniophotometerArgs),
+    /// Search, import, export, edit and verify the catalogue of products
     Catalogue(CatalogueArgs),
+    /// Print the limits of files, scenes and computations
+    Limits,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn help_tells_every_limit() {
-        let help = Arguments::command().render_long_help().to_string();
-        for limit in limits::TABLE {
-            assert!(help.contains(&limit.to_string()), "{limit}");
-        }
-    }
 
     #[test]
     fn words_that_are_nearly_commands_are_found() {

@@ -13,17 +13,24 @@ use std::time::Instant;
 
 /// Arguments of `cfs catalogue build`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue build
+  cfs catalogue build --out builtin.cfsp
+
+Otherwise, the data of a built-in product are computed when it is first used. Finished data are kept, so an \
+interrupted build continues where it stopped.")]
 pub struct BuildArgs {
-    /// Write all built-in products as a package, too.
+    /// Export all built-in products to a package, too
     #[arg(long, value_name = "FILE.cfsp")]
     pub out: Option<PathBuf>,
-    /// Write the table of their figures, too, as it comes with the program.
+    /// Write the figures of all built-in products to a CSV file, too
     #[arg(long, value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// A JSON object instead of a sentence.
+    /// Print the numbers of products and states as JSON
     #[arg(long)]
     pub json: bool,
 }

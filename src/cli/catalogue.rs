@@ -22,72 +22,100 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `cfs catalogue`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue list --search blind            search products
+  cfs catalogue show venetian-80-72            show one product
+  cfs catalogue import opal.btdf.txt           add a dataset file
+
+The key of a product, which most commands need, is printed by list and import.")]
 pub struct CatalogueArgs {
-    /// What to do.
+    /// Command to run
     #[command(subcommand)]
     pub action: Action,
 }
 
-/// What `cfs catalogue` can do.
+/// Subcommand of `cfs catalogue` with its arguments.
 #[derive(Debug, clap::Subcommand)]
 pub enum Action {
-    /// List products.
+    /// List products that match a search and filters
     List(ListArgs),
-    /// Products that do the same to light as this one, nearest first.
+    /// List the products with the most similar effect on light, nearest first
     Like(LikeArgs),
-    /// Everything about one product.
+    /// Show a product: description, states, figures, findings
     Show(ShowArgs),
-    /// Add dataset files, packages, folders and zip archives of them, all in one step. Files whose names or contents differ by an angle alone are the states of one product;
-    /// .btdf.txt files are a product a name, the functions of one state joined; others are a product each.
+    /// Import dataset files, packages, folders and zip archives
     Import(ImportArgs),
-    /// Other words about a product of your own: name, maker, kind, tags. Its key stays.
+    /// Change name, maker, kind, tags or licence of an imported product
     Rename(RenameArgs),
-    /// Take products out of sight, until they are restored.
+    /// Delete products; they can be restored
     Delete(DeleteArgs),
-    /// Bring deleted products back; without a key, list them.
+    /// Restore deleted products, or list them
     Restore(RestoreArgs),
-    /// What happened to a product, the last first.
+    /// Show the changes of a product, newest first
     History(HistoryArgs),
-    /// List the products of a folder of packages among the others: read only, checked by hash, read anew when they change.
+    /// Subscribe to a folder of packages, whose products are then listed with the others
     Subscribe(SubscribeArgs),
-    /// End the subscription to a folder: its products go out of the catalogue.
+    /// End the subscription to a folder and remove its products
     Unsubscribe(UnsubscribeArgs),
-    /// The folders that are subscribed to, read anew.
+    /// Update and list the subscribed folders
     Subscriptions(SubscriptionsArgs),
-    /// Write products into a package.
+    /// Export products to a package
     Export(ExportArgs),
-    /// Compute the data of all built-in products that are not computed yet; stopped, it goes on where it was
+    /// Compute the data of all built-in products
     Build(BuildArgs),
-    /// Check stored products or dataset files: energy, reciprocity, integrity.
+    /// Check the data of products or dataset files: energy, reciprocity, integrity
     Validate(ValidateArgs),
-    /// Is the catalogue what was stored in it? Marks, pages, products, data; ends with status 1 when something is damaged.
+    /// Verify the catalogue file: layout, database pages, products, data
     Check(CheckArgs),
-    /// How two packages differ; ends with status 1 when they do.
+    /// Compare two packages
     Diff(DiffArgs),
-    /// Two packages as one.
+    /// Merge two packages
     Merge(MergeArgs),
 }
 
 /// Arguments of `cfs catalogue show`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue show venetian-80-72
+  cfs catalogue show opal-light --json
+
+Columns of the states:
+  state        key of the state
+  τ normal     transmittance at normal incidence
+  τ hemi       hemispherical transmittance
+  up           share of the transmitted skylight that leaves upwards
+  sun blocked  1 − τ for direct sun at 45° altitude, perpendicular to the
+               façade in plan
+  view         normal-normal transmittance
+  dataset      hash of the data; those of built-in products are computed when
+               they are needed")]
 pub struct ShowArgs {
-    /// Key of the product.
+    /// Key of the product
     pub key: String,
-    /// A JSON object instead of text.
+    /// Print the product as JSON
     #[arg(long)]
     pub json: bool,
 }
 
 /// Arguments of `cfs catalogue export`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue export venetian-80-72 --out blind.cfsp
+  cfs catalogue export clear-double opal-light --out products.cfsp
+
+A package contains all states with their data. Data of built-in products that have not been computed yet are \
+computed first.")]
 pub struct ExportArgs {
-    /// Keys of the products.
+    /// Keys of the products
     #[arg(required = true)]
     pub keys: Vec<String>,
-    /// The package to write.
+    /// Package to write (.cfsp)
     #[arg(long)]
     pub out: PathBuf,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
 }

@@ -10,12 +10,19 @@ use std::path::Path;
 
 /// Arguments of `cfs catalogue check`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue check
+  cfs catalogue check --repair
+
+Exits with status 1 if anything is damaged, with --repair only if it cannot be repaired. --repair restores layout \
+and indices, readable rows of damaged pages, built-in products, and data whose source files are unchanged; it first \
+copies the damaged file.")]
 pub struct CheckArgs {
-    /// Mend what can be made anew: marks, indices, broken pages as far as they can be read, built-in products, data whose
-    /// files are still there. The catalogue as it was is kept beside it.
+    /// Repair what can be restored; a copy of the damaged file is kept beside it
     #[arg(long)]
     pub repair: bool,
-    /// A JSON object instead of text.
+    /// Print the result as JSON
     #[arg(long)]
     pub json: bool,
 }

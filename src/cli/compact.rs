@@ -12,39 +12,52 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// By which error coefficients are dropped.
+/// Error that the threshold limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum By {
-    /// Share of the flux that goes elsewhere, in percent of τ
+    /// Flux in wrong directions, in percent of τ
     Misplaced,
-    /// Root mean square of the difference, in percent of the indicatrix's own
+    /// Root mean square difference, in percent of the root mean square of the indicatrix
     Rms,
-    /// Share of the energy Σc² dropped, in percent: the square of the rms (1 % of the energy is 10 % rms)
+    /// Dropped energy Σc², in percent: the square of rms (1 % of the energy is 10 % rms)
     Energy,
 }
 
 /// Arguments of `cfs compact`.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs compact opal.btdf.txt
+  cfs compact opal.btdf.txt --threshold normal --out opal.cfsd
+
+The compact form stores every indicatrix as quantised wavelet coefficients. Functions in closed form and tensor \
+trees are not changed.
+
+Columns for the standard room, 4 m x 6 m x 3 m with a façade aperture of 4 m x 2 m:
+  LID misplaced  flux of the LID in wrong directions, relative to its flux
+  Σ|ΔE|/ΣE       mean change of the illuminances, relative
+  largest ΔE     largest change of an illuminance, relative
+  mean E         mean illuminance without the compact form [lx]")]
 pub struct CompactArgs {
-    /// Dataset file, any format that the program reads.
+    /// Dataset file (.xml, .btdf.txt, .cfsd, or .cfsp with one product)
     pub file: PathBuf,
-    /// What the threshold limits, for every indicatrix.
+    /// Error that the threshold limits in every indicatrix
     #[arg(long, value_enum, default_value = "misplaced")]
     pub by: By,
-    /// In percent; or `archive` (0.5 % of the flux misplaced) or `normal` (1.5 %). By default archive, or 1 % with --by
-    /// rms or energy.
+    /// Threshold in percent, or archive (0.5 % of the flux misplaced) or normal (1.5 %); default: archive, or 1 with
+    /// --by rms or energy
     #[arg(long, value_name = "PERCENT")]
     pub threshold: Option<String>,
-    /// Key of the state, for files of several states; all by default.
+    /// Key of the state, for files with several states (default: all states)
     #[arg(long)]
     pub state: Option<String>,
-    /// One JSON object (an array for several states) instead of text.
+    /// Print JSON: one object, or an array of objects if there are several states
     #[arg(long)]
     pub json: bool,
-    /// Write the dataset in compact form (.cfsd); one state.
+    /// Write the compact form of one state to a file
     #[arg(long, value_name = "FILE.cfsd")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
 }

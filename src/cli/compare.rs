@@ -16,36 +16,46 @@ use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Figures of scenes and products side by side, with errors
+/// Arguments of `cfs compare`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs compare office.toml                            what its [[compare]] lists; without any the scene alone
-  cfs compare south.toml north.toml                  scenes side by side
-  cfs compare clear-double venetian-80-72:45         figures of data, without a room
+#[command(after_help = "\
+Examples:
+  cfs compare blind.toml overhang.toml         compare scenes
+  cfs compare clear-double venetian-80-72:45   compare data of products
   cfs compare clear-double opal-light --scene office.toml --csv
+                                               compare products in a scene
 
-A product is its key, with a state KEY:STATE, else the state that stands for it. With --scene products fill the apertures
-of that scene that are filled from the catalogue, the first aperture where none is.
+A scene with [[compare]] stands for its candidates. A product without STATE is compared in its representative state. \
+With --scene, the products fill the apertures that hold a product of the catalogue, or the first aperture if none \
+does.
 
-The better one is told where the difference is larger than the errors together; which way is better is told by figure.
-Measured data state no error: nothing is told to be better by them.")]
+A candidate is named as better if the difference is larger than the uncertainties of both values together. Measured \
+data have no stated uncertainty, so their differences are not judged.
+
+Columns of --csv:
+  figure         key of the figure
+  unit           its unit
+  better_is      whether more or less is better, or neither in general
+  NAME           value of candidate NAME, one column per candidate
+  error of NAME  its uncertainty; empty if not stated
+  better         better candidates, or reason why none is named")]
 pub struct CompareArgs {
-    /// Scene files (.toml), or products of the catalogue
+    /// Scene files (.toml), or products of the catalogue as KEY or KEY:STATE
     #[arg(required = true, value_name = "SCENE|PRODUCT")]
     pub what: Vec<String>,
-    /// Scene that the products are put into
+    /// Compare the products in this scene instead of their data alone
     #[arg(long, value_name = "SCENE")]
     pub scene: Option<PathBuf>,
-    /// File to write instead of standard output
+    /// Write the result to a file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// For spreadsheets: a row a figure
+    /// Print a CSV table with one row per figure
     #[arg(long, conflicts_with = "json")]
     pub csv: bool,
-    /// Results for programs
+    /// Print the results as JSON
     #[arg(long)]
     pub json: bool,
 }

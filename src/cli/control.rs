@@ -10,30 +10,41 @@ use anyhow::anyhow;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// A year of states of a scene's controlled systems
+/// Arguments of `cfs control`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(
-    after_help = "The table has a row for the middle of every step: time, sun_altitude_deg, sun_azimuth_deg, and for \
-each controlled aperture N (from 1): profile_angle_deg_N (empty while no part of the sun's disc is before it), demanded_N \
-(what the rule asks for, in the unit of the states), state_N (its key), direct_sun_N (1: direct sun passes between the \
-slats, 0: none does, empty: the slats are not known) and reason_N (sun, no-sun, night, bright, dark, schedule, fixed).
+#[command(after_help = "\
+Examples:
+  cfs control blind.toml --out states.csv   write the states of every hour
+  cfs control blind.toml --step 15 --json   print a summary, steps of 15 min
 
-The sun is taken to shine whenever any of its disc is up, as bright as under a clear sky. A skyline hides it; boxes outside \
-([[outside]]) do not: a control goes by where the sun is."
-)]
+Columns (the last five for each aperture N under shading control, from 1):
+  time                 middle of the step, local standard time
+  sun_altitude_deg     solar altitude [°]
+  sun_azimuth_deg      solar azimuth [°]
+  profile_angle_deg_N  profile angle of the sun [°]; empty while no part of
+                       the solar disc is in front of the aperture
+  demanded_N           value that the control demands, in the unit of the
+                       states
+  state_N              key of the chosen state
+  direct_sun_N         1 if direct sun passes between the slats, else 0; empty
+                       if the slats are not known
+  reason_N             sun, no-sun, night, bright, dark, schedule or fixed
+
+The sun is assumed to shine from a clear sky whenever it is up. A skyline hides it; obstructions ([[outside]]) do \
+not. A summary is printed on standard error. For a weather year and illuminances in the room see cfs year.")]
 pub struct ControlArgs {
-    /// Scene file (TOML)
+    /// Scene file (.toml) with a controlled aperture
     pub scene: PathBuf,
-    /// Minutes a step; divides a day
+    /// Length of a step in minutes, a divisor of 1440
     #[arg(long, value_name = "MINUTES", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1440))]
     pub step: u32,
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Print the summary as JSON on standard output
+    /// Print a summary as JSON: hours per state, hours of sun, movements
     #[arg(long)]
     pub json: bool,
 }

@@ -10,30 +10,36 @@ use std::path::PathBuf;
 
 /// Arguments of `cfs convert`.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs convert opal.btdf.txt opal.xml            matrices on Klems bases
+  cfs convert opal.btdf.txt tree.xml --tree 3   tensor trees
+
+Reads .xml, .btdf.txt, .cfsd, and .cfsp with one product. Findings of the conversion are printed on standard error.")]
 pub struct ConvertArgs {
-    /// File to read.
+    /// Dataset file to read
     pub input: PathBuf,
-    /// File to write; the extension says in which format.
+    /// Dataset file to write, .xml (BSDF XML) or .btdf.txt
     pub output: PathBuf,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Key of the state to write, for files of several states.
+    /// Key of the state to convert, for files with several states
     #[arg(long)]
     pub state: Option<String>,
-    /// Which function to write, for formats that hold one: transmission_front, transmission_back, reflection_front or
-    /// reflection_back.
+    /// Function to write to .btdf.txt, which holds one: transmission_front, transmission_back, reflection_front or
+    /// reflection_back
     #[arg(long, value_parser = component)]
     pub component: Option<Component>,
-    /// Form of the functions in BSDF XML; by default datasets of trees stay trees, all others become matrices.
+    /// Form of the functions in BSDF XML (default: tensor trees stay tensor trees, all others become matrices)
     #[arg(long, value_enum)]
     pub tree: Option<TreeChoice>,
-    /// Steps of a tree's coordinates, as a power of two: 1 … 6 for rank 4, 1 … 8 for rank 3; by default as the source
-    /// resolves, at most 6.
+    /// Resolution of the tree, 2^LEVEL steps per coordinate: 1 to 6 for rank 4, 1 to 8 for rank 3 (default: that of the
+    /// source, at most 6)
     #[arg(long, requires = "tree")]
     pub level: Option<u32>,
-    /// Largest share of the light that pruning a tree may misplace; 0.01 by default, and trees that stay trees are not
-    /// pruned.
+    /// Largest share of the light that pruning the tree may misplace (default: 0.01, but no pruning of tensor trees of
+    /// the source)
     #[arg(long, requires = "tree")]
     pub tolerance: Option<f64>,
 }
@@ -41,13 +47,13 @@ pub struct ConvertArgs {
 /// Forms of the functions in BSDF XML.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum TreeChoice {
-    /// Tensor trees of rank 4
+    /// Tensor tree of rank 4
     #[value(name = "4")]
     Four,
-    /// Tensor trees of rank 3, for rotationally symmetric systems
+    /// Tensor tree of rank 3, for rotationally symmetric systems
     #[value(name = "3")]
     Three,
-    /// Matrices on Klems' bases
+    /// Matrices on Klems bases
     #[value(alias = "none")]
     Klems,
 }

@@ -14,45 +14,68 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// How the incident cells are chosen.
+/// Basis of the incident directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Incidence {
-    /// LBNL/Klems Full
+    /// Klems basis (LBNL/Klems Full)
     #[value(name = "klems-145")]
     Klems,
-    /// Tregenza's lattice on the façade
+    /// Tregenza patches about the normal of the façade
     #[value(name = "tregenza-145")]
     Tregenza,
 }
 
 /// Arguments of `cfs goniophotometer`.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "\
+Examples (descriptions are in assets/systems):
+  cfs goniophotometer opal-light.system.toml
+                           print the summary
+  cfs goniophotometer venetian-80-72.system.toml --out blind.cfsp
+                           write all states to a package
+  cfs goniophotometer venetian-80-72.system.toml --state 45 --out blind.xml
+                           write one state
+
+Files written:
+  .cfsp      package with all states
+  .xml       BSDF XML, one file per state
+  .btdf.txt  text, four files per state: transmission and reflection of both
+             sides
+The key of the state is added to the file name if there are several states: blind_45.xml. Finished states are saved \
+in the folder FILE.part; if a run is interrupted, the same command continues from there.
+
+Columns of the summary:
+  τ normal     transmittance at normal incidence
+  τ hemi.      hemispherical transmittance
+  τ+ρ+α−1      error of the energy balance
+  reciprocity  error of reciprocity
+  error        estimated error of τ and ρ at the worst incident direction
+  seconds      run time [s]")]
 pub struct GoniophotometerArgs {
-    /// System file: geometry and material (.system.toml)
+    /// System description (.system.toml)
     pub system: PathBuf,
-    /// File to write: .xml, .btdf.txt (four files, one a function) or .cfsp (all states in one package). Several states
-    /// in a format of one state become several files, named by their states. Without it only the summary is printed.
+    /// File to write: .xml, .btdf.txt or .cfsp (default: print the summary only)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Incident cells
+    /// Basis of the incident directions
     #[arg(long, value_enum, default_value = "klems-145")]
     pub incidence: Incidence,
-    /// Emergent cells: klems-145, or the width of even cells in degrees (1 to 30)
+    /// Basis of the emergent directions: klems-145, or patches of about this size in degrees, 1 to 30
     #[arg(long, value_name = "klems-145|DEGREES", default_value = "klems-145")]
     pub emergent: String,
-    /// Key of the state to compute; all by default
+    /// Key of the state to compute (default: all states)
     #[arg(long, allow_hyphen_values = true)]
     pub state: Option<String>,
-    /// Absolute error allowed in τ and ρ of every incidence; effort follows it
+    /// Absolute error allowed in τ and ρ for every incident direction, 0.000001 to 0.5
     #[arg(long, default_value = "0.01")]
     pub error: f64,
-    /// Seed of what is drawn at random
+    /// Seed of the random numbers
     #[arg(long, default_value = "1")]
     pub seed: u64,
-    /// One JSON object on standard output instead of text
+    /// Print the summary as JSON
     #[arg(long)]
     pub json: bool,
 }

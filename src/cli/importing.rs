@@ -14,39 +14,49 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `cfs catalogue import`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue import opal.btdf.txt --kind diffuser
+  cfs catalogue import blind_*.xml --name \"Blind 80\" --manufacturer Maker
+  cfs catalogue import products.zip --group each
+
+Prints the keys of the products. Without --group and --name, files that differ by an angle alone, in their names or \
+contents, become the states of one product; .btdf.txt files of one state are joined; every other file becomes a \
+product. Everything is imported in one step. A file that cannot be read is an error if only files were named; in a \
+folder or zip archive it is skipped, with a warning.")]
 pub struct ImportArgs {
-    /// Dataset files, packages (.cfsp), folders and zip archives of them.
+    /// Dataset files (.xml, .btdf.txt, .cfsd), packages (.cfsp), and folders or zip archives of them
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
-    /// Name of the product; the file's own by default. Makes one product of all files.
+    /// Name of the product; all files become one product (default: name stated in the file, or file name)
     #[arg(long, default_value = "")]
     pub name: String,
-    /// Maker; the file's own by default.
+    /// Maker of the products (default: as stated in the files)
     #[arg(long, default_value = "")]
     pub manufacturer: String,
-    /// Kind, e.g. venetian.
+    /// Kind of the products, e.g. venetian (default: as stated in the files)
     #[arg(long, default_value = "")]
     pub kind: String,
-    /// Word to find it by; may be given several times.
+    /// Tag to add to the products (repeatable)
     #[arg(long = "tag")]
     pub tags: Vec<String>,
-    /// Which files are states of one product
+    /// Files that become states of one product
     #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
     pub group: Group,
-    /// How values are kept; by default without loss below 1 MB, else as `archive`.
+    /// Storage of the values (default: lossless for datasets below 1 MB, else archive)
     #[arg(long, value_enum)]
     pub compact: Option<Compactness>,
 }
 
-/// Which files are states of one product.
+/// Files that become states of one product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
 pub enum Group {
-    /// Those that differ by an angle alone, by their names or by what they say of themselves
+    /// Files that differ by an angle alone, in their names or contents
     #[default]
     Angles,
-    /// None: each file is a product
+    /// No files: each becomes a product
     Each,
-    /// All of them
+    /// All files
     One,
 }
 
@@ -60,12 +70,12 @@ impl Group {
     }
 }
 
-/// How the values of indicatrices are kept.
+/// Storage of the values of indicatrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Compactness {
-    /// At most 0.5 % of the flux of any indicatrix misplaced
+    /// Compact form with at most 0.5 % of the flux of any indicatrix misplaced
     Archive,
-    /// At most 1.5 % of the flux of any indicatrix misplaced
+    /// Compact form with at most 1.5 % of the flux of any indicatrix misplaced
     Normal,
     /// Every value, rounded to 7 digits
     Lossless,

@@ -1,50 +1,95 @@
-//! `cfs info`: what a dataset (or a luminaire file, or a weather file) is, and what is to be said about it.
+//! `cfs info`: contents of data files of every kind that the program reads, and the findings about them.
 
-use crate::cli::output::{print, print_text};
-use crate::cli::{dataset_file, luminaire_info, weather_info};
+use crate::cli::output::{Content, print, print_text};
+use crate::cli::{dataset_file, luminaire_info, system_info, tell_error, weather_info};
 use crate::compute::btdf::{
     BandName, Btdf, Component, Dataset, Scattered, Severity, SolarSource, Thermal, ThermalKey, TreeRank,
     reciprocity_error,
 };
 use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine_all};
+use crate::formats::system_toml::is_system_file;
+use crate::study::Library;
 use crate::texts::one_line;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `cfs info`.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "Examples:
+  cfs info blind.xml
+  cfs info slat_*.xml --json
+  cfs info venetian.system.toml
+  cfs info builtin:new-york
+
+Files:
+  .xml, .btdf.txt, .cfsd, .cfsp   datasets
+  .system.toml                    system descriptions
+  .ldt, .ies, .index.csv          luminaire files, indices of luminaire files
+  .epw, .wea, builtin:NAME        weather files, built-in years
+
+A file that cannot be read is reported on standard error, the others are described, and the exit status is 2.")]
 pub struct InfoArgs {
-    /// Dataset file of any format that the program reads, luminaire file (.ldt, .ies), index of
-    /// luminaire files (.index.csv), weather file (.epw, .wea), or a year that comes with the
-    /// program (builtin:new-york).
-    pub file: PathBuf,
-    /// One JSON object (an array for several states) instead of text.
+    /// Files to describe
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Print JSON: an object per file or state, in an array if there are several
     #[arg(long)]
     pub json: bool,
 }
 
-/// Reads the file and prints what it is.
+/// Describes every file that can be read, and reports the others on standard error.
 ///
 /// # Errors
-/// A file that cannot be read; the message is one line with the file's name and the place in it.
-pub fn run(args: &InfoArgs) -> anyhow::Result<()> {
-    if let Some(text) = luminaire_info::describe(&args.file, args.json)? {
-        return if args.json { print(&text) } else { print_text(&text) };
+/// Returns the error of the last file that cannot be read, one line with the file's name and the place in it.
+pub fn run(args: &InfoArgs, library: &Library) -> anyhow::Result<()> {
+    let several = args.files.len() > 1;
+    let mut values = Vec::new();
+    let mut failed = None;
+    for (number, file) in args.files.iter().enumerate() {
+        match describe(file, args.json, library) {
+            Ok(Content::Text(text)) if several => {
+                let gap = if number > 0 { "\n" } else { "" };
+                print_text(&format!("{gap}{:<22}{}\n{text}", "File", file.display()))?;
+            }
+            Ok(Content::Text(text)) => print_text(&text)?,
+            Ok(Content::Json(mut list)) => {
+                let objects = list.iter_mut().filter_map(Value::as_object_mut).filter(|_| several);
+                objects.for_each(|object| drop(object.insert("file".into(), file.to_string_lossy().into())));
+                values.append(&mut list);
+            }
+            Err(error) => {
+                if let Some(earlier) = failed.replace(error) {
+                    tell_error(&earlier);
+                }
+            }
+        }
     }
-    if let Some(text) = weather_info::describe(&args.file, args.json)? {
-        return print(&text);
+    if !values.is_empty() {
+        let value = if several || values.len() > 1 { Value::Array(values) } else { values.remove(0) };
+        print(&(serde_json::to_string_pretty(&value)? + "\n"))?;
     }
-    let datasets = dataset_file::read(&args.file)?;
-    let text = if args.json {
-        let mut list: Vec<Value> = once_each(&datasets, |dataset, found| to_json(dataset, &datasets, found));
-        let value = if list.len() == 1 { list.remove(0) } else { Value::Array(list) };
-        serde_json::to_string_pretty(&value)? + "\n"
+    failed.map_or(Ok(()), Err)
+}
+
+/// Reads one file by the kind that its name or its bytes tell, and describes it.
+fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Content> {
+    if let Some(content) = luminaire_info::describe(file, as_json)? {
+        return Ok(content);
+    }
+    if let Some(content) = weather_info::describe(file, as_json)? {
+        return Ok(content);
+    }
+    if is_system_file(&file.to_string_lossy()) {
+        return system_info::describe(file, as_json, library);
+    }
+    let datasets = dataset_file::read(file)?;
+    Ok(if as_json {
+        Content::Json(once_each(&datasets, |dataset, found| to_json(dataset, &datasets, found)))
     } else {
-        once_each(&datasets, to_text).join("\n")
-    };
-    if args.json { print(&text) } else { print_text(&text) }
+        Content::Text(once_each(&datasets, to_text).join("\n"))
+    })
 }
 
 /// What is said of each dataset, found once for those that are alike: one file may be named by many states.

@@ -8,52 +8,73 @@ use std::fmt::Write as _;
 
 /// Arguments of `cfs catalogue rename`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue rename opal-sheet-made-up \"Opal sheet\"
+  cfs catalogue rename opal-sheet-made-up --tag opal --tag acrylic
+
+What is not specified stays. Built-in products and products of subscribed folders cannot be changed.")]
 pub struct RenameArgs {
-    /// Key of the product; scenes go on finding it by that.
+    /// Key of the product, which does not change
     pub key: String,
-    /// Its new name.
+    /// New name
     pub name: Option<String>,
-    /// Its maker.
+    /// New maker
     #[arg(long)]
     pub manufacturer: Option<String>,
-    /// Its kind, e.g. venetian.
+    /// New kind, e.g. venetian
     #[arg(long)]
     pub kind: Option<String>,
-    /// Word to find it by, in place of all that it has; may be given several times.
+    /// New tag, replaces all tags of the product (repeatable)
     #[arg(long = "tag")]
     pub tags: Vec<String>,
-    /// On which terms the data may be passed on, e.g. "CC BY 4.0".
+    /// New licence of the data, e.g. "CC BY 4.0"
     #[arg(long)]
     pub license: Option<String>,
 }
 
 /// Arguments of `cfs catalogue delete`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue delete opal-light
+  cfs catalogue restore opal-light    restore it
+
+Scenes that name a deleted product still find it.")]
 pub struct DeleteArgs {
-    /// Keys of the products.
+    /// Keys of the products
     #[arg(required = true)]
     pub keys: Vec<String>,
-    /// Take your own products out for good: nothing brings them back.
+    /// Remove imported products permanently; they cannot be restored
     #[arg(long)]
     pub for_good: bool,
 }
 
 /// Arguments of `cfs catalogue restore`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue restore               list the deleted products
+  cfs catalogue restore opal-light    restore one")]
 pub struct RestoreArgs {
-    /// Keys of the products; none: list those that are deleted.
+    /// Keys of the products to restore (default: list the deleted products)
     pub keys: Vec<String>,
-    /// A JSON array instead of a table, for the list.
+    /// Print the list as JSON
     #[arg(long)]
     pub json: bool,
 }
 
 /// Arguments of `cfs catalogue history`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue history opal-sheet-made-up
+
+Times are UTC.")]
 pub struct HistoryArgs {
-    /// Key of the product.
+    /// Key of the product
     pub key: String,
-    /// A JSON array instead of a table.
+    /// Print the list as JSON
     #[arg(long)]
     pub json: bool,
 }

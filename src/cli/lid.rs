@@ -16,45 +16,74 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
-/// Write an aperture's luminous-intensity distribution; the format follows the extension of --out
+/// Arguments of `cfs lid`.
 #[derive(Debug, Clone, Args)]
+#[command(after_help = "\
+Examples:
+  cfs lid office.toml --out office.ldt
+                           write one luminaire file
+  cfs lid sunny.toml --tiles 4x2 --without-beam --out sunny.ies
+                           write eight luminaires and an index
+  cfs lid blind.toml --months 6,12 --hours 9,12 --states 0,45 --out blind.ldt
+                           write a series of eight files and an index
+
+With --tiles, the files are NAME_1.ldt, NAME_2.ldt and so on, row by row from the lower left seen from outside. The \
+files of a series have date, time and state in their names. Both have an index, NAME.index.csv, which a scene can \
+use as a system: { luminaires = \"NAME.index.csv\" }. Both are for .ldt and .ies only.
+
+A series over months or hours takes the year, and whatever is not varied, from sky.time; it needs latitude, \
+longitude and utc_offset. Times with the sun below the horizon are left out, with a note.
+
+The direct sun that --without-beam leaves out is stated in the files, in the index and in the summary.
+
+Columns of the index:
+  file           luminaire file, relative to the index
+  x,y,z          centre of the luminous area in room axes [m]
+  width,height   size along x, and along z (façade) or y (roof) [m]
+  flux_lm        luminous flux of the file [lm]
+  surface        facade or roof
+  aim            mounted or down, see --aim
+  beam_lm        part of flux_lm that leaves in beams of the sun [lm]
+  apart_lm       flux of the direct sun left out by --without-beam [lm]
+  apart_x,apart_y,apart_z
+                 its direction, away from the sun, in room axes
+  apart_lx       its illuminance on a plane perpendicular to it [lx]
+  set            member of a series: date, time and state")]
 pub struct LidArgs {
-    /// Scene file
+    /// Scene file (.toml)
     pub scene: PathBuf,
-    /// Number of the aperture in the scene file, counted from 1
+    /// Number of the aperture in the scene, from 1
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub aperture: u32,
     /// File to write: .ldt (EULUMDAT), .ies (LM-63), .csv (table), .png or .svg (polar diagram)
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
     /// Edition of LM-63 for .ies
     #[arg(long, value_enum, default_value_t = EditionArg::Y2002)]
     pub edition: EditionArg,
-    /// How the aperture stands in the file; without it as it really is (a roof aperture shines down)
+    /// Orientation of the aperture in the file (default: mounted for the façade, down for the roof)
     #[arg(long, value_enum)]
     pub aim: Option<AimArg>,
-    /// Step of C and gamma in degrees, a divisor of 90 from 1 to 15; without it chosen from the data
+    /// Step of C and γ in degrees, a divisor of 90 from 1 to 15 (default: chosen from the data)
     #[arg(long, value_name = "DEGREES")]
     pub step: Option<f64>,
-    /// Cut the aperture into luminaires: `auto` (as few as light a room within 1 %), columns x rows as in 8x8, or `none`
-    /// (one file). With tiles NAME_1.ies … are written and NAME.index.csv, which tells where they stand
+    /// Split the aperture into a grid of luminaires: none, auto (as few as light the room within 1 %), or columns and
+    /// rows as in 8x8, at most 40x40
     #[arg(long, value_name = "TILES", default_value = "none")]
     pub tiles: Tiles,
-    /// Leave the straight sunbeam to the host, which draws the sun through by itself; its flux and direction stand in
-    /// the header, in the index and in the summary
+    /// Leave out the direct sun that passes undeviated, for software that traces it through the aperture itself
     #[arg(long)]
     pub without_beam: bool,
-    /// Series: the 21st of these months (1 to 12), comma-separated; the year is that of the scene's sky.time. Its files
-    /// have day, hour and state in their names, and one index lists all of them
+    /// Write a series of files for the 21st of these months, 1 to 12, separated by commas
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub months: Vec<u8>,
-    /// Series: these hours by the scene's clock, as in 9,12,15.5
+    /// Write a series of files for these hours of local time, as in 9,12,15.5
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub hours: Vec<f64>,
-    /// Series: these states of the aperture's system
+    /// Write a series of files for these states of the system, separated by commas
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub states: Vec<String>,
     /// Print a summary as JSON
@@ -65,7 +94,7 @@ pub struct LidArgs {
 /// Edition of LM-63.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum EditionArg {
-    /// LM-63-2002, which most programs read
+    /// LM-63-2002, the edition that most programs read
     #[value(name = "2002")]
     Y2002,
     /// LM-63-2019
@@ -73,12 +102,12 @@ pub enum EditionArg {
     Y2019,
 }
 
-/// Orientation in the file.
+/// Orientation of the aperture in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum AimArg {
-    /// Façade as built: nadir down, C0 into the room
+    /// Façade as built: γ = 0° is downwards, C0 points into the room
     Mounted,
-    /// Outward normal up, light goes down; tilt by 90° in the host
+    /// Outward normal upwards, so that the light goes down; tilt a façade by 90° in the other program
     Down,
 }
 

@@ -9,18 +9,28 @@ use std::fmt::Write as _;
 
 /// Arguments of `cfs catalogue like`.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "The distance is the root of the mean square of five differences, all shares of the light that arrives: τ under uniform
-light, τ by profile angle, light to the ceiling, sun blocked, view; what one of two products does not know is left out.
-Moving products are taken by the state that stands for them. Differences are those of the listed product from KEY."
-)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue like venetian-80-72 --most 5
+
+The distance of two products is the root mean square of five differences, all relative to the incident light. The \
+largest of them are printed, as the value of the listed product minus that of KEY:
+  τ            hemispherical transmittance
+  profile      transmittance over the profile angle: root mean square, no sign
+  ceiling      light that leaves upwards, relative to the incident light
+  sun blocked  1 − τ for direct sun at 45° altitude, perpendicular to the
+               façade in plan
+  view         normal-normal transmittance
+
+A difference is left out if one of the values is unknown. Products with several states are compared in their \
+representative state.")]
 pub struct LikeArgs {
-    /// Key of the product that the others are to be like.
+    /// Key of the product to compare with
     pub key: String,
-    /// How many, nearest first.
+    /// Maximum number of products to list
     #[arg(long, default_value_t = 20)]
     pub most: usize,
-    /// A JSON array instead of a table.
+    /// Print the list as JSON
     #[arg(long)]
     pub json: bool,
 }

@@ -9,49 +9,63 @@ use std::sync::Arc;
 
 /// Arguments of `cfs catalogue list`.
 #[derive(Debug, Default, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue list --search blind
+  cfs catalogue list --kind woven --within tau-normal=..0.1 --sort view
+  cfs catalogue list --moving --json
+
+Figures, all from 0 to 1, of a product's representative state:
+  tau-normal         transmittance at normal incidence
+  tau-hemispherical  hemispherical transmittance
+  to-ceiling         share of the transmitted skylight that leaves upwards
+  sun-blocked        1 − τ for direct sun at 45° altitude, perpendicular to
+                     the façade in plan
+  view               normal-normal transmittance
+
+In the table, state is the representative state, states the number of states, and ★ marks starred products. A word \
+that no product has is read as the most similar one, with a note.")]
 pub struct ListArgs {
-    /// Words or parts of words in name, maker, kind, tags or description; typing errors and German words for kinds are
-    /// understood
+    /// Words or parts of words in name, maker, kind, tags, key or description, also German words for kinds
     #[arg(long, default_value = "")]
     pub search: String,
-    /// Products of this kind; several: any of them
+    /// Only products of this kind (repeatable: any of them)
     #[arg(long)]
     pub kind: Vec<String>,
-    /// Products of this maker; several: any of them
+    /// Only products of this maker (repeatable: any of them)
     #[arg(long)]
     pub maker: Vec<String>,
-    /// Products with this tag; several: all of them
+    /// Only products with this tag (repeatable: all of them)
     #[arg(long = "tag")]
     pub tags: Vec<String>,
-    /// Products of this collection; several: of any of them
+    /// Only products of this collection (repeatable: any of them)
     #[arg(long = "collection")]
     pub collections: Vec<String>,
-    /// Products of several states alone
+    /// Only products with several states
     #[arg(long, conflicts_with = "fixed")]
     pub moving: bool,
-    /// Products of one state alone
+    /// Only products with one state
     #[arg(long)]
     pub fixed: bool,
-    /// Measured data alone
+    /// Only products with measured data
     #[arg(long, conflicts_with = "computed")]
     pub measured: bool,
-    /// Computed data alone
+    /// Only products with computed data
     #[arg(long)]
     pub computed: bool,
-    /// Starred products alone
+    /// Only starred products
     #[arg(long)]
     pub starred: bool,
-    /// A figure within a range: tau-normal=0.2..0.5, tau-hemispherical, to-ceiling, sun-blocked or view; either end may
-    /// be left out
+    /// Only products with a figure in this range, as in tau-normal=0.2..0.5; either end may be left out (repeatable)
     #[arg(long, value_name = "FIGURE=FROM..TO", value_parser = range)]
     pub within: Vec<Within>,
-    /// Order: match, name, maker, kind, states or a figure
+    /// Order of the list: match, name, maker, kind, states or a figure
     #[arg(long, default_value = "match", value_parser = sort)]
     pub sort: Sort,
-    /// The greatest (or last) first
+    /// Reverse the order, largest value first
     #[arg(long)]
     pub descending: bool,
-    /// A JSON array instead of a table.
+    /// Print the list as JSON
     #[arg(long)]
     pub json: bool,
 }

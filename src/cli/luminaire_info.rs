@@ -1,6 +1,7 @@
 //! `cfs info` of luminaire files: who, how much light, how large, which planes; and of an index: where they stand, as one
 //! aperture.
 
+use super::output::Content;
 use crate::compute::direction::Surface;
 use crate::formats::luminaire::{Luminaire, Photometry};
 use crate::study::luminaires::{self, INDEX, LuminaireAperture};
@@ -12,20 +13,20 @@ use std::path::Path;
 /// Relative difference of intensities that still counts as symmetric.
 const SAME: f64 = 1e-4;
 
-/// Text or JSON about a luminaire file or an index of some; `None` for files of other extensions.
+/// Describes a luminaire file or an index of luminaire files; `None` for files of other extensions.
 ///
 /// # Errors
-/// A file that cannot be read; the message is one line with the file's name and the place in it.
-pub fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<String>> {
+/// Returns an error if the file cannot be read: one line with the file's name and the place in it.
+pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
     if path.to_string_lossy().to_ascii_lowercase().ends_with(INDEX) {
         return index(path, as_json).map(Some);
     }
     let Some(luminaire) = luminaires::read_file(path)? else { return Ok(None) };
-    Ok(Some(if as_json { serde_json::to_string_pretty(&to_json(&luminaire))? + "\n" } else { to_text(&luminaire) }))
+    Ok(Some(Content::of(as_json, || to_json(&luminaire), || to_text(&luminaire))))
 }
 
 /// The apertures of an index: one, or those of a series.
-fn index(path: &Path, as_json: bool) -> anyhow::Result<String> {
+fn index(path: &Path, as_json: bool) -> anyhow::Result<Content> {
     let rows = luminaires::read_rows(path)?;
     let names = luminaires::sets(&rows);
     let mut sets = Vec::with_capacity(names.len());
@@ -33,14 +34,16 @@ fn index(path: &Path, as_json: bool) -> anyhow::Result<String> {
         let own = rows.iter().filter(|row| row.set == name).cloned().collect();
         sets.push((luminaires::of_rows(path, own)?, name));
     }
-    if as_json {
+    let to_json = || {
         let list: Vec<_> = sets.iter().map(|(one, name)| aperture_json(one, name)).collect();
-        let value = json!({"format": "index of luminaire files", "files": rows.len(), "apertures": list});
-        return Ok(serde_json::to_string_pretty(&value)? + "\n");
-    }
-    let mut text = format!("{:<22}index of {} luminaire files\n", "Format", rows.len());
-    sets.iter().for_each(|(one, name)| aperture_text(&mut text, one, name));
-    Ok(text)
+        json!({"format": "index of luminaire files", "files": rows.len(), "apertures": list})
+    };
+    let to_text = || {
+        let mut text = format!("{:<22}index of {} luminaire files\n", "Format", rows.len());
+        sets.iter().for_each(|(one, name)| aperture_text(&mut text, one, name));
+        text
+    };
+    Ok(Content::of(as_json, to_json, to_text))
 }
 
 /// Beams in the files, and the straight beam that is not in them. \[lm\]

@@ -25,6 +25,7 @@ pub mod keeping;
 mod language;
 pub mod lid;
 pub mod like;
+mod limits;
 pub mod listing;
 mod luminaire_info;
 mod output;
@@ -40,6 +41,7 @@ pub mod report;
 pub mod room;
 pub mod sky;
 pub mod subscriptions;
+mod system_info;
 pub mod validate;
 mod weather_info;
 mod writing;
@@ -76,11 +78,12 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
         Command::Control(args) => control::run(args, &library),
         Command::Year(args) => year::run(args, &library),
         Command::Rank(args) => rank::run(args, &library),
-        Command::Info(args) => info::run(args),
+        Command::Info(args) => info::run(args, &library),
         Command::Convert(args) => convert::run(args),
         Command::Compact(args) => compact::run(args),
         Command::Repair(args) => repair::run(args),
         Command::Catalogue(args) => catalogue::run(args, catalogue),
+        Command::Limits => limits::run(),
     }
 }
 

@@ -3,7 +3,23 @@
 pub(super) use crate::drawing::ticks::nine_digits as number;
 use crate::texts::{message, short_numbers, visible};
 use anyhow::Context as _;
+use serde_json::Value;
 use std::io::Write as _;
+
+/// Description of one file, as text or as JSON values (one per state of a dataset file).
+pub(super) enum Content {
+    /// Text for reading.
+    Text(String),
+    /// JSON values.
+    Json(Vec<Value>),
+}
+
+impl Content {
+    /// Calls one of the two functions: `json` if `as_json`, else `text`.
+    pub(super) fn of(as_json: bool, json: impl FnOnce() -> Value, text: impl FnOnce() -> String) -> Self {
+        if as_json { Self::Json(vec![json()]) } else { Self::Text(text()) }
+    }
+}
 
 /// Data to standard output: CSV, JSON, templates. What commands a terminal is visible there; a closed pipe is the reader's
 /// choice, not an error.

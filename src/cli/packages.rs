@@ -12,27 +12,43 @@ use std::path::{Path, PathBuf};
 
 /// Arguments of `cfs catalogue diff`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue export clear-double --out a.cfsp
+  cfs catalogue export clear-double opal-light --out b.cfsp
+  cfs catalogue diff a.cfsp b.cfsp
+
+In the output, - marks products that are only in the first package, + those only in the second, ~ those that differ. \
+Exits with status 1 if the packages differ.")]
 pub struct DiffArgs {
-    /// The first package (.cfsp).
+    /// First package (.cfsp)
     pub first: PathBuf,
-    /// The second package.
+    /// Second package (.cfsp)
     pub second: PathBuf,
-    /// A JSON object instead of text.
+    /// Print the differences as JSON
     #[arg(long)]
     pub json: bool,
 }
 
 /// Arguments of `cfs catalogue merge`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue export clear-double --out a.cfsp
+  cfs catalogue export opal-light --out b.cfsp
+  cfs catalogue merge a.cfsp b.cfsp --out all.cfsp
+
+Products that are the same in both packages are written once. If products differ but have the same key, that of the \
+second package gets a new key, with a note.")]
 pub struct MergeArgs {
-    /// The first package (.cfsp); its keys stay.
+    /// First package (.cfsp), whose keys do not change
     pub first: PathBuf,
-    /// The second package.
+    /// Second package (.cfsp)
     pub second: PathBuf,
-    /// The package to write.
+    /// Package to write (.cfsp)
     #[arg(long)]
     pub out: PathBuf,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
 }

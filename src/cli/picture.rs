@@ -12,34 +12,37 @@ use crate::texts::speak;
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
-/// A tile of the window as a picture (.svg or .png)
+/// Arguments of `cfs picture`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs picture office.toml --tile room --out room.svg                    1600 x 1200 pixels, with caption
-  cfs picture office.toml --tile lid --size 160x120mm --out lid.png     for print: 300 pixels an inch
-  cfs picture office.toml --tile btdf --print --plain --out btdf.svg    black lines, no caption")]
+#[command(after_help = "\
+Examples:
+  cfs picture office.toml --tile room --out room.svg
+  cfs picture office.toml --tile lid --size 160x120mm --out lid.png
+  cfs picture office.toml --tile btdf --print --plain --out btdf.svg
+
+A size in millimetres gives 300 pixels per inch in .png. Each side must have 240 to 8000 pixels.")]
 pub struct PictureArgs {
-    /// Scene file (TOML)
+    /// Scene file (.toml)
     pub scene: PathBuf,
-    /// Which: btdf, transmittance, sky, lid, room, control or year (of a scene with `[year]`)
+    /// Tile to draw: btdf, transmittance, sky, lid, room, control, or year (needs `[year]`)
     #[arg(long)]
     pub tile: TileKind,
-    /// Width and height in pixels, or in millimetres with mm
+    /// Width and height in pixels, or in millimetres as in 160x120mm
     #[arg(long, default_value = "1600x1200")]
     pub size: Size,
-    /// For printers: black lines, told apart without colours
+    /// Draw for black-and-white print, with lines that differ without colours
     #[arg(long)]
     pub print: bool,
-    /// Without product, place, moment, errors and origin round it
+    /// Leave out the caption: product, place, date and time, uncertainty, origin of the data
     #[arg(long)]
     pub plain: bool,
-    /// Language of its words: en or de
+    /// Language of the labels, en or de
     #[arg(long, default_value = "en", value_name = "en|de")]
     pub language: ReportLanguage,
     /// File to write: .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
 }

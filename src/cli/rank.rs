@@ -17,39 +17,57 @@ use anyhow::{anyhow, bail};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Products of the catalogue in a scene's year, put in order by its objectives
+/// Arguments of `cfs rank`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs rank rank.toml --out rank.csv                    all that [rank] asks for
-  cfs rank a.toml b.toml --products blind --json       products found by a word, in two scenes
-  cfs rank rank.toml --shard 0/8 --out part-0.csv      one of eight pieces, e.g. on eight machines
-  cfs rank --merge part-*.csv --out rank.csv           the pieces put together: the same bytes as from one run
+#[command(after_help = "\
+Examples:
+  cfs rank rank.toml --out rank.csv                rank products of the scene
+  cfs rank rank.toml --products screen --json      rank products of a search
+  cfs rank rank.toml --shard 0/8 --out part-0.csv  compute one of eight parts
+  cfs rank --merge part-*.csv --out rank.csv       merge the parts
 
-The scene says system = \"ranked\" where products go, and in [rank] what counts: figures, anchors, weights.
-Columns: scene, climate, azimuth, product, of every figure its value and error, utility (0 to 1) and its error, rank_first and
-rank_last (what errors cannot tell apart shares ranks), front (of Pareto; grey: on it by its errors alone), approximate (why),
-excluded (why; all else is empty then), why (against the best and the mean).
-A piece that is there already is not computed again; one that is killed leaves nothing. Pieces hold further columns.")]
+The products fill the apertures with system = \"ranked\". The table [rank] states the objectives: figures, scale \
+limits, weights.
+
+Columns:
+  scene          scene file
+  climate        weather file or built-in year
+  azimuth        bearing of the façade, clockwise from north [°]
+  product        key of the product
+  FIGURE         value of a figure of the objectives, one column per figure
+  FIGURE_error   its estimated absolute error
+  utility        score, 0 to 1
+  utility_error  its estimated absolute error
+  rank_first     best rank that the uncertainty allows
+  rank_last      worst rank that the uncertainty allows
+  front          front: on the Pareto front; grey: possibly on it, within the
+                 uncertainty
+  approximate    reasons why figures are less exact than their errors say
+  excluded       reason why the product is excluded; all figures are empty
+  why            differences from the best product and from the mean
+
+Parts can be computed on several machines; merged, they give the same file as a single run. A part whose file is \
+complete is not computed again, and an interrupted run leaves no file. Files of parts have further columns.")]
 pub struct RankArgs {
-    /// Scene files (TOML) with `[rank]` and `[year]`
+    /// Scene files (.toml) with `[rank]` and `[year]`
     #[arg(required_unless_present = "merge", value_name = "SCENE")]
     pub scenes: Vec<PathBuf>,
-    /// Words as in the window's search, instead of rank.products
+    /// Rank the products found by these search words instead of those of rank.products
     #[arg(long, value_name = "WORDS")]
     pub products: Option<String>,
-    /// Compute the n-th of N pieces alone, n from 0
+    /// Compute part n of N only, counted from 0
     #[arg(long, value_name = "n/N", value_parser = Shard::read, requires = "out", conflicts_with = "json")]
     pub shard: Option<Shard>,
-    /// Put pieces together instead, in any order
+    /// Merge the files of all parts, in any order, instead of computing
     #[arg(long, value_name = "PART", num_args = 1.., conflicts_with_all = ["scenes", "shard", "products"])]
     pub merge: Vec<PathBuf>,
-    /// CSV file to write
+    /// Write the table to a CSV file, too
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Results for programs on standard output, with the parts of every difference
+    /// Print the ranking as JSON, with the contributions to every difference
     #[arg(long)]
     pub json: bool,
 }

@@ -10,20 +10,49 @@ use std::path::PathBuf;
 
 /// Arguments of `cfs repair`.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs repair opal.btdf.txt --repair turn-upside-down --out turned.btdf.txt
+  cfs repair turned.btdf.txt --undo --out undone.btdf.txt
+
+'cfs info' lists the findings with the repairs that they propose. With auto, the certain ones are made; all others \
+have to be named.
+
+Repairs:
+  turn-upside-down       exchange up and down
+  mirror-left-right      exchange left and right
+  turn-half-round        rotate by 180° about the normal
+  swap-sides             exchange outside and room side
+  transpose              exchange incident and emergent directions
+  divide-by-100          convert percent to fractions
+  multiply-by-100        convert fractions to percent
+  remove-cosine          divide by the cosine of the emergent angle
+  multiply-cosine        multiply by the cosine of the emergent angle
+  remove-solid-angle     divide by the projected solid angle of the patch
+  multiply-solid-angle   multiply by the projected solid angle of the patch
+  drop-block             remove the function
+  derive-by-reciprocity  compute a transmission from that of the other side
+  clamp-negative         set negative values to 0
+
+A repair applies to all functions. REPAIR:FUNCTION limits it to all, transmission, reflection, transmission_front, \
+transmission_back, reflection_front or reflection_back, REPAIR:BAND.FUNCTION also to the band visible or solar: \
+divide-by-100:solar.all.
+
+The repairs made are recorded in the description of the dataset. --undo reverses them, unless one of them has lost \
+values (drop-block, derive-by-reciprocity, clamp-negative).")]
 pub struct RepairArgs {
-    /// Dataset file to mend; it stays as it is.
+    /// Dataset file to repair; it is not changed
     pub file: PathBuf,
-    /// What to do, in this order, as `cfs info` offers it: e.g. transpose, turn-upside-down:transmission_back,
-    /// divide-by-100:solar.all. `auto`: all that `cfs info` marks as beyond doubt; what is a question must be named.
+    /// Repairs to make in this order, separated by commas, or auto
     #[arg(long, value_delimiter = ',', required_unless_present = "undo")]
     pub repair: Vec<String>,
-    /// Undo the repairs that the file records, the last first.
+    /// Undo the repairs recorded in the file, newest first
     #[arg(long, conflicts_with = "repair")]
     pub undo: bool,
-    /// File to write; the extension says in which format.
+    /// Dataset file to write, .xml (BSDF XML) or .btdf.txt
     #[arg(long)]
     pub out: PathBuf,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
 }

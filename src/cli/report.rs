@@ -19,55 +19,55 @@ use crate::texts::{Language, speak};
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
 
-/// A report as PDF: on a scene, or a product sheet
+/// Arguments of `cfs report`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs report office.toml --out office.pdf                      the study of a scene
-  cfs report office.toml --question \"Blinds or panel?\" --out office.pdf
-  cfs report office.toml --compared lid --language de --out office.pdf   its [[compare]] with LIDs, in German
-  cfs report office.toml --sheet --out blind.pdf               the product sheet of its first window
-  cfs report venetian-80-72 --state 45 --out blind.pdf         the product sheet of a product of the catalogue
+#[command(after_help = "\
+Examples:
+  cfs report office.toml --title Office --language de --out office.pdf
+  cfs report blind.toml --sheet --out blind.pdf
+  cfs report venetian-80-72 --state 45 --out venetian.pdf
 
-A product sheet ends with a tender text; --tender takes another template, whose {fields} are explained in the shipped one:
-cfs report --template prints it.")]
+The report on a scene has a chapter on its candidates if the scene has [[compare]]. A product sheet ends with a \
+tender text. To change it, save the output of 'cfs report --template', which explains its {fields}, edit it, and \
+name it with --tender.")]
 pub struct ReportArgs {
     /// Scene file (.toml) or key of a product
     #[arg(required_unless_present = "template")]
     pub what: Option<String>,
-    /// State of the product; without it the one that stands for the product
+    /// State of the product (default: its representative state)
     #[arg(long)]
     pub state: Option<String>,
-    /// The product sheet of a scene's first window instead of the study
+    /// Write the product sheet of the scene's first aperture instead of the report
     #[arg(long)]
     pub sheet: bool,
-    /// Title of the study
+    /// Title of the report
     #[arg(long, default_value = "")]
     pub title: String,
-    /// What the study is to answer
+    /// Question that the report answers
     #[arg(long, default_value = "")]
     pub question: String,
-    /// Template of the tender text
+    /// Template file of the tender text (default: the one that --template prints)
     #[arg(long, value_name = "FILE")]
     pub tender: Option<PathBuf>,
-    /// Print the template of the tender text and end
+    /// Print the default template of the tender text and exit
     #[arg(long)]
     pub template: bool,
-    /// For printers: black lines, told apart without colours
+    /// Draw for black-and-white print, with lines that differ without colours
     #[arg(long)]
     pub print: bool,
-    /// Language of the report: en or de
+    /// Language of the report, en or de
     #[arg(long, default_value = "en", value_name = "en|de")]
     pub language: ReportLanguage,
-    /// Tile that is drawn of each of the scene's candidates (`[[compare]]`): btdf, transmittance, sky, lid, room or control
+    /// Tile drawn for every candidate of `[[compare]]`: btdf, transmittance, sky, lid, room or control
     #[arg(long, value_name = "TILE", default_value = "room")]
     pub compared: TileKind,
-    /// Number of the candidate that the others are less, from 1
+    /// Number of the reference, the candidate from which differences are taken, from 1
     #[arg(long, value_name = "NUMBER", default_value = "1")]
     pub base: usize,
-    /// File to write (.pdf)
+    /// PDF file to write
     #[arg(long, value_name = "FILE.pdf", required_unless_present = "template")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
 }

@@ -11,29 +11,38 @@ use anyhow::Context as _;
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Illuminance at every sensor of a scene
+/// Arguments of `cfs room`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs room office.toml                       table on standard output
-  cfs room office.toml --out office.csv      the same into a file
-  cfs room office.toml --json                with the plan: what ran, what was left out and why, and how long it took
+#[command(after_help = "\
+Examples:
+  cfs room office.toml                    print the table
+  cfs room office.toml --out office.csv   write it to a file
+  cfs room office.toml --json             print results and computation plan
 
-Columns: x,y,z [m], nx,ny,nz, E_lx = E_direct_lx + E_interreflected_lx, E_error_lx (estimated absolute error) =
-E_error_numerical_lx (of the computation, were the data exact) + E_error_data_lx (how far the data leave the answer open), E_beam_lx (the part of
-E_direct_lx that is the sun's light come through as beams).
-Notes on standard error: the hour of weather that the sky is, or its illuminances where they follow the sun; sensors that lie too near to a
-blind or panel to see its mean alone, and what error was reached
-where the scene asks for one.")]
+Columns:
+  x,y,z                 position of the sensor point [m]
+  nx,ny,nz              its normal
+  E_lx                  illuminance [lx], E_direct_lx + E_interreflected_lx
+  E_direct_lx           direct component [lx]
+  E_interreflected_lx   interreflected component [lx]
+  E_error_lx            estimated absolute error [lx], sum of the next two
+  E_error_numerical_lx  error of the computation [lx]
+  E_error_data_lx       error due to the data [lx]
+  E_beam_lx             part of E_direct_lx from beams of the sun [lx]
+
+Notes on standard error state the weather hour or the computed illuminances of the sky, the number of sensor points \
+too near to slats or cuts for averaged data, apertures whose data cannot place patches of direct sun, and whether \
+the error target of the scene was reached.")]
 pub struct RoomArgs {
-    /// Scene file (TOML)
+    /// Scene file (.toml)
     pub scene: PathBuf,
-    /// CSV file to write
+    /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Results for programs, on standard output
+    /// Print the results as JSON, with the computation plan: stages, reasons and times
     #[arg(long)]
     pub json: bool,
 }

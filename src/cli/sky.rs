@@ -17,18 +17,33 @@ use rayon::prelude::*;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Luminances of the 145 Tregenza patches of the sky dome
+/// Arguments of `cfs sky`.
 #[derive(Debug, Clone, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs sky office.toml                print the table
+  cfs sky overhang.toml --json       print patches and illuminances
+
+Columns:
+  patch          number of the Tregenza patch from 0, lowest row first
+  altitude_deg   altitude of its centre [°]
+  azimuth_deg    azimuth of its centre, clockwise from north [°]
+  omega_sr       solid angle [sr]
+  L_centre_cdm2  luminance at its centre [cd/m²]
+  L_mean_cdm2    mean luminance [cd/m²]
+
+Horizontal and façade illuminances are printed on standard error. Skyline and obstruction of [sky] count; boxes of \
+[[outside]] do not.")]
 pub struct SkyArgs {
-    /// Scene file (TOML)
+    /// Scene file (.toml)
     pub scene: PathBuf,
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Print patches and illuminances as JSON on standard output
+    /// Print patches and illuminances as JSON
     #[arg(long)]
     pub json: bool,
 }

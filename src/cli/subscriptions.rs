@@ -10,22 +10,37 @@ use std::path::PathBuf;
 
 /// Arguments of `cfs catalogue subscribe`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue subscribe products
+
+The products of the packages in the folder are listed with the others and cannot be changed. A package is read again \
+when its content has changed, and used only if its data match their hashes. The window updates the products when it \
+opens, 'cfs catalogue subscriptions' at any time.")]
 pub struct SubscribeArgs {
-    /// A folder of packages (.cfsp), e.g. on a file share.
+    /// Folder of packages (.cfsp), e.g. on a file share
     pub folder: PathBuf,
 }
 
 /// Arguments of `cfs catalogue unsubscribe`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue unsubscribe products")]
 pub struct UnsubscribeArgs {
-    /// The folder, as `cfs catalogue subscriptions` lists it.
+    /// Folder as listed by `cfs catalogue subscriptions`
     pub folder: PathBuf,
 }
 
 /// Arguments of `cfs catalogue subscriptions`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue subscriptions
+
+If a folder cannot be reached, its products stay in the catalogue, with a warning.")]
 pub struct SubscriptionsArgs {
-    /// A JSON object instead of a table.
+    /// Print the list as JSON
     #[arg(long)]
     pub json: bool,
 }

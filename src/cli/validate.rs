@@ -12,10 +12,18 @@ use std::path::Path;
 
 /// Arguments of `cfs catalogue validate`.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cfs catalogue validate opal.btdf.txt
+  cfs catalogue validate venetian-80-72 --json
+
+Prints the findings (error, warning, info) of every item; for files also the repairs that they propose, see cfs \
+repair. Exits with status 1 if an item has an error. A key has precedence over a file of the same name; write ./NAME \
+for the file.")]
 pub struct ValidateArgs {
-    /// Dataset files or keys of products; all products by default.
+    /// Dataset files or keys of products (default: all products)
     pub items: Vec<String>,
-    /// A JSON array instead of text.
+    /// Print the findings as JSON
     #[arg(long)]
     pub json: bool,
 }

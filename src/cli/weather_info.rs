@@ -1,5 +1,6 @@
 //! Weather files on the command line: `cfs info` of them, and the hour that is a scene's sky.
 
+use super::output::Content;
 use crate::compute::weather::{LightSource, Summary, Weather};
 use crate::formats::weather::is_weather_file;
 use crate::study::sky::HourOfWeather;
@@ -9,22 +10,18 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Text or JSON about a weather file, or a year that comes with the program; `None` for other names.
+/// Describes a weather file or a built-in year; `None` for other names.
 ///
 /// # Errors
-/// A file that cannot be read; the message is one line with the file's name and the place in it.
-pub fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<String>> {
+/// Returns an error if the file cannot be read: one line with the file's name and the place in it.
+pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
     let name = path.to_string_lossy();
     if !name.starts_with(BUILTIN) && !is_weather_file(&name) {
         return Ok(None);
     }
     let weather = load(path, Path::new(""))?;
     let summary = weather.examine().map_err(|error| anyhow!("{name}: {error}"))?;
-    Ok(Some(if as_json {
-        serde_json::to_string_pretty(&to_json(&weather, &summary))? + "\n"
-    } else {
-        to_text(&weather, &summary)
-    }))
+    Ok(Some(Content::of(as_json, || to_json(&weather, &summary), || to_text(&weather, &summary))))
 }
 
 /// First and last interval as people read them.

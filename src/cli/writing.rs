@@ -5,10 +5,10 @@ use crate::study::StudyError;
 use crate::study::files::{self, Output, Replace};
 use std::path::Path;
 
-/// What may be written over.
+/// Options for overwriting existing files.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct Over {
-    /// Replace a file that is there also where it is of another kind; what the result is made from is never replaced
+    /// Overwrite an existing file even if it is of another type (input files are never overwritten)
     #[arg(long)]
     pub force: bool,
 }

@@ -14,48 +14,66 @@ use jiff::civil::{Date, DateTime};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// A year of weather in a room: illuminances hour by hour, daylight, glare and lighting
+/// Arguments of `cfs year`.
 #[derive(Debug, Clone, clap::Args)]
-#[command(after_help = "Examples:
-  cfs year office.toml                                     table of hours on standard output
-  cfs year office.toml --out hours.csv --json              the table into a file, figures as JSON
-  cfs year office.toml --day 06-21                         one day of it
-  cfs year office.toml --scene-at 2005-06-21T12:30 --out hour.toml    that hour as a scene for cfs room
+#[command(after_help = "\
+Examples:
+  cfs year year.toml --day 06-21              print the hours of one day
+  cfs year year.toml --out hours.csv --json   write all hours, print metrics
+  cfs year year.toml --scene-at 2005-06-21T12:30 --out hour.toml
+                                                write one hour as a scene
 
-A run into a file that takes long keeps its hours in FILE.part: ended and started again, it goes on behind them.
-The scene says which weather in [year]; [sky] is not read but for skyline and obstruction.
-Columns: time (middle of the interval, local standard time, the row's own year), sun_altitude_deg, sun_azimuth_deg (where the
-sun was taken), direct_normal_lx, diffuse_horizontal_lx, state_N (of aperture N where a control picks it; empty in the
-dark), E_i and Ev_i (sensors and eyes from 1, lx), E_error_i and Ev_error_i (estimated absolute errors), S_i and Sv_i (of these
-the sun straight through, where something lets it through unscattered), DGP_i and DGP_error_i (daylight glare probability
-at eye i; only while somebody is there and there is light), lighting_W_m2 (with [year.lighting]), solar_W and
-solar_error_W (with solar = true in [year]: solar power straight through all apertures, secondary heat left out), hunting (with
-open_below in [control]: 1 where closed is too dark and open bright enough, so that the control would go back and forth).")]
+The scene needs a table [year] that names the weather, as in examples/year.toml. Of [sky] only skyline and obstruction \
+are used.
+
+Columns (i counts sensor points or observers, N apertures, both from 1):
+  time                   middle of the interval, local standard time
+  sun_altitude_deg       solar altitude [°]
+  sun_azimuth_deg        solar azimuth [°]
+  direct_normal_lx       direct normal illuminance [lx]
+  diffuse_horizontal_lx  diffuse horizontal illuminance [lx]
+  state_N                state chosen by the shading control; empty when dark
+  E_i, Ev_i              illuminance at sensor point and at observer i [lx]
+  E_error_i, Ev_error_i  their estimated absolute errors [lx]
+  S_i, Sv_i              part of E_i and Ev_i from direct sun [lx]; only if a
+                         system transmits it unscattered
+  DGP_i, DGP_error_i     daylight glare probability of observer i, its error;
+                         empty outside occupied hours and when dark
+  lighting_W_m2          electric lighting [W/m²]; only with [year.lighting]
+  solar_W                solar power transmitted directly [W], without
+                         secondary heat; only with solar = true
+  solar_error_W          its estimated absolute error [W]
+  hunting                1 if the control would move to and fro (closed too
+                         dark, open bright enough), else 0; only with
+                         open_below in [control]
+
+The date of a row keeps the year of the weather record. A run with --out that takes longer than 10 s saves its hours \
+in FILE.part; if it is interrupted, the same command continues from there.")]
 pub struct YearArgs {
-    /// Scene file (TOML) with [year]
+    /// Scene file (.toml) with `[year]`
     pub scene: PathBuf,
-    /// CSV file to write; with --scene-at the scene
+    /// Write the table (with --scene-at: the scene) to a file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// What may be written over.
+    /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Figures, with what the hours' errors leave open of them, on standard output
+    /// Print the annual metrics with their uncertainties as JSON
     #[arg(long)]
     pub json: bool,
-    /// One day: YYYY-MM-DD, or MM-DD
+    /// Compute one day only, MM-DD or YYYY-MM-DD (the year is ignored)
     #[arg(long, value_name = "DATE", conflicts_with_all = ["month", "from", "to"])]
     pub day: Option<String>,
-    /// One month, 1 to 12
+    /// Compute one month only, 1 to 12
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=12), conflicts_with_all = ["from", "to"])]
     pub month: Option<u8>,
-    /// From this day on, MM-DD
+    /// First day to compute, MM-DD (default: 01-01)
     #[arg(long, value_name = "DATE")]
     pub from: Option<String>,
-    /// Up to and with this day, MM-DD
+    /// Last day to compute, MM-DD (default: 12-31)
     #[arg(long, value_name = "DATE")]
     pub to: Option<String>,
-    /// Write the hour that holds a time as a scene of its own, states fixed
+    /// Write the hour that contains this time, YYYY-MM-DDTHH:MM, as a scene with fixed states
     #[arg(long, value_name = "TIME", requires = "out", conflicts_with_all = ["json", "day", "month", "from", "to"])]
     pub scene_at: Option<String>,
 }

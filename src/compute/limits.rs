@@ -1,5 +1,5 @@
-//! Every limit of what is taken in, computed and kept, in one table: what is over one is refused before the work is done, by
-//! a message that names it. `cfs --help` prints the table.
+//! Limits of input, computation and memory, in one table: what exceeds one is refused before the work is done, by a message
+//! that names it. `cfs limits` prints the table.
 //!
 //! Limits are there against slips of the keyboard and files that are made to fill memory, not against large studies:
 //! each lies well beyond what a study of daylight has had so far.

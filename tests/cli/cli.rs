@@ -340,8 +340,16 @@ fn arguments_that_clap_refuses_end_with_two_as_well() {
         assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
     }
     let help = folder.cfs(&["--help"]);
-    assert!(help.status.success() && text(&help.stdout).contains("sensors of a scene: at most 1000000"));
+    assert!(help.status.success() && text(&help.stdout).contains("Exit status:"));
     assert!(folder.cfs(&["--version"]).status.success());
+}
+
+#[test]
+fn limits_are_printed_one_per_line() {
+    let output = Folder::new().cfs(&["limits"]);
+    let lines: Vec<&str> = text(&output.stdout).lines().collect();
+    assert_eq!(lines.len(), cfs::compute::limits::TABLE.len());
+    assert!(output.status.success() && lines.contains(&"sensors of a scene: at most 1000000"), "{lines:?}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod coefficients;
 #[path = "../common/mod.rs"]
 mod common;
 mod control;
+mod exactness;
 mod glare;
 mod luminaire_daylight;
 mod luminaire_tiles;

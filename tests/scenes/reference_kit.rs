@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Where the cases are in the public data.
-const CASES: &str = "reference/cases";
+pub const CASES: &str = "reference/cases";
 
 /// How a value is judged: |v − E| ≤ relative·E + the reference's own uncertainty + absolute.
 #[derive(Clone, Copy)]
@@ -35,7 +35,7 @@ struct Outcome {
     sum_error: f64,
 }
 
-fn scenes(cases: &Path, folder: &str) -> Vec<PathBuf> {
+pub fn scenes(cases: &Path, folder: &str) -> Vec<PathBuf> {
     let mut list: Vec<PathBuf> = std::fs::read_dir(cases.join(folder))
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -46,7 +46,7 @@ fn scenes(cases: &Path, folder: &str) -> Vec<PathBuf> {
     list
 }
 
-fn number(row: &HashMap<String, String>, column: &str) -> f64 {
+pub fn number(row: &HashMap<String, String>, column: &str) -> f64 {
     row.get(column).filter(|text| !text.is_empty()).map_or(0.0, |text| text.parse().unwrap())
 }
 
