@@ -1,4 +1,4 @@
-"""Draws the pictures of README and guide: a designer's first session, with real key and pointer events.
+"""Draws the pictures of the README: a designer's first session, with real key and pointer events.
 
 pictures.py PROGRAM FOLDER; `.ci/screenshots` starts it on a display of its own.
 """
@@ -22,8 +22,8 @@ class Session:
         self.desk = Desk(os.path.abspath(program), fresh(os.path.join(os.environ["CFS_USER_HOME"], "pictures")))
         self.folder = folder
 
-    def start(self, *files):
-        self.desk.start(*(os.path.join(ROOT, "examples", file) for file in files))
+    def start(self):
+        self.desk.start()
         desk.run("xdotool", "windowmove", self.desk.window, "0", "0")
         desk.run("xdotool", "windowsize", "--sync", self.desk.window, *map(str, SIZE))
         desk.run("xdotool", "windowfocus", "--sync", self.desk.window)
@@ -93,7 +93,7 @@ def first_window(session):
     session.command("Theme: dark")
     session.settle()
     session.picture("window.png")
-    session.callouts("window.png", [(215, 60), (511, 360), (1250, 60)])
+    session.callouts("window.png", [(130, 238), (511, 360), (1250, 60)])
 
 
 def product_and_sun(session):
@@ -112,6 +112,7 @@ def room(session):
     """room.png: the room in perspective"""
     session.command("Maximise Room")
     session.command("Room: perspective")
+    session.desk.press("^log$")
     session.settle()
     session.picture("room.png")
     session.command("Room: plan")
@@ -130,7 +131,7 @@ def year(session):
 
 def rank(session):
     """rank.png, tour-4-rank.png: the products that the search finds, ranked"""
-    session.search("single")
+    session.search("screen")
     session.command("Maximise Choose")
     session.desk.press("^only what the search finds")
     session.desk.press("^Rank ")
@@ -143,18 +144,21 @@ def rank(session):
 def export(session):
     """tour-5-export.png: a luminaire file before it is written"""
     session.command("Export LID")
-    session.desk.need("^Write to$", "entry")
+    session.desk.click(session.desk.need("^Write to$", "entry"))
+    session.desk.key("ctrl+a")
+    session.desk.type("redirecting-blind.ldt")
     session.settle()
-    session.picture("tour-5-export.png", (256, 60, 768, 495))
+    session.picture("tour-5-export.png", (768, 30, 512, 330))
     session.desk.key("Escape")
 
 
 def compare(session):
     """compare.png: two systems in the same room"""
+    session.search("")
     session.command("Venetian blind 80/72, matt")
     session.settle()
     session.command("Add to compare")
-    session.command("blind 80/72, mirror")
+    session.command("redirecting blind 80/72")
     session.settle()
     session.command("Add to compare")
     session.command("Compare the tray")

@@ -1,7 +1,7 @@
 //! `cfs info`: contents of data files of every kind that the program reads, and the findings about them.
 
-use crate::cli::output::{Content, print, print_text};
-use crate::cli::{dataset_file, luminaire_info, system_info, tell_error, weather_info};
+use crate::cli::output::{Content, print, print_text, tell_error};
+use crate::cli::{dataset_file, luminaire_info, system_info, weather_info};
 use crate::compute::btdf::{
     BandName, Btdf, Component, Dataset, Scattered, Severity, SolarSource, Thermal, ThermalKey, TreeRank,
     reciprocity_error,

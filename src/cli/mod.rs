@@ -50,6 +50,7 @@ mod year_json;
 
 pub use args::{Arguments, Command};
 pub use fault::{Stopped, guarded};
+pub use output::tell_error;
 pub use writing::Over;
 
 use crate::catalogue::default_path;
@@ -102,10 +103,4 @@ pub fn status(error: &anyhow::Error) -> u8 {
     } else {
         2
     }
-}
-
-/// Says on standard error why the program did not do what it was asked: one line whatever the causes say, so that scripts
-/// can show it.
-pub fn tell_error(error: &anyhow::Error) {
-    tell!("cfs: {}", output::sentence(error));
 }

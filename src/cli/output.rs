@@ -41,6 +41,11 @@ pub(super) fn to_stderr(text: std::fmt::Arguments<'_>) {
     drop(writeln!(std::io::stderr().lock(), "{}", message(&text.to_string())));
 }
 
+/// Prints an error on standard error as one line, whatever its causes hold.
+pub fn tell_error(error: &anyhow::Error) {
+    to_stderr(format_args!("cfs: {}", sentence(error)));
+}
+
 /// An error as one sentence: with its causes, none of them twice.
 pub(super) fn sentence(error: &anyhow::Error) -> String {
     let mut said = String::new();
