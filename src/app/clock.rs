@@ -21,11 +21,20 @@ const MONTHS: [Text; 12] = [
     texts::DECEMBER,
 ];
 
+/// Short name of the month of a day.
+fn month(day: Date) -> Text {
+    // Months count from 1.
+    MONTHS[usize::from(day.month().unsigned_abs()) - 1]
+}
+
 /// A day: `21 Mar 2026`.
 pub fn date(day: Date) -> String {
-    // Months count from 1.
-    let month = MONTHS[usize::from(day.month().unsigned_abs()) - 1];
-    texts::day_month_year(day.day(), month, day.year())
+    texts::day_month_year(day.day(), month(day), day.year())
+}
+
+/// A day of any year: `21 Mar`.
+pub fn day_of_year(day: Date) -> String {
+    texts::day_and_month(day.day(), month(day))
 }
 
 /// Hours and minutes now, e.g. `14:03`.

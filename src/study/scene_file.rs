@@ -9,7 +9,7 @@ mod sky;
 mod system;
 pub(super) mod units;
 
-pub use self::dst::DstKey;
+pub use self::dst::{ANY_YEAR, DstKey};
 pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
 pub use self::system::{FamilyState, IdealKind, RANKED, SystemKeys};
 pub use super::control::keys::{ControlKeys, ControlMode};

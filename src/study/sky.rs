@@ -9,12 +9,12 @@ pub use self::illuminance::{Illuminances, Source, TWILIGHT, illuminances};
 pub use self::keys::{CLEANEST, HAZIEST, HIGHEST, LOWEST, SkyKeyError};
 
 use self::illuminance::of_sun;
-use self::keys::{check_model_keys, check_ranges, eccentricity_of, sun_direction, wrong};
+use self::keys::{check_model_keys, check_ranges, day_of_year, sun_direction, wrong};
 use super::files;
 use super::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use super::skyline::{behind_skyline, skyline};
 use crate::compute::direction::{Dir, World};
-use crate::compute::sky::perez::{Air, PerezState};
+use crate::compute::sky::perez::{Air, PerezState, eccentricity};
 use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Scan, Sun, cie};
 use crate::compute::weather::Hour;
 use crate::formats::scan::read_scan;
@@ -50,7 +50,7 @@ pub fn outside_from_keys(
         SkyModelKey::Scan => (measured(sky, base_dir)?, sky.sun.direct_normal.unwrap_or(0.0)),
         SkyModelKey::Perez => {
             let sun = sun.ok_or_else(|| wrong("sky.sun", "model \"perez\" needs altitude and azimuth, or sky.time"))?;
-            perez(sky, sun, eccentricity_of(sky)?)?
+            perez(sky, sun, day_of_year(sky)?.map_or(1.0, eccentricity))?
         }
     };
     if direct_normal > 0.0 && sun.is_none() {

@@ -54,7 +54,8 @@ const fn is_one(steps: &u32) -> bool {
     *steps == 1
 }
 
-/// `year.hours`: occupied are steps whose middle lies in `from` to before `to` by the clock of `site.dst`.
+/// `year.hours`: occupied are steps whose middle lies in `from` to before `to` by the clock of `site.dst`; with `from` later
+/// than `to` the hours run across midnight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HoursKeys {
@@ -69,6 +70,13 @@ pub struct HoursKeys {
 impl Default for HoursKeys {
     fn default() -> Self {
         Self { from: 8.0, to: 18.0, days: DaysKey::All }
+    }
+}
+
+impl HoursKeys {
+    /// Whether `clock`, an hour of the day from 0 to before 24, is one of them.
+    pub fn hold(&self, clock: f64) -> bool {
+        if self.from < self.to { (self.from..self.to).contains(&clock) } else { clock >= self.from || clock < self.to }
     }
 }
 

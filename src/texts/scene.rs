@@ -111,11 +111,13 @@ texts! {
     const SUMMER_NONE = "None" | "Keine";
     const SUMMER_EU = "European Union" | "Europäische Union";
     const SUMMER_US = "United States" | "USA";
+    const SUMMER_AUSTRALIA = "Australia, south-east" | "Australien, Südosten";
+    const SUMMER_NEW_ZEALAND = "New Zealand" | "Neuseeland";
+    const SUMMER_CHILE = "Chile" | "Chile";
     const SUMMER_DAYS = "Between two days" | "Zwischen zwei Tagen";
     const SUMMER_TIP = "When the clock is an hour ahead of standard time" | "Wann die Uhr der Normalzeit eine Stunde voraus ist";
     const SUMMER_FIRST = "First day" | "Erster Tag";
     const SUMMER_LAST = "Last day" | "Letzter Tag";
-    fn summer_order(first) = "The last day is before the first, {first}" | "Der letzte Tag liegt vor dem ersten, {first}";
     fn elevation_at(metres) = "{metres} m above the sea" | "{metres} m über dem Meer";
     const ELEVATION_UNKNOWN = "elevation unknown" | "Höhe unbekannt";
     const ELEVATION_UNKNOWN_ZERO = "elevation unknown: 0 m" | "Höhe unbekannt: 0 m";
@@ -164,6 +166,7 @@ texts! {
     const OCTOBER = "Oct" | "10.";
     const NOVEMBER = "Nov" | "11.";
     const DECEMBER = "Dec" | "12.";
+    fn day_and_month(day, month) = "{day} {month}" | "{day}.{month}";
     fn day_month_year(day, month, year) = "{day} {month} {year}" | "{day}.{month}{year}";
 
     fn no_date(text) = "“{text}” is no date: write 21.3., 21 Mar or 2026-03-21" | "„{text}“ ist kein Datum: 21.3., 21. März oder 2026-03-21 schreiben";
@@ -172,12 +175,12 @@ texts! {
     fn two_clocks(text, one, other) = "“{text}” may be {one} or {other}: write it with a colon" | "„{text}“ kann {one} oder {other} sein: mit Doppelpunkt schreiben";
     fn not_on_globe(latitude, longitude) = "{latitude} {longitude} is no place: latitude −90 to 90, longitude −180 to 180, in degrees" | "{latitude} {longitude} ist kein Ort: Breite −90 bis 90, Länge −180 bis 180, in Grad";
 
-    const CIE_1 = "1 overcast, steep, brighter to the sun" | "1 bedeckt, steil, heller zur Sonne";
-    const CIE_2 = "2 overcast, steep, azimuthally even" | "2 bedeckt, steil, azimutal gleich";
-    const CIE_3 = "3 overcast, moderate, brighter to the sun" | "3 bedeckt, mäßig, heller zur Sonne";
-    const CIE_4 = "4 overcast, moderate, azimuthally even" | "4 bedeckt, mäßig, azimutal gleich";
+    const CIE_1 = "1 overcast, steep, azimuthally uniform" | "1 bedeckt, steil, azimutal gleichförmig";
+    const CIE_2 = "2 overcast, steep, brighter towards the sun" | "2 bedeckt, steil, heller zur Sonne hin";
+    const CIE_3 = "3 overcast, moderate, azimuthally uniform" | "3 bedeckt, mäßig, azimutal gleichförmig";
+    const CIE_4 = "4 overcast, moderate, brighter towards the sun" | "4 bedeckt, mäßig, heller zur Sonne hin";
     const CIE_5 = "5 uniform" | "5 gleichförmig";
-    const CIE_6 = "6 partly cloudy, no gradation, brighter to the sun" | "6 teils bewölkt, ohne Abstufung, heller zur Sonne";
+    const CIE_6 = "6 partly cloudy, no gradation, brighter towards the sun" | "6 teils bewölkt, ohne Abstufung, heller zur Sonne hin";
     const CIE_7 = "7 partly cloudy, no gradation, brighter round the sun" | "7 teils bewölkt, ohne Abstufung, heller um die Sonne";
     const CIE_8 = "8 partly cloudy, no gradation, clear corona" | "8 teils bewölkt, ohne Abstufung, klarer Hof";
     const CIE_9 = "9 partly cloudy, sun obscured" | "9 teils bewölkt, Sonne verdeckt";

@@ -98,6 +98,25 @@ fn a_day_of_an_opening_is_that_of_the_room_hour_by_hour() {
 }
 
 #[test]
+fn a_night_shift_has_the_hours_on_both_sides_of_midnight() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let year = "[year]\nweather = \"builtin:renton\"\nhours = { from = 22.0, to = 6.0 }\n\
+                [year.lighting]\npower = 10.0\ntarget = 500.0\ncontrol = \"on-off\"\nstandby = 0.5\n";
+    scene(folder, "{ ideal = \"transparent\", transmittance = 0.8 }", year);
+    let rows = table(&done(folder, &["year", "scene.toml", "--day", "12-21"]));
+    let on: Vec<u32> = rows
+        .iter()
+        .filter(|row| number(row, "lighting_W_m2") == 10.0)
+        .map(|row| row["time"][11..13].parse().unwrap())
+        .collect();
+    assert_eq!(on, [0, 1, 2, 3, 4, 5, 22, 23]);
+    let json = done(folder, &["year", "scene.toml", "--day", "12-21", "--out", "day.csv", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(json["metrics"]["occupied_hours"].as_f64(), Some(8.0));
+}
+
+#[test]
 fn steps_within_an_hour_move_the_sun_and_share_its_light() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
@@ -156,7 +175,7 @@ fn wrong_years_are_refused_in_one_line() {
     refused("[year]\nweather = \"none.epw\"\n", &year, "year.weather");
     refused(&keys("ground = [0.2, 0.3]\n"), &year, "year.ground: 2 reflectances");
     refused(&keys("steps_per_hour = 3\n"), &year, "year.steps_per_hour: 3 (allowed: 1, 2, 4 or 12)");
-    refused(&keys("hours = { from = 18.0, to = 8.0 }\n"), &year, "year.hours");
+    refused(&keys("hours = { from = 8.0, to = 8.0 }\n"), &year, "year.hours");
     refused(&keys("eyes = [{ point = [9.0, 1.0, 1.2], direction = [0, -1, 0] }]\n"), &year, "year.eyes[1].point");
     let zones = "[year.lighting]\npower = 8\ntarget = 500\nzones = [{ sensors = [4], share = 1.0 }]\n";
     refused(&keys(zones), &year, "year.lighting.zones[1].sensors: there is no sensor 4 (allowed: 0 to 3)");

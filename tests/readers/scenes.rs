@@ -127,7 +127,9 @@ fn scene_text(choices: &mut Choices) -> String {
             choices.pick(&["reflectance = 0.3", "luminance = 800.0", ""])
         );
     }
-    let dst = choices.pick(&["\"none\"", "\"eu\"", "\"us\"", "[\"2026-03-29\", \"2026-10-25\"]"]);
+    let rules =
+        ["\"none\"", "\"eu\"", "\"us\"", "\"chile\"", "[\"2026-03-29\", \"2026-10-25\"]", "[\"10-01\", \"04-01\"]"];
+    let dst = choices.pick(&rules);
     let _ = writeln!(
         text,
         "\n[site]\nazimuth = {}\nlatitude = {}\nlongitude = 9.2\nutc_offset = 1.0\ndst = {dst}\nground_reflectance = 0.2\n",

@@ -1,8 +1,10 @@
 //! Typical illuminances of skies from the sun's altitude alone: what to expect when nobody measured.
 //!
 //! References: IES Recommended Practice for the Calculation of Daylight Availability (RP-21, 1984): direct normal
-//! E_xt·exp(−c·m) with optical air mass m = 1/sin γ and E_xt = 127.5 klx (its ±3 % over the year left out);
-//! diffuse horizontal A + B·sin^C γ.
+//! E_xt·exp(−c·m) with optical air mass m = 1/sin γ and E_xt = 127.5 klx · (1 + 0.034 cos(2π(J − 2)/365)) on day J of the
+//! year; diffuse horizontal A + B·sin^C γ.
+
+use std::f64::consts::PI;
 
 /// The three skies of the practice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,14 +40,16 @@ impl Cover {
 /// Solar illuminance constant. \[lx\]
 const EXTRATERRESTRIAL: f64 = 127_500.0;
 
-/// Illuminance on a plane facing the sun and diffuse illuminance on a horizontal plane \[lx\], for the sun at an
-/// altitude. \[rad\] Both are zero with the sun below the horizon.
-pub fn typical_illuminances(cover: Cover, altitude: f64) -> (f64, f64) {
+/// Returns the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane \[lx\] for the sun at
+/// `altitude` \[rad\] on a `day` of the year, 1 to 365; without a day for the mean distance of the sun. Both are zero with
+/// the sun below the horizon.
+pub fn typical_illuminances(cover: Cover, altitude: f64, day: Option<u16>) -> (f64, f64) {
     if altitude <= 0.0 {
         return (0.0, 0.0);
     }
     let sine = altitude.sin();
-    let beam = |extinction: f64| EXTRATERRESTRIAL * (-extinction / sine).exp();
+    let distance = day.map_or(1.0, |day| 1.0 + 0.034 * (2.0 * PI * (f64::from(day) - 2.0) / 365.0).cos());
+    let beam = |extinction: f64| EXTRATERRESTRIAL * distance * (-extinction / sine).exp();
     match cover {
         Cover::Clear => (beam(0.21), 800.0 + 15_500.0 * sine.sqrt()),
         Cover::Partly => (beam(0.80), 300.0 + 45_000.0 * sine),
@@ -59,12 +63,20 @@ mod tests {
 
     #[test]
     fn at_the_zenith_the_printed_constants_add_up() {
-        let zenith = 0.5 * std::f64::consts::PI;
-        assert_eq!(typical_illuminances(Cover::Overcast, zenith), (0.0, 21_300.0));
-        let (direct, diffuse) = typical_illuminances(Cover::Clear, zenith);
+        let zenith = 0.5 * PI;
+        assert_eq!(typical_illuminances(Cover::Overcast, zenith, Some(2)), (0.0, 21_300.0));
+        let (direct, diffuse) = typical_illuminances(Cover::Clear, zenith, None);
         assert!((diffuse - 16_300.0).abs() < 1e-9);
         assert!((direct - 103_349.0).abs() < 20.0, "{direct}");
-        assert_eq!(typical_illuminances(Cover::Clear, -0.01), (0.0, 0.0));
+        assert_eq!(typical_illuminances(Cover::Clear, -0.01, None), (0.0, 0.0));
+    }
+
+    #[test]
+    fn the_sun_of_june_is_that_of_the_handbook() {
+        // IES Lighting Handbook, 40° N, 21 June at noon, clear: 8821 fc of direct light on a horizontal plane.
+        let altitude = (90.0 - 40.0 + 23.44_f64).to_radians();
+        let (direct, _) = typical_illuminances(Cover::Clear, altitude, Some(172));
+        assert!((direct * altitude.sin() / 10.7639 / 8821.0 - 1.0).abs() < 2e-3, "{direct}");
     }
 
     #[test]
@@ -72,7 +84,7 @@ mod tests {
         for cover in [Cover::Clear, Cover::Partly, Cover::Overcast] {
             let mut before = (0.0, 0.0);
             for degrees in 1..=90 {
-                let now = typical_illuminances(cover, f64::from(degrees).to_radians());
+                let now = typical_illuminances(cover, f64::from(degrees).to_radians(), None);
                 assert!(now.0 >= before.0 && now.1 > before.1);
                 before = now;
             }

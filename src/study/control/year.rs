@@ -69,10 +69,13 @@ impl ClearSky {
 }
 
 impl Weather for ClearSky {
-    fn illuminances(&self, _: DateTime, altitude: f64) -> Option<(f64, f64)> {
+    fn illuminances(&self, time: DateTime, altitude: f64) -> Option<(f64, f64)> {
         let (direct, diffuse) = match *self {
             Self::Air { turbidity, elevation } => clear_sky_illuminances(altitude, turbidity, elevation),
-            Self::Practice => typical_illuminances(Cover::Clear, altitude),
+            Self::Practice => {
+                let day = time.day_of_year().unsigned_abs().min(365);
+                typical_illuminances(Cover::Clear, altitude, Some(day))
+            }
         };
         Some(if altitude > -SUN_HALF_ANGLE { (direct.max(LEAST_BEAM), diffuse) } else { (0.0, 0.0) })
     }

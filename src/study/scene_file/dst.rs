@@ -15,9 +15,20 @@ pub enum DstKey {
     Eu,
     /// From the second Sunday of March to the first Sunday of November, changed at 02:00 by the clock.
     Us,
-    /// From the first to the last day named, both as a whole.
+    /// From the first Sunday of October to the first Sunday of April, changed at 02:00 standard time: the states in the
+    /// south-east of Australia.
+    Australia,
+    /// From the last Sunday of September to the first Sunday of April, changed at 02:00 standard time.
+    NewZealand,
+    /// From the Sunday on or after 2 September to the Sunday on or after 2 April, changed at midnight by the clock.
+    Chile,
+    /// From the first to the last day named, both as a whole: month and day of any year, in [`ANY_YEAR`]. The last may be
+    /// earlier in the year than the first.
     Days(Date, Date),
 }
+
+/// Year that stands for all years in [`DstKey::Days`]: it has a 29th of February.
+pub const ANY_YEAR: i16 = 2000;
 
 /// A word, or two days.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -27,7 +38,18 @@ enum DstAsTyped {
     Days(Vec<String>),
 }
 
-const RIGHT: &str = "\"none\", \"eu\", \"us\", or the first and the last day, e.g. [\"2026-03-29\", \"2026-10-25\"]";
+const RIGHT: &str = "\"none\", \"eu\", \"us\", \"australia\", \"new-zealand\", \"chile\", or the first and the last day, e.g. \
+                     [\"03-29\", \"10-25\"]";
+
+/// Rules with a name, and their names.
+const RULES: [(DstKey, &str); 6] = [
+    (DstKey::None, "none"),
+    (DstKey::Eu, "eu"),
+    (DstKey::Us, "us"),
+    (DstKey::Australia, "australia"),
+    (DstKey::NewZealand, "new-zealand"),
+    (DstKey::Chile, "chile"),
+];
 
 impl TryFrom<DstAsTyped> for DstKey {
     type Error = String;
@@ -35,38 +57,34 @@ impl TryFrom<DstAsTyped> for DstKey {
     fn try_from(typed: DstAsTyped) -> Result<Self, String> {
         let days = match typed {
             DstAsTyped::Word(word) => {
-                return match word.as_str() {
-                    "none" => Ok(Self::None),
-                    "eu" => Ok(Self::Eu),
-                    "us" => Ok(Self::Us),
-                    _ => Err(format!("site.dst: \"{word}\" is no rule of summer time (allowed: {RIGHT})")),
-                };
+                let rule = RULES.iter().find(|(_, name)| *name == word);
+                return rule
+                    .map(|(key, _)| *key)
+                    .ok_or_else(|| format!("site.dst: \"{word}\" is not a rule of summer time (allowed: {RIGHT})"));
             }
             DstAsTyped::Days(days) => days,
         };
         let [first, last] = days.as_slice() else {
             return Err(format!("site.dst: {} days (allowed: {RIGHT})", days.len()));
         };
+        // With a year, the day has to be one of that year; the year counts for nothing else.
         let day = |text: &String| {
-            text.parse::<Date>()
-                .map_err(|_| format!("site.dst: \"{text}\" is no day of the calendar; write YYYY-MM-DD"))
+            let whole = if text.len() == 5 { format!("{ANY_YEAR}-{text}") } else { text.clone() };
+            whole
+                .parse::<Date>()
+                .map_err(|_| format!("site.dst: \"{text}\" is not a day of the calendar; write MM-DD or YYYY-MM-DD"))
         };
-        let (first, last) = (day(first)?, day(last)?);
-        if last < first {
-            return Err(format!("site.dst: the last day, {last}, is before the first, {first}"));
-        }
-        Ok(Self::Days(first, last))
+        Ok(Self::days(day(first)?, day(last)?))
     }
 }
 
 impl From<DstKey> for DstAsTyped {
     fn from(key: DstKey) -> Self {
-        match key {
-            DstKey::None => Self::Word("none".to_owned()),
-            DstKey::Eu => Self::Word("eu".to_owned()),
-            DstKey::Us => Self::Word("us".to_owned()),
-            DstKey::Days(first, last) => Self::Days(vec![first.to_string(), last.to_string()]),
+        if let DstKey::Days(first, last) = key {
+            return Self::Days([first, last].map(|day| day.strftime("%m-%d").to_string()).to_vec());
         }
+        let name = RULES.iter().find(|(rule, _)| *rule == key).map_or("none", |(_, name)| name);
+        Self::Word(name.to_owned())
     }
 }
 
@@ -79,6 +97,12 @@ fn sunday_from(year: i16, month: i8, day: i8) -> Date {
 }
 
 impl DstKey {
+    /// Creates a period from its first and its last day, whatever their years.
+    pub fn days(first: Date, last: Date) -> Self {
+        let of_any_year = |day: Date| date(ANY_YEAR, day.month(), day.day());
+        Self::Days(of_any_year(first), of_any_year(last))
+    }
+
     /// Nothing that the file needs to say.
     pub(super) fn is_none(&self) -> bool {
         *self == Self::None
@@ -95,10 +119,17 @@ impl DstKey {
                 (at(sunday_from(year, 3, 25), hour), at(sunday_from(year, 10, 25), hour))
             }
             Self::Us => (at(sunday_from(year, 3, 8), 2.0), at(sunday_from(year, 11, 1), 1.0)),
+            Self::Australia => (at(sunday_from(year, 10, 1), 2.0), at(sunday_from(year, 4, 1), 2.0)),
+            Self::NewZealand => (at(sunday_from(year, 9, 24), 2.0), at(sunday_from(year, 4, 1), 2.0)),
+            Self::Chile => (at(sunday_from(year, 9, 2), 0.0), at(sunday_from(year, 4, 2), -1.0)),
             // Whole days by the clock: the hour between the two midnights belongs to them.
-            Self::Days(first, last) => (at(first, -1.0), at(last, 23.0)),
+            Self::Days(first, last) => {
+                let shown = standard.saturating_add(minutes(1.0)).date();
+                let [first, last, shown] = [first, last, shown].map(|day| (day.month(), day.day()));
+                return if first <= last { (first..=last).contains(&shown) } else { first <= shown || shown <= last };
+            }
         };
-        from <= standard && standard < to
+        if from < to { from <= standard && standard < to } else { from <= standard || standard < to }
     }
 
     /// Local standard time of what the clock shows. Of the hour that a clock shows twice in autumn, the first.
@@ -176,10 +207,47 @@ mod tests {
     }
 
     #[test]
+    fn south_of_the_equator_summer_time_runs_across_new_year() {
+        // Last and first hours of 2026: Sydney 5 April and 4 October, Auckland 5 April and 27 September, Santiago 4 April and
+        // 6 September at midnight.
+        let southern = [
+            ("\"australia\"", ["2026-04-05T01:59", "2026-04-05T03:00", "2026-10-04T01:59", "2026-10-04T03:00"]),
+            ("\"new-zealand\"", ["2026-04-05T01:59", "2026-04-05T03:00", "2026-09-27T01:59", "2026-09-27T03:00"]),
+            ("\"chile\"", ["2026-04-04T22:59", "2026-04-05T00:00", "2026-09-05T23:59", "2026-09-06T01:00"]),
+            (
+                "[\"10-01\", \"04-01\"]",
+                ["2026-04-01T23:59", "2026-04-02T00:00", "2026-09-30T23:59", "2026-10-01T00:00"],
+            ),
+        ];
+        for (text, clocks) in southern {
+            let key = key(text).unwrap();
+            let ahead = clocks.map(|clock| {
+                let clock: DateTime = clock.parse().unwrap();
+                key.standard(clock, 10.0) != clock
+            });
+            assert_eq!(ahead, [true, false, false, true], "{text}");
+            let summer: DateTime = "2026-01-01T00:30".parse().unwrap();
+            assert_eq!(key.clock(summer, 10.0), summer.saturating_add(minutes(1.0)), "{text}");
+        }
+    }
+
+    #[test]
+    fn named_days_are_those_of_any_year() {
+        let typed = key("[\"2026-04-01\", \"2026-09-30\"]").unwrap();
+        assert_eq!(typed, key("[\"04-01\", \"09-30\"]").unwrap());
+        assert_eq!(standard(typed, "1961-06-21T12:00", -5.0), "06-21 11:00");
+        assert_eq!(toml::Value::try_from(typed).unwrap().to_string(), "[\"04-01\", \"09-30\"]");
+        for (rule, name) in RULES {
+            assert_eq!(
+                (key(&format!("\"{name}\"")), toml::Value::try_from(rule).unwrap().as_str()),
+                (Ok(rule), Some(name))
+            );
+        }
+    }
+
+    #[test]
     fn what_is_no_rule_says_what_would_be_one() {
-        for text in
-            ["\"summer\"", "[\"2026-03-29\"]", "[\"2026-02-30\", \"2026-10-25\"]", "[\"2026-10-25\", \"2026-03-29\"]"]
-        {
+        for text in ["\"summer\"", "[\"2026-03-29\"]", "[\"2026-02-30\", \"2026-10-25\"]", "[\"3-29\", \"10-25\"]"] {
             assert!(key(text).unwrap_err().contains("site.dst"), "{text}");
         }
     }

@@ -1,6 +1,6 @@
 //! The illuminances that a sky and its sun are scaled to: as written, or by the sun's altitude.
 
-use super::keys::{SkyKeyError, check_ranges, sun_direction, wrong};
+use super::keys::{SkyKeyError, check_ranges, day_of_year, sun_direction, wrong};
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
@@ -104,7 +104,7 @@ pub(super) fn of_sun(sky: &SkyKeys, site: &SiteKeys, sun: Option<Dir<World>>) ->
             let (turbidity, elevation) = (sky.turbidity, site.elevation);
             (Source::ClearSky { turbidity, elevation }, clear_sky_illuminances(height, turbidity, elevation))
         } else {
-            (Source::Cover(cover), typical_illuminances(cover, height))
+            (Source::Cover(cover), typical_illuminances(cover, height, day_of_year(sky)?))
         };
     Ok(Illuminances { diffuse_horizontal, direct_normal, source, altitude })
 }

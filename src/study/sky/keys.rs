@@ -3,7 +3,6 @@
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::limits;
-use crate::compute::sky::perez::eccentricity;
 use crate::compute::weather::Day;
 use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
@@ -77,12 +76,12 @@ pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     only("sky.diffuse_horizontal_irradiance", diffuse.is_some(), SkyModelKey::Perez, "perez")
 }
 
-/// How much the sun sends against its mean, by the date; 1 without one.
-pub(super) fn eccentricity_of(sky: &SkyKeys) -> Result<f64, SkyKeyError> {
-    let Some(time) = &sky.time else { return Ok(1.0) };
+/// Day of the year by the date of `sky.time`, 1 to 365; `None` without a date.
+pub(super) fn day_of_year(sky: &SkyKeys) -> Result<Option<u16>, SkyKeyError> {
+    let Some(time) = &sky.time else { return Ok(None) };
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
     let day = Day::new(time.year(), time.month().unsigned_abs(), time.day().unsigned_abs());
-    Ok(day.map_or(1.0, |day| eccentricity(day.of_common_year())))
+    Ok(day.map(Day::of_common_year))
 }
 
 /// From angles, else from time; `None` with neither.

@@ -133,7 +133,7 @@ fn step(hour: Hour, record: &Record, seconds: f64, file: &SceneFile, weather: &W
     let clock = f64::from(clock.hour()) + f64::from(clock.minute()) / 60.0 + f64::from(clock.second()) / 3600.0;
     let hours = &keys.hours;
     let day_counts = hours.days == DaysKey::All || !day.is_weekend();
-    let occupied = day_counts && (hours.from..hours.to).contains(&clock);
+    let occupied = day_counts && hours.hold(clock);
     Step { hour, time, month: day.month, clock, occupied }
 }
 

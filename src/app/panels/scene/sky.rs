@@ -222,3 +222,35 @@ fn kilolux(ui: &mut Ui, label: Text, value: &mut Option<f64>, most: f64) {
         *value = Some(klx * 1000.0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::angle::Bearing;
+    use crate::compute::direction::Dir;
+    use crate::compute::sky::{Distribution, Outside, cie};
+    use crate::texts::{Language, speak};
+
+    #[test]
+    fn names_of_cie_types_say_how_luminance_varies() {
+        let toward = |altitude: f64| Dir::from_altitude_bearing(altitude.to_radians(), Bearing::from_degrees(180.0));
+        for (language, words) in [
+            (Language::English, ["uniform", "steep", "moderate", "no gradation"]),
+            (Language::German, ["gleichförmig", "steil", "mäßig", "ohne Abstufung"]),
+        ] {
+            let _spoken = speak(language);
+            for (name, sky_type) in CIE.iter().zip(1_u8..=15) {
+                let sky = Outside::new(Distribution::cie(sky_type, toward(45.0)).unwrap(), 10_000.0).unwrap();
+                // Both 45° from the sun: what is left is the gradation between zenith and horizon.
+                let gradation = sky.luminance(toward(90.0)) / sky.luminance(toward(1e-6));
+                let is = [
+                    !cie::needs_sun(sky_type),
+                    gradation > 2.0,
+                    (1.2..2.0).contains(&gradation),
+                    (gradation - 1.0).abs() < 1e-3 && cie::needs_sun(sky_type),
+                ];
+                assert_eq!(words.map(|word| name.get().contains(word)), is, "{}: {gradation}", name.get());
+            }
+        }
+    }
+}

@@ -111,9 +111,12 @@ fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &
 /// What a year is asked with; eyes and zones beyond the usual stand in the scene's file.
 fn year(ui: &mut Ui, scene: &SceneFile, keys: &mut YearKeys) {
     ui.separator();
-    let (from, to) = (keys.hours.from, keys.hours.to);
-    number(ui, texts::OCCUPIED_FROM, " h", &mut keys.hours.from, 0.0..=(to - 0.5).max(0.0), 1);
-    number(ui, texts::OCCUPIED_TO, " h", &mut keys.hours.to, (from + 0.5).min(24.0)..=24.0, 1);
+    let before = keys.hours;
+    number(ui, texts::OCCUPIED_FROM, " h", &mut keys.hours.from, 0.0..=24.0, 1);
+    number(ui, texts::OCCUPIED_TO, " h", &mut keys.hours.to, 0.0..=24.0, 1);
+    if keys.hours.from == keys.hours.to {
+        keys.hours = before;
+    }
     let mut weekdays = keys.hours.days == DaysKey::Weekdays;
     if ui.checkbox(&mut weekdays, texts::WEEKDAYS.get()).changed() {
         keys.hours.days = if weekdays { DaysKey::Weekdays } else { DaysKey::All };
