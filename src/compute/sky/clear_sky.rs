@@ -89,7 +89,8 @@ mod tests {
         // RP-21's 800 lx of a clear sky at sunrise and its steep root are what made rooms too bright.
         for (degrees, least, most) in [(2.0_f64, 4.0, 7.0), (5.0, 1.3, 2.5), (45.0, 0.6, 1.6)] {
             let altitude = degrees.to_radians();
-            let ratio = typical_illuminances(Cover::Clear, altitude, None).1 / clear_sky_illuminances(altitude, 3.0, 0.0).1;
+            let ratio =
+                typical_illuminances(Cover::Clear, altitude, None).1 / clear_sky_illuminances(altitude, 3.0, 0.0).1;
             assert!((least..most).contains(&ratio), "{degrees}°: {ratio}");
         }
     }
