@@ -337,7 +337,7 @@ impl Engine for StudyEngine {
             lid: result.lid,
             flux: result.flux,
             incident: Some(result.incident.0.value + result.incident.1),
-            description: describe(&name, &question.scene, 0, ""),
+            description: describe(&name, &question.scene, &question.base, 0, ""),
             seconds: start.elapsed().as_secs_f64(),
         })
     }
@@ -394,7 +394,7 @@ impl Engine for StudyEngine {
     ) -> Result<LuminaireSet, AppError> {
         let scene = self.scene(question, progress)?;
         let first = scene.apertures.first().ok_or(AppError::NoAperture)?;
-        let text = describe(&first.system.label, &question.scene, 0, "");
+        let text = describe(&first.system.label, &question.scene, &question.base, 0, "");
         Ok(make(&self.session, &scene, 0, &text, wish, |tile| tile_name(path, tile), progress)?)
     }
 }

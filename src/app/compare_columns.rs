@@ -126,7 +126,7 @@ impl Column {
 
     /// The incidence that its tiles draw for.
     pub fn incident(&self) -> Incident {
-        Incidence::shown(self.state.incident, self.scene()).direction
+        Incidence::shown(self.state.incident, self.scene(), &self.state.base()).direction
     }
 
     /// Why something of it is missing.

@@ -243,7 +243,13 @@ pub struct Moment {
 }
 
 /// The files of a series beside an index at `path`. Moments with the sun below the horizon are left out.
-pub fn moments(choices: &Choices, scene: &SceneFile, product: Option<&Product>, path: &Path) -> Vec<Moment> {
+pub fn moments(
+    choices: &Choices,
+    scene: &SceneFile,
+    base: &Path,
+    product: Option<&Product>,
+    path: &Path,
+) -> Vec<Moment> {
     let Some(now) = moment::of(scene) else { return Vec::new() };
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let stem = name.strip_suffix("_index").unwrap_or(&name).to_owned();
@@ -261,7 +267,7 @@ pub fn moments(choices: &Choices, scene: &SceneFile, product: Option<&Product>, 
             let time = date.to_datetime(time);
             let mut at = scene.clone();
             moment::set(&mut at, time);
-            if moment::sun(&at).is_none_or(|(altitude, _)| altitude <= 0.0) {
+            if moment::sun(&at, base).is_none_or(|(altitude, _)| altitude <= 0.0) {
                 continue;
             }
             for state in &states {
@@ -299,14 +305,14 @@ mod tests {
     #[test]
     fn a_series_has_a_file_for_each_hour_with_sun() {
         let choices = Choices::default();
-        let list = moments(&choices, &first_scene(), None, Path::new("/x/blind_index.csv"));
+        let list = moments(&choices, &first_scene(), Path::new(""), None, Path::new("/x/blind_index.csv"));
         let names: Vec<&str> = list.iter().map(|moment| &*moment.name).collect();
         // In December the sun is down at 17 h.
         assert_eq!(list.len(), 5 + 5 + 4);
         assert_eq!((names[0], names[13]), ("blind_03-21T0900.ldt", "blind_12-21T1500.ldt"));
         let mut dark = first_scene();
         dark.sky.time = None;
-        assert!(moments(&choices, &dark, None, Path::new("a.csv")).is_empty());
+        assert!(moments(&choices, &dark, Path::new(""), None, Path::new("a.csv")).is_empty());
     }
 
     #[test]

@@ -180,7 +180,7 @@ impl Order {
     }
 
     fn moments(&self, path: &Path) -> Result<Vec<Moment>, AppError> {
-        let list = moments(&self.choices, &self.question.scene, self.product.as_deref(), path);
+        let list = moments(&self.choices, &self.question.scene, &self.question.base, self.product.as_deref(), path);
         match list.len() {
             0 => Err(AppError::NoMoments),
             count if count > MOST_FILES => Err(AppError::ManyFiles(count, MOST_FILES)),

@@ -46,7 +46,7 @@ pub fn targets(state: &State, path: &Path) -> Vec<PathBuf> {
         list = vec![index_of(path), path.with_file_name(tile_name(path, Some(0)))];
     }
     if choices.what == What::Series {
-        let moments = moments(choices, &state.document.scene, state.product.as_deref(), path);
+        let moments = moments(choices, &state.document.scene, &state.base(), state.product.as_deref(), path);
         list.extend(moments.into_iter().map(|moment| path.with_file_name(moment.name)));
     }
     list

@@ -8,18 +8,19 @@ mod tests {
     use crate::app::moment;
     use crate::app::scene::first_scene;
     use crate::compute::direction::{Dir, Incident};
+    use std::path::Path;
 
     #[test]
     fn a_choice_goes_before_the_sun_and_without_both_light_is_perpendicular() {
         let mut scene = first_scene();
         let chosen = Incident(Dir::from_theta_phi(0.5, 1.0));
-        assert_eq!(Incidence::shown(Some(chosen), &scene).source, Source::Chosen);
-        let sun = Incidence::shown(None, &scene);
+        assert_eq!(Incidence::shown(Some(chosen), &scene, Path::new("")).source, Source::Chosen);
+        let sun = Incidence::shown(None, &scene, Path::new(""));
         assert_eq!(sun.source, Source::Sun);
         // Noon of the equinox before a south façade: the profile angle is about the altitude, 41°.
         assert!(sun.texts()[0].contains("profile angle 4"), "{:?}", sun.texts());
         moment::step(&mut scene, 0, 11 * 60);
-        let night = Incidence::shown(None, &scene);
+        let night = Incidence::shown(None, &scene, Path::new(""));
         assert_eq!(night.source, Source::Normal);
         assert!(night.texts()[0].contains("θ 0°") && night.texts()[0].contains("sun not before the façade"));
         let turned = Dir::from_theta_phi(0.5, std::f64::consts::TAU - 0.002);

@@ -40,7 +40,7 @@ impl App {
         }
         let Some(btdf) = dataset.transmission() else { return };
         let compute = state.document.scene.compute;
-        let incident = Incidence::shown(state.incident, &state.document.scene).direction;
+        let incident = Incidence::shown(state.incident, &state.document.scene, &state.base()).direction;
         let key = FormKey::of(btdf, state.dataset.revision, incident, (look.form, compute.diffuse_interpolation));
         let engine = self.services.engine.clone();
         if look.form != DataForm::Measured && self.asked_form != Some(key) {

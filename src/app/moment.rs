@@ -6,6 +6,7 @@ pub use crate::study::moment::*;
 mod tests {
     use super::*;
     use crate::app::scene::first_scene;
+    use std::path::Path;
 
     #[test]
     fn steps_cross_midnight_and_months() {
@@ -19,7 +20,7 @@ mod tests {
     #[test]
     fn the_equinox_noon_in_stuttgart_is_where_the_almanac_has_it() {
         // Altitude at noon of the equinox is 90° − latitude, within the declination's change over a day (0.4°).
-        let (altitude, bearing) = sun(&first_scene()).unwrap();
+        let (altitude, bearing) = sun(&first_scene(), Path::new("")).unwrap();
         assert!((altitude.to_degrees() - (90.0 - 48.78)).abs() < 0.8, "{}", altitude.to_degrees());
         assert!((bearing - 180.0).abs() < 12.0, "{bearing}");
         let hours = sun_hours(&first_scene()).unwrap();
@@ -27,13 +28,40 @@ mod tests {
     }
 
     #[test]
+    fn an_hour_of_a_weather_has_the_sun_that_its_light_comes_from() {
+        use crate::study::scene_file::{DstKey, SceneFile, SkyModelKey};
+        let mut scene = first_scene();
+        scene.sky.weather = Some("builtin:new-york".into());
+        scene.sky.model = SkyModelKey::Weather;
+        scene.sky.illuminance = Default::default();
+        (scene.sky.cie_type, scene.sky.diffuse_horizontal, scene.sky.sun) = (None, None, Default::default());
+        let at = |scene: &mut SceneFile, hour: i8| {
+            set(scene, jiff::civil::date(2026, 7, 1).at(hour, 30, 0, 0));
+            let light = crate::study::sky::hour_of_weather(&scene.sky, &scene.site, Path::new("")).unwrap().unwrap();
+            let (altitude, bearing) = sun(scene, Path::new("")).unwrap();
+            assert_eq!((altitude, bearing), (light.hour.sun.altitude(), light.hour.sun.bearing().degrees()));
+            (light.interval, altitude)
+        };
+        scene.site.dst = DstKey::None;
+        let standard = at(&mut scene, 12);
+        assert!(standard.0.ends_with("12:00–13:00"), "{standard:?}");
+        // Stuttgart's sun is another: the place of the weather counts.
+        let here = sun(&first_scene(), Path::new("")).unwrap().0;
+        assert!((standard.1 - here).abs() > 0.1, "{standard:?} {here}");
+        // What the clock on the wall says in summer.
+        scene.site.dst = DstKey::Us;
+        assert_eq!(at(&mut scene, 13), standard);
+        assert_ne!(at(&mut scene, 12), standard);
+    }
+
+    #[test]
     fn dragging_the_sun_finds_its_moment_again() {
         let mut scene = first_scene();
         step(&mut scene, 20, 150);
-        let (altitude, bearing) = sun(&scene).unwrap();
+        let (altitude, bearing) = sun(&scene, Path::new("")).unwrap();
         let mut other = first_scene();
         assert!(towards(&mut other, altitude, bearing.to_radians(), true));
-        let found = sun(&other).unwrap();
+        let found = sun(&other, Path::new("")).unwrap();
         assert!((found.0 - altitude).abs() < 0.02 && (found.1 - bearing).abs() < 1.5, "{found:?} {altitude} {bearing}");
     }
 
@@ -46,13 +74,13 @@ mod tests {
             assert!(towards(&mut scene, altitude.to_radians(), bearing.to_radians(), false));
             let now = of(&scene).unwrap();
             assert_eq!(now.date(), start.date(), "{altitude} {bearing}");
-            let (height, _) = sun(&scene).unwrap();
+            let (height, _) = sun(&scene, Path::new("")).unwrap();
             assert!(height > 0.0, "{altitude} {bearing}: {now}");
         }
         // On the day's path it finds its moment.
         let mut scene = first_scene();
         assert!(set_clock(&mut scene, 15, 20));
-        let (altitude, bearing) = sun(&scene).unwrap();
+        let (altitude, bearing) = sun(&scene, Path::new("")).unwrap();
         let mut other = first_scene();
         assert!(towards(&mut other, altitude, bearing.to_radians(), false));
         assert_eq!(of(&other), of(&scene));

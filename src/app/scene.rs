@@ -23,7 +23,7 @@ pub fn kept_scene(text: &str) -> Option<SceneFile> {
     let mut scene = SceneFile::parse(text).ok()?;
     let table: toml::Table = text.parse().ok()?;
     let says = table.get("sky").and_then(|sky| sky.get("illuminance")).is_some();
-    if !says && moment::sun(&scene).is_some() {
+    if !says && moment::sun_of_site(&scene).is_some() {
         follow(&mut scene, IlluminanceKey::ClearSky);
     }
     Some(scene)

@@ -80,7 +80,7 @@ pub use representative::{FirstRule, Numbers, TYPICAL_SUN, representative};
 pub use rows::{ProductRow, Sought};
 pub use source_file::SourceFile;
 pub use subscribed::{Subscription, Synced};
-pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part};
+pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part, slats_of};
 pub use validate::check;
 pub use waiting::StateKey;
 pub use words::folded;

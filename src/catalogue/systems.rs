@@ -40,12 +40,17 @@ pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
     Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
 }
 
-/// The slats of a description, also of a moving layer of a built-in stack. `None` for slats that stand upright: rules and
-/// curves follow the profile angle, which says nothing about their shadows.
+/// The slats of a description, also of a moving layer of a built-in stack. `None` for slats that stand upright: makers'
+/// curves follow the profile angle of the vertical plane, which says nothing about their shadows.
 pub fn blind_of(system: &str) -> Option<Venetian> {
+    slats_of(system).filter(|(_, upright)| !upright).map(|(blind, _)| blind)
+}
+
+/// The same, also of slats that stand upright, and whether they do.
+pub fn slats_of(system: &str) -> Option<(Venetian, bool)> {
     let moving = moving_part(system)?;
     match moving.kind {
-        SystemKind::Venetian(blind) if !moving.upright => Some(blind),
+        SystemKind::Venetian(blind) => Some((blind, moving.upright)),
         _ => None,
     }
 }

@@ -126,10 +126,11 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
     }
     let series = Series { months: args.months.clone(), hours: args.hours.clone(), states: args.states.clone() };
+    let base = path.parent().unwrap_or(Path::new("."));
     let (members, dark) = if series.is_empty() {
         (vec![Member { name: String::new(), tag: String::new(), scene: keys }], Vec::new())
     } else {
-        series.members(&keys, index).with_context(|| path.display().to_string())?
+        series.members(&keys, base, index).with_context(|| path.display().to_string())?
     };
     for time in &dark {
         tell!("note: {time} is left out: the sun is below the horizon");
@@ -222,7 +223,7 @@ fn all(
             tell!("note: {note}");
         }
         weather_notes(scene.weather.as_ref());
-        let text = describe(&scene_name, &member.scene, index, &date);
+        let text = describe(&scene_name, &member.scene, base, index, &date);
         let name = |tile: Option<usize>| file_name(&args.out, &member.tag, tile);
         let set = make(&session, &scene, index, &text, wish, name, &progress).map_err(|error| match error {
             SetError::Study(error) => anyhow::Error::from(error).context(about()),

@@ -15,7 +15,7 @@ pub fn profile_angle(d: Dir<Facade>) -> Option<f64> {
 }
 
 /// What hides light: directions p count where p · `normal` ≥ `offset`. The normal lies in the plane x = 0, as zenith and
-/// outward normal do in the façade frame.
+/// outward normal do in the façade frame; or along x, as the zenith does for slats that stand upright.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Screen {
     /// Unit vector.

@@ -4,6 +4,7 @@ use super::moment;
 use super::scene_file::{SceneFile, SurfaceKey};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, Facade, Incident, Orientation, Surface, World};
+use std::path::Path;
 
 /// Where an aperture of the scene lies; the façade where there is none.
 pub fn surface_of(scene: &SceneFile, aperture: usize) -> Surface {
@@ -25,8 +26,8 @@ pub fn incident(scene: &SceneFile, altitude: f64, bearing: Bearing) -> Dir<Facad
 }
 
 /// The sun, if it is up and before the façade.
-pub fn sun_incident(scene: &SceneFile) -> Option<Incident> {
-    let (altitude, bearing) = moment::sun(scene)?;
+pub fn sun_incident(scene: &SceneFile, base: &Path) -> Option<Incident> {
+    let (altitude, bearing) = moment::sun(scene, base)?;
     let direction = incident(scene, altitude, Bearing::from_degrees(bearing));
     (altitude > 0.0 && direction.vector().z > 0.0).then_some(Incident(direction))
 }

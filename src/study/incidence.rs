@@ -6,6 +6,7 @@ use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::profile_angle::profile_angle;
 use crate::drawing::ticks::degrees;
 use crate::texts::words as texts;
+use std::path::Path;
 
 /// Why it is this direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,9 +30,9 @@ pub struct Incidence {
 
 impl Incidence {
     /// What tiles show in a scene: the chosen direction, else the sun's, else the perpendicular one.
-    pub fn shown(chosen: Option<Incident>, scene: &SceneFile) -> Self {
+    pub fn shown(chosen: Option<Incident>, scene: &SceneFile, base: &Path) -> Self {
         let of = |direction, source| Self { direction, source };
-        match (chosen, sun_incident(scene)) {
+        match (chosen, sun_incident(scene, base)) {
             (Some(direction), _) => of(direction, Source::Chosen),
             (None, Some(sun)) => of(sun, Source::Sun),
             (None, None) => of(Incident(Dir::from_unit(glam::DVec3::Z)), Source::Normal),

@@ -28,7 +28,7 @@ pub struct LeavingOut {
 pub fn leaving_out(scene: &Scene, progress: &dyn Progress) -> Result<Vec<LeavingOut>, StudyError> {
     let mut done: Vec<(&Arc<Indicatrices>, Model, LeavingOut)> = Vec::new();
     for (index, aperture) in scene.apertures.iter().enumerate() {
-        let scattered = aperture.system.dataset.transmission().and_then(|btdf| btdf.scattered.as_ref());
+        let scattered = aperture.transmission().and_then(|btdf| btdf.scattered.as_ref());
         let Some(Scattered::Directions(data)) = scattered.filter(|_| scene.interpolation != Interpolation::Patch)
         else {
             continue;

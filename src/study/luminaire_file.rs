@@ -101,7 +101,7 @@ pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u
 /// The header of a luminaire file: scene, product, sky, sun and time, as the scene file states them.
 ///
 /// `aperture` counts from 0 and must exist; `date` is the day of issue.
-pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str) -> Description {
+pub fn describe(scene_name: &str, scene: &SceneFile, base: &Path, aperture: usize, date: &str) -> Description {
     let keys = &scene.aperture[aperture];
     let system = match &keys.system {
         SystemKeys::Ideal { kind, transmittance } => {
@@ -132,12 +132,15 @@ pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str
         laboratory: format!("computed by {program}"),
         date: date.to_owned(),
         manufacturer: program.to_owned(),
-        number: format!("aperture {}; {}", aperture + 1, situation(scene)),
+        number: format!("aperture {}; {}", aperture + 1, situation(scene, base)),
         name: format!("Daylight aperture, {system}"),
         lamp: "daylight".to_owned(),
         remarks: vec![
             format!("Daylight through one aperture of the scene {scene_name}, not an electric luminaire."),
-            format!("Place, time, sun (altitude/bearing in degrees), facade (bearing), sky: {}.", situation(scene)),
+            format!(
+                "Place, time, sun (altitude/bearing in degrees), facade (bearing), sky: {}.",
+                situation(scene, base)
+            ),
             sky_remark(scene),
             "Light that the host's own room sends to the aperture is not reflected: give the window a reflectance."
                 .to_owned(),
@@ -146,7 +149,7 @@ pub fn describe(scene_name: &str, scene: &SceneFile, aperture: usize, date: &str
 }
 
 /// Place, time, sky, sun and façade in so few words that a line of EULUMDAT holds them.
-fn situation(scene: &SceneFile) -> String {
+fn situation(scene: &SceneFile, base: &Path) -> String {
     let SceneFile { site, sky, .. } = scene;
     let mut parts = Vec::new();
     if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
@@ -154,8 +157,9 @@ fn situation(scene: &SceneFile) -> String {
         parts.push(format!("{:.1}{north} {:.1}{east}", latitude.abs(), longitude.abs()));
     }
     parts.extend(sky.time.as_ref().map(TimeKey::text));
-    parts
-        .extend(moment::sun(scene).map(|(altitude, azimuth)| format!("sun {:.1}/{azimuth:.1}", altitude.to_degrees())));
+    parts.extend(
+        moment::sun(scene, base).map(|(altitude, azimuth)| format!("sun {:.1}/{azimuth:.1}", altitude.to_degrees())),
+    );
     parts.push(format!("facade {:.0}", site.azimuth));
     parts.push(match sky.model {
         SkyModelKey::Cie => format!("CIE {}", sky.cie_type.unwrap_or_default()),
@@ -239,7 +243,7 @@ normal = [0.0, 0.0, 1.0]
     #[test]
     fn header_names_scene_product_sky_and_opening() {
         let scene: SceneFile = toml::from_str(SCENE).unwrap();
-        let text = describe("office.toml", &scene, 0, "2026-03-21");
+        let text = describe("office.toml", &scene, Path::new(""), 0, "2026-03-21");
         let parts = vec![EmergentLuminance::Uniform(500.0)];
         let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beams: Vec::new() };
         let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();

@@ -4,6 +4,7 @@ use super::error::StudyError;
 use super::moment;
 use super::scene_file::{SceneFile, SystemKeys, TimeKey};
 use super::sun_position::{Place, parse_local_time};
+use std::path::Path;
 
 /// The day of every month.
 const DAY: u8 = 21;
@@ -40,8 +41,13 @@ impl Series {
     ///
     /// # Errors
     /// Months or hours out of range; times without the scene's `sky.time` and place; states of a system that has none.
-    pub fn members(&self, scene: &SceneFile, aperture: usize) -> Result<(Vec<Member>, Vec<String>), StudyError> {
-        let (times, dark) = self.times(scene)?;
+    pub fn members(
+        &self,
+        scene: &SceneFile,
+        base: &Path,
+        aperture: usize,
+    ) -> Result<(Vec<Member>, Vec<String>), StudyError> {
+        let (times, dark) = self.times(scene, base)?;
         let mut list = Vec::new();
         for time in &times {
             let at = time.as_ref().map_or_else(|| scene.clone(), |time| at(scene, time));
@@ -74,7 +80,7 @@ impl Series {
     }
 
     /// Times as text, `None` for the scene's own; and those without sun.
-    fn times(&self, scene: &SceneFile) -> Result<(Vec<Option<String>>, Vec<String>), StudyError> {
+    fn times(&self, scene: &SceneFile, base: &Path) -> Result<(Vec<Option<String>>, Vec<String>), StudyError> {
         if self.months.is_empty() && self.hours.is_empty() {
             return Ok((vec![None], Vec::new()));
         }
@@ -110,7 +116,7 @@ impl Series {
                 }
                 let minutes = (60.0 * hour).round().min(1439.0) as u32;
                 let text = format!("{:04}-{month:02}-{day:02}T{:02}:{:02}", time.year(), minutes / 60, minutes % 60);
-                let sun = moment::sun(&at(scene, &text));
+                let sun = moment::sun(&at(scene, &text), base);
                 if sun.is_some_and(|(altitude, _)| altitude > 0.0) { times.push(Some(text)) } else { dark.push(text) }
             }
         }
@@ -178,7 +184,7 @@ points = [[2.0, 2.0, 0.85]]
     fn months_hours_and_states_are_combined_without_the_night() {
         let states = vec!["0".to_owned(), "tilt 45".to_owned()];
         let series = Series { months: vec![6, 12], hours: vec![5.5, 12.0], states };
-        let (members, dark) = series.members(&scene(), 0).unwrap();
+        let (members, dark) = series.members(&scene(), Path::new(""), 0).unwrap();
         let names: Vec<&str> = members.iter().map(|member| member.name.as_str()).collect();
         assert_eq!(
             names,
@@ -197,12 +203,13 @@ points = [[2.0, 2.0, 0.85]]
         assert_eq!(keys.sky.time.as_ref().unwrap().text(), "2026-12-21T12:00");
         assert!(matches!(&keys.aperture[0].system, SystemKeys::File { state: Some(state), .. } if state == "tilt 45"));
         // Stuttgart at noon: about 90° − 48.8° ± 23.4° high.
-        assert!((moment::sun(keys).unwrap().0.to_degrees() - 17.8).abs() < 0.7);
+        assert!((moment::sun(keys, Path::new("")).unwrap().0.to_degrees() - 17.8).abs() < 0.7);
     }
 
     #[test]
     fn what_a_series_needs_is_told() {
-        let told = |series: &Series, scene: &SceneFile| series.members(scene, 0).unwrap_err().to_string();
+        let told =
+            |series: &Series, scene: &SceneFile| series.members(scene, Path::new(""), 0).unwrap_err().to_string();
         let hours = Series { hours: vec![12.0], ..Series::default() };
         let mut other = scene();
         other.sky.time = None;

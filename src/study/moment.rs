@@ -1,12 +1,14 @@
 //! The scene's date and time as people handle them: sliders, steps, words.
 
 use super::scene_file::{SceneFile, TimeKey};
+use super::sky::hour_of_weather;
 use super::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::texts::{Text, fixed, words as texts};
 use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
+use std::path::Path;
 
 /// The scene's local time by the clock; `None` when it is given by sun angles or is no time.
 pub fn of(scene: &SceneFile) -> Option<DateTime> {
@@ -49,8 +51,18 @@ pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
     Some(RiseSet { rise: hours.rise.map(|hour| hour + ahead), set: hours.set.map(|hour| hour + ahead) })
 }
 
-/// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment.
-pub fn sun(scene: &SceneFile) -> Option<(f64, f64)> {
+/// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment: of an hour of a weather, where its light comes from.
+/// `base`: what relative paths start from.
+pub fn sun(scene: &SceneFile, base: &Path) -> Option<(f64, f64)> {
+    if scene.sky.weather.is_some() {
+        let sun = hour_of_weather(&scene.sky, &scene.site, base).ok()??.hour.sun;
+        return Some((sun.altitude(), sun.bearing().degrees()));
+    }
+    sun_of_site(scene)
+}
+
+/// The same by the scene's own place and clock, whatever the weather.
+pub fn sun_of_site(scene: &SceneFile) -> Option<(f64, f64)> {
     // Stated angles say where the sun is, also beside a date.
     if let (Some(altitude), Some(azimuth)) = (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
         return Some((altitude.to_radians(), azimuth));

@@ -1,7 +1,7 @@
 //! What a scene needs, and what was left out and why: decided before any work, printed with every result.
 
 use super::scene::{Scene, surface};
-use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
+use crate::compute::btdf::{Btdf, Scattered};
 use std::time::Duration;
 
 /// One stage of the computation.
@@ -36,10 +36,9 @@ impl Plan {
     pub fn new(scene: &Scene) -> Self {
         let mut plan = Self::default();
         let scattered = |test: fn(&Scattered) -> bool| {
-            scene.apertures.iter().filter_map(|a| a.system.dataset.transmission()?.scattered.as_ref()).any(test)
+            scene.apertures.iter().filter_map(|a| a.transmission()?.scattered.as_ref()).any(test)
         };
-        let regular =
-            scene.apertures.iter().any(|a| a.system.dataset.transmission().is_some_and(|btdf| btdf.regular.is_some()));
+        let regular = scene.apertures.iter().any(|a| a.transmission().is_some_and(|btdf| btdf.regular.is_some()));
         let cells = scattered(|part| !matches!(part, Scattered::Lambert(_)));
         // Of such systems the data may be left out that the next stages look at.
         let described = scene.beams && scene.apertures.iter().any(|a| a.system.very.is_some());
@@ -78,9 +77,9 @@ impl Plan {
             },
         );
         // A transmittance that varies with the angle needs the integral under any sky.
-        let constant = |btdf: &Btdf| matches!(btdf.regular, None | Some(AngularTransmittance::Constant(_)));
+        let constant = |btdf: &Btdf| btdf.regular.as_ref().is_none_or(|tau| tau.constant().is_some());
         let even = scene.outside.is_uniform_above_horizon()
-            && scene.apertures.iter().all(|a| a.system.dataset.transmission().is_none_or(constant));
+            && scene.apertures.iter().all(|a| a.transmission().is_none_or(constant));
         plan.add(
             "sky at sensors",
             regular && !even,

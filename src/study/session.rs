@@ -3,6 +3,7 @@
 
 mod behind;
 mod creases;
+pub(super) mod data_share;
 mod emission;
 pub(super) mod far;
 pub mod glare;
@@ -161,7 +162,7 @@ impl Session {
         let emission = self.emission(scene, aperture);
         let result = LidResult {
             lid: emission.lid(&facing, geometry.size),
-            flux: emission.exitance(&facing) * geometry.area(),
+            flux: (emission.exitance(&facing) + Estimate::new(0.0, emission.exitance_doubt())) * geometry.area(),
             incident: (emission.incident_diffuse, emission.incident_sun),
         };
         result.checked()
@@ -221,6 +222,7 @@ impl Session {
         let doubted: f64 =
             emissions.iter().zip(&scene.apertures).map(|(e, one)| e.exitance_doubt() * one.aperture.area()).sum();
         let open = if flux.value > 0.0 { doubted / flux.value } else { 0.0 };
+        let flux = flux + Estimate::new(0.0, doubted);
         let sensors: Vec<SensorResult> = scene
             .sensors
             .iter()

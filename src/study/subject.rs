@@ -1,5 +1,7 @@
 //! Everything that pictures and reports show of a scene, computed in one go by the calls that window and command line make.
 
+use super::control::device::is_upright;
+use super::control::slat_angle;
 use super::error::StudyError;
 use super::facing::{sun_incident, surface};
 use super::incidence::Incidence;
@@ -17,7 +19,6 @@ use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::direction::Incident;
 use crate::compute::estimate::Progress;
 use crate::compute::lid::c_gamma::Peaks;
-use crate::compute::profile_angle::profile_angle;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -156,7 +157,7 @@ impl Subject {
         } else {
             None
         };
-        let (incidence, sun) = (Incidence::shown(asked.incident, file), sun_incident(file));
+        let (incidence, sun) = (Incidence::shown(asked.incident, file, asked.base), sun_incident(file, asked.base));
         Ok(Self {
             file: file.clone(),
             product,
@@ -218,7 +219,7 @@ fn controlled(
         quantity: quantity(product),
         curve,
         today,
-        profile_angle: sun_incident(file).and_then(|sun| profile_angle(sun.0)).map(f64::to_degrees),
+        profile_angle: sun_incident(file, base).map(|sun| slat_angle(sun.0, is_upright(&product.system)).to_degrees()),
         year,
     })
 }

@@ -3,11 +3,11 @@
 use super::control::{ControlQuestion, Device};
 use super::error::StudyError;
 use super::scene_file::{IdealKind, SystemKeys};
-use crate::compute::btdf::{Btdf, Dataset, SolarSource};
+use crate::compute::btdf::{self, Btdf, Dataset, SolarSource};
 use crate::compute::system::measure::Specimen;
 use std::fmt;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 /// A system ready to be computed with.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,6 +50,25 @@ impl PartialEq for VerySystem {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
+}
+
+/// What a dataset makes of light with the regular light apart that its data hold in cells; `None` where they hold none.
+/// Found once a dataset.
+pub fn regular_apart(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
+    type Known = (Weak<Dataset>, Option<Arc<Btdf>>);
+    static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
+    // What is kept is whole even if another thread has failed while it held the lock.
+    let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let same = |known: &Known| known.0.as_ptr() == Arc::as_ptr(dataset);
+    if let Some((_, found)) = kept().iter().find(|known| same(known)) {
+        return found.clone();
+    }
+    let found = dataset.transmission().and_then(btdf::regular_apart).map(Arc::new);
+    let mut kept = kept();
+    // An address that is held, if by a weak reference alone, is no other's.
+    kept.retain(|(other, _)| other.strong_count() > 0);
+    kept.push((Arc::downgrade(dataset), found.clone()));
+    found
 }
 
 /// How much of a system a scene needs.

@@ -3,10 +3,12 @@
 use super::error::StudyError;
 use super::files;
 use crate::compute::limits;
-use crate::compute::weather::Weather;
+use crate::compute::weather::{Closure, Weather};
 use crate::formats::weather;
 use crate::texts::year as say;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// What the name of a year that comes with the program begins with.
 pub const BUILTIN: &str = "builtin:";
@@ -83,6 +85,40 @@ pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
     // What lies nowhere is never the nearest.
     let better = |a: f64, b: f64| a > b || b.is_nan();
     YEARS.iter().fold(&YEARS[0], |best, year| if better(near(year), near(best)) { year } else { best })
+}
+
+/// The same as [`load`] gives, kept from one question to the next while the file stays what it is.
+///
+/// # Errors
+/// As [`load`].
+pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
+    type Known = (PathBuf, Option<(SystemTime, u64)>, Arc<KeptWeather>);
+    static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
+    const MOST: usize = 4;
+    // What is kept is whole even if another thread has failed while it held the lock.
+    let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    let path = if name.to_str().is_some_and(|name| name.starts_with(BUILTIN)) { name.into() } else { base.join(name) };
+    let stamp = std::fs::metadata(&path).ok().and_then(|meta| Some((meta.modified().ok()?, meta.len())));
+    if let Some((.., weather)) = kept().iter().find(|known| known.0 == path && known.1 == stamp) {
+        return Ok(Arc::clone(weather));
+    }
+    let weather = load(name, base)?;
+    let closure =
+        weather.closure().map_err(|error| StudyError::File { path: name.into(), message: error.to_string() })?;
+    let made = Arc::new(KeptWeather { weather, closure });
+    let mut list = kept();
+    list.retain(|known| known.0 != path);
+    list.truncate(MOST - 1);
+    list.insert(0, (path, stamp, Arc::clone(&made)));
+    Ok(made)
+}
+
+/// A weather, and how well its irradiances close.
+pub struct KeptWeather {
+    /// As the file has it.
+    pub weather: Weather,
+    /// `None` where it does not tell.
+    pub closure: Option<Closure>,
 }
 
 /// Reads a weather file, or a year that comes with the program (`builtin:new-york`). A name that is not absolute starts

@@ -180,7 +180,12 @@ pub fn read_scene(bytes: &[u8]) -> bool {
     assert_eq!(format!("{twin:?}"), format!("{file:?}"), "a scene changes when it is read and written again");
     // What the window asks before anything is judged.
     let mut stepped = file.clone();
-    let _ = (moment::of(&file), moment::place(&file), moment::sun(&file), moment::sun_hours(&file));
+    let _ = (
+        moment::of(&file),
+        moment::place(&file),
+        moment::sun(&file, std::path::Path::new("")),
+        moment::sun_hours(&file),
+    );
     moment::step(&mut stepped, 1, 30);
     if file.outside.len() > FEW || file.aperture.len() > 2 * FEW {
         return true;

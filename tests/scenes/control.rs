@@ -95,6 +95,7 @@ fn device(angles: impl IntoIterator<Item = i32>) -> Device {
         values: Some(angles.iter().map(|angle| f64::from(*angle)).collect()),
         curve: Vec::new(),
         section: None,
+        upright: false,
     }
 }
 
@@ -296,5 +297,45 @@ fn a_year_s_clear_sky_is_as_bright_as_the_scene_s() {
         let time = jiff::civil::date(2026, 3, 21).at(12, 0, 0, 0);
         let year = Situation::of(&file).unwrap().sky.illuminances(time, seen.altitude.unwrap()).unwrap();
         assert_eq!(year, (seen.direct_normal, seen.diffuse_horizontal), "{word} {key}");
+    }
+}
+
+#[test]
+fn upright_slats_follow_the_angle_in_the_horizontal_plane() {
+    use cfs::compute::angle::Bearing;
+    use cfs::compute::direction::{Dir, Orientation};
+    use cfs::compute::lid::Facing;
+    use cfs::compute::sky::{Distribution, Outside, Sun};
+    use cfs::study::control::{ControlQuestion, pick_state, sun_at};
+    let (width, spacing) = (0.127_f64, 0.11_f64);
+    let section = SlatRow::new(SlatProfile::Flat { width }, spacing).unwrap();
+    let device = Device { section: Some(section), upright: true, ..device((-75..=75).step_by(5)) };
+    let outside = Outside::new(Distribution::uniform(), 0.0).unwrap();
+    let keys = ControlKeys::of(ControlMode::CutOff);
+    for altitude in [5.0_f64, 40.0, 65.0] {
+        for aside in (-70..=70).step_by(5).map(|degrees| f64::from(degrees).to_radians()) {
+            let bearing = Bearing::from_radians(std::f64::consts::PI + aside);
+            let direction = Dir::from_altitude_bearing(altitude.to_radians(), bearing);
+            let sun = Sun { direction, direct_normal: 5e4 };
+            let facing = Facing {
+                outside: &outside,
+                sun: Some(&sun),
+                orientation: Orientation::new(Bearing::from_degrees(180.0)),
+                surface: Surface::Facade,
+            };
+            // However high it stands.
+            let at = sun_at(&facing, true).unwrap();
+            assert!((at.centre.abs() - aside.abs()).abs() < 1e-9, "{altitude} {aside}: {at:?}");
+            let asked = ControlQuestion { keys: &keys, base: Path::new(""), hour: None, of_year: None, facing };
+            let state: f64 = pick_state(&device, &asked).unwrap().parse().unwrap();
+            let dark =
+                |tilt: f64| at.span.iter().all(|psi| width * (tilt + psi).sin().abs() >= spacing * psi.cos() - 1e-9);
+            assert!(dark(state.to_radians()), "{altitude} {aside}: {state}");
+            // None that is more open would do.
+            let open = (0..state.abs() as i32).step_by(5).flat_map(|angle| [-angle, angle]);
+            for other in open {
+                assert!(!dark(f64::from(other).to_radians()), "{altitude} {aside}: {state} {other}");
+            }
+        }
     }
 }

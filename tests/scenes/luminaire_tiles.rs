@@ -52,7 +52,7 @@ fn files(file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
 
 fn files_as(format: LidFormat, file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
     let wish = Wish { format, aim: None, step: None, tiles, without_beam };
-    let text = describe("test.toml", file, 0, "2026-03-21");
+    let text = describe("test.toml", file, std::path::Path::new(""), 0, "2026-03-21");
     let name = |tile: Option<usize>| format!("x_{}.ies", tile.map_or(0, |k| k + 1));
     make(&Session::new(), &resolve(file), 0, &text, &wish, name, &Silent).expect("files")
 }

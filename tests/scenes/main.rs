@@ -18,6 +18,7 @@ mod rank;
 mod reference_kit;
 mod rooms;
 mod sharp_sun;
+mod sky_in_cells;
 mod stability;
 mod stability_measured;
 mod strange;

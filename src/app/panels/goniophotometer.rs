@@ -10,6 +10,7 @@ use crate::app::theme;
 use crate::app::typing::read_number;
 use crate::app::views::section;
 use crate::app::window::App;
+use crate::study::control::slat_angle;
 use crate::texts::{decimal, fixed, goniophotometer as texts};
 use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
 
@@ -99,12 +100,13 @@ fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>)
     let states = bench.states();
     let label =
         ui.label(if system.is_some_and(|system| system.upright) { texts::SECTION_ABOVE } else { texts::SECTION });
-    let sun = sun_incident(&app.state.document.scene).map(|sun| sun.0.vector());
+    let sun = sun_incident(&app.state.document.scene, &app.state.base());
+    let upright = system.is_some_and(|system| system.upright);
     let input = section::Input {
         system,
         revision: bench.revision,
         state: bench.drawn,
-        sun: sun.map(|v| if system.is_some_and(|system| system.upright) { v.x } else { v.y }.atan2(v.z)),
+        sun: sun.map(|sun| slat_angle(sun.0, upright)),
     };
     let size = vec2(ui.available_width(), height);
     section::show(ui, &input, size, &mut app.section_view);

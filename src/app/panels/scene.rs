@@ -20,6 +20,7 @@ use crate::app::title;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 use crate::texts::{Text, fixed, scene as texts, year as year_texts};
 use egui::{CollapsingHeader, DragValue, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
+use std::path::Path;
 
 /// Draws the panel.
 pub fn show(ui: &mut Ui, state: &State, weather: Weather<'_>, commands: &mut Vec<Command>) {
@@ -43,9 +44,9 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather
     };
     section(ui, texts::PLACE, &title::place(scene), wrong(texts::PLACE), false, |ui| place::show(ui, scene));
     let facing = format!("{}, {:.0}°", moment::bearing_word(scene.site.azimuth), scene.site.azimuth);
-    section(ui, texts::FACADE, &facing, wrong(texts::FACADE), true, |ui| facade(ui, scene));
+    section(ui, texts::FACADE, &facing, wrong(texts::FACADE), true, |ui| facade(ui, scene, &state.base()));
     section(ui, texts::DATE_AND_TIME, &title::time(scene), wrong(texts::DATE_AND_TIME), true, |ui| {
-        when::show(ui, scene);
+        when::show(ui, scene, &state.base());
     });
     // What is wrong because of where the sun stands is told on lines that are always there.
     let low_sun = sky::low_sun(scene);
@@ -124,9 +125,9 @@ fn section(ui: &mut Ui, title: Text, essence: &str, wrong: Option<String>, open:
     }
 }
 
-fn facade(ui: &mut Ui, scene: &mut SceneFile) {
+fn facade(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     ui.horizontal(|ui| {
-        dial(ui, scene);
+        dial(ui, scene, base);
         ui.vertical(|ui| {
             ui.label(texts::faces(moment::bearing_word(scene.site.azimuth)));
             number(ui, texts::BEARING, "°", &mut scene.site.azimuth, 0.0..=360.0, 0);
@@ -135,7 +136,7 @@ fn facade(ui: &mut Ui, scene: &mut SceneFile) {
 }
 
 /// A compass to drag; the needle is the façade's outward normal, the dot the sun.
-fn dial(ui: &mut Ui, scene: &mut SceneFile) {
+fn dial(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     let palette = theme::palette(ui);
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(76.0), Sense::click_and_drag());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Slider, true, texts::DIAL.get()));
@@ -161,7 +162,7 @@ fn dial(ui: &mut Ui, scene: &mut SceneFile) {
     let across = vec2(normal.y, -normal.x);
     painter.line_segment([centre - across * 14.0, centre + across * 14.0], Stroke::new(3.0, palette.text));
     painter.arrow(centre, normal * (radius - 3.0), Stroke::new(2.0, palette.accent));
-    if let Some((altitude, bearing)) = moment::sun(scene).filter(|sun| sun.0 > 0.0) {
+    if let Some((altitude, bearing)) = moment::sun(scene, base).filter(|sun| sun.0 > 0.0) {
         let reach = radius * (1.0 - altitude as f32 / std::f32::consts::FRAC_PI_2);
         painter.circle_filled(centre + towards(bearing) * reach, 4.0, palette.sun);
     }

@@ -34,11 +34,11 @@ impl Drawn for Drawing {
 
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String> {
         let state = seen.state;
-        let sun = sun_incident(&state.document.scene);
+        let sun = sun_incident(&state.document.scene, &state.base());
         let dataset = &state.dataset;
         let name = title::selection(state);
         let btdf = dataset.value.as_deref().and_then(|dataset| dataset.transmission());
-        let incidence = Incidence::shown(state.incident, &state.document.scene);
+        let incidence = Incidence::shown(state.incident, &state.document.scene, &state.base());
         let status = seen.status_of(dataset, Lane::Scene);
         // Until data of this incidence are there in the form that is looked at, those of the last one stay.
         let (look, shown) = (state.data_look, &seen.results.form);

@@ -9,8 +9,8 @@ use crate::app::state::{State, Tile};
 use crate::app::typing::read_number;
 use crate::app::views::{Cache, control};
 use crate::app::{moment, title};
-use crate::compute::profile_angle::profile_angle;
-use crate::study::control::DEFAULT_ELEVATION;
+use crate::study::control::device::is_upright;
+use crate::study::control::{DEFAULT_ELEVATION, slat_angle};
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::texts::{Text, tiles as say};
 use egui::{ComboBox, DragValue, Ui, UiBuilder};
@@ -214,7 +214,8 @@ impl Drawn for Drawing {
             name.push_str(&format!(" · {}", say::movements(year.movements)));
         }
         let moving = states.len() > 1;
-        let sun = sun_incident(scene);
+        let sun = sun_incident(scene, &state.base());
+        let upright = product.as_deref().is_some_and(|product| is_upright(&product.system));
         let still = still(title::selected(state));
         let remark = match (&key, moving) {
             (_, false) => String::new(),
@@ -229,7 +230,7 @@ impl Drawn for Drawing {
             editable: mode == ControlMode::Curve,
             name: &name,
             today,
-            profile_angle: sun.and_then(|sun| profile_angle(sun.0)).map(f64::to_degrees),
+            profile_angle: sun.map(|sun| slat_angle(sun.0, upright).to_degrees()),
             current,
             year: year.map_or(&[], |year| year.hours.as_slice()),
             moment: moment::of(scene).map(|time| {

@@ -56,7 +56,7 @@ impl Drawn for Drawing {
                     altitude: sun.direction.altitude(),
                     bearing: sun.direction.bearing().radians(),
                 }),
-                None => moment::sun(scene).map(place),
+                None => moment::sun_of_site(scene).map(place),
             },
             behind_boxes: daylight.is_some_and(|daylight| daylight.seen.is_some()),
             facade_bearing: scene.site.azimuth.to_radians(),

@@ -51,7 +51,7 @@ impl Drawn for Drawing {
         let revision = dataset.revision;
         let surface = surface(scene);
         // The light that the BTDF tile shows.
-        let incidence = Incidence::shown(state.incident, scene);
+        let incidence = Incidence::shown(state.incident, scene, &state.base());
         let btdf = dataset.value.as_deref().and_then(|dataset| dataset.transmission());
         let split = btdf.map(|btdf| {
             let incident = incidence.direction;
@@ -63,7 +63,7 @@ impl Drawn for Drawing {
             btdf,
             name: &name,
             sun_paths: self.paths.get(key, || sun_paths(scene)),
-            moment: sun_incident(scene),
+            moment: sun_incident(scene, &state.base()),
             incidence,
             split,
             range: seen.scale,

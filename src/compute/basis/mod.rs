@@ -1,11 +1,13 @@
 //! Divisions of the hemisphere into cells: one type for every lattice made of rings about the normal
 //! (Klems, Tregenza, measured rings, equal-area rings), and the resampling from one to another.
 
+mod neighbours;
 mod resample;
 mod rings;
 mod shirley_chiu;
 mod sub_directions;
 
+pub use neighbours::Neighbours;
 pub use resample::{Resampling, same_cells};
 pub use rings::{AzimuthMap, BasisError, Cell, Ring, RingBasis};
 pub use shirley_chiu::{MAX_LEVEL, SquareCell, SquareGrid, disk_from_square, square_from_disk};

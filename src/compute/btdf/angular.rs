@@ -10,6 +10,16 @@ pub enum AngularTransmittance {
     /// Values at θ = 0 … 90° in equal steps, at least two; between them piecewise cubic, never beyond the values
     /// at both sides.
     Table(Vec<f64>),
+    /// The same found in data that do not tell it by themselves, such as means over cells; all at 0, 1 … 90°.
+    Estimated {
+        /// Values as of a table.
+        tau: Vec<f64>,
+        /// How far each may be off by itself.
+        doubt: Vec<f64>,
+        /// How far they may be off together: independent deviations of all of them, each signed, whose light is to be added
+        /// by squares. What is too much at one angle is too little at another.
+        modes: Vec<Vec<f64>>,
+    },
 }
 
 impl AngularTransmittance {
@@ -20,9 +30,14 @@ impl AngularTransmittance {
 
     /// All values times a factor.
     pub fn scaled(&self, factor: f64) -> Self {
+        let all = |values: &[f64]| values.iter().map(|value| factor * value).collect();
         match self {
             Self::Constant(tau) => Self::Constant(factor * tau),
-            Self::Table(values) => Self::Table(values.iter().map(|tau| factor * tau).collect()),
+            Self::Table(values) => Self::Table(all(values)),
+            Self::Estimated { tau, doubt, modes } => {
+                let modes = modes.iter().map(|mode| all(mode)).collect();
+                Self::Estimated { tau: all(tau), doubt: all(doubt), modes }
+            }
         }
     }
 
@@ -31,11 +46,31 @@ impl AngularTransmittance {
         if let Self::Constant(tau) = self { Some(*tau) } else { None }
     }
 
+    /// How far τ at a polar angle \[rad\] may be off by itself: nothing where it is what it is.
+    pub fn doubt(&self, theta: f64) -> f64 {
+        if let Self::Estimated { doubt, .. } = self { table_at(doubt, theta) } else { 0.0 }
+    }
+
+    /// How far the light may be off that all angles let pass together, given what falls in by degrees of θ.
+    pub fn doubt_of(&self, incident: &[f64; 90]) -> f64 {
+        let Self::Estimated { modes, .. } = self else { return 0.0 };
+        let of = |mode: &Vec<f64>| {
+            let at = |degree: usize| 0.5 * (mode[degree] + mode[degree + 1]);
+            incident.iter().enumerate().map(|(degree, e)| e * at(degree)).sum::<f64>()
+        };
+        modes.iter().map(|mode| of(mode).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Is it only known by what other data tell of it?
+    pub const fn is_estimated(&self) -> bool {
+        matches!(self, Self::Estimated { .. })
+    }
+
     /// Does nothing pass, whatever the incidence?
     pub fn is_dark(&self) -> bool {
         match self {
             Self::Constant(tau) => *tau == 0.0,
-            Self::Table(values) => values.iter().all(|tau| *tau == 0.0),
+            Self::Table(tau) | Self::Estimated { tau, .. } => tau.iter().all(|tau| *tau == 0.0),
         }
     }
 
@@ -49,7 +84,7 @@ impl AngularTransmittance {
                     0.0
                 }
             }
-            Self::Table(values) => table_at(values, theta),
+            Self::Table(tau) | Self::Estimated { tau, .. } => table_at(tau, theta),
         }
     }
 
@@ -64,7 +99,7 @@ impl AngularTransmittance {
     pub fn hemispherical(&self) -> f64 {
         match self {
             Self::Constant(tau) => *tau,
-            Self::Table(_) => {
+            Self::Table(_) | Self::Estimated { .. } => {
                 // Midpoints in sin²θ: equal weights, second order, 4000 points for 1e-7.
                 let n = 4000;
                 (0..n).map(|i| self.at((((i as f64) + 0.5) / n as f64).sqrt().asin())).sum::<f64>() / n as f64

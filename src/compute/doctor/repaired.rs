@@ -4,8 +4,8 @@ use super::derive::by_reciprocity;
 use super::repair::{BandScope, Repair, RepairKind, record};
 use crate::compute::basis::{AzimuthMap, Cell, RingBasis, disk_from_square};
 use crate::compute::btdf::{
-    AngularTransmittance, Band, Btdf, CellMatrix, Component, Dataset, Indicatrices, Scattered, TensorTree, TreeAxes,
-    TreeNode, TreeRank, resample_matrix,
+    Band, Btdf, CellMatrix, Component, Dataset, Indicatrices, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank,
+    resample_matrix,
 };
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::DVec3;
@@ -315,12 +315,6 @@ fn transposed(btdf: &Btdf) -> Result<Btdf, &'static str> {
 fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf, &'static str> {
     // With `all` the factor is the same for every cell: any one tells it.
     let anywhere = factor(&RingBasis::hemisphere().cell(0));
-    let angular = |tau: &AngularTransmittance| match tau {
-        AngularTransmittance::Constant(tau) => AngularTransmittance::Constant(tau * anywhere),
-        AngularTransmittance::Table(list) => {
-            AngularTransmittance::Table(list.iter().map(|tau| tau * anywhere).collect())
-        }
-    };
     // What a file's author did to the values was done to the emergent cells: every row takes the same factors.
     let rows = |basis: &RingBasis, values: &[f64]| -> Vec<f64> {
         let factors: Vec<f64> = basis.cells().map(|cell| factor(&cell)).collect();
@@ -328,7 +322,7 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
     };
     let scattered = match &btdf.scattered {
         None => None,
-        Some(Scattered::Lambert(tau)) if all => Some(Scattered::Lambert(angular(tau))),
+        Some(Scattered::Lambert(tau)) if all => Some(Scattered::Lambert(tau.scaled(anywhere))),
         // A factor of the cell would make it something else than a diffuser.
         Some(Scattered::Lambert(_)) => return Err("an ideal diffuser has no value for every direction"),
         Some(Scattered::Cells(matrix)) => {
@@ -351,7 +345,7 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
         }
     };
     // τ of straight light is no density: cosines and solid angles were never in it, a factor of 100 may be.
-    let regular = btdf.regular.as_ref().map(|tau| if all { angular(tau) } else { tau.clone() });
+    let regular = btdf.regular.as_ref().map(|tau| if all { tau.scaled(anywhere) } else { tau.clone() });
     Ok(Btdf { regular, scattered })
 }
 

@@ -39,14 +39,15 @@ impl BeamLight {
     pub fn regular(tau: Option<&AngularTransmittance>, facing: &Facing<'_>) -> Option<Self> {
         let incident = facing.sun_illuminance();
         let (sun, to) = (facing.sun?, facing.sun_direction()?);
-        let tau = tau?.at(to.theta().min(0.5 * PI));
+        let theta = to.theta().min(0.5 * PI);
+        let (tau, doubt) = (tau?.at(theta), tau?.doubt(theta));
         let beam = Self {
             to,
             exitance: tau * incident,
             normal: tau * sun.direct_normal,
             straight: true,
             error: 0.0,
-            doubt: 0.0,
+            doubt: if tau > 0.0 { doubt / tau } else { 0.0 },
         };
         (beam.exitance > 0.0).then_some(beam)
     }

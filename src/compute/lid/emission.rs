@@ -141,6 +141,7 @@ impl Emission {
         emission.beams.extend(BeamLight::regular(btdf.regular.as_ref(), facing));
         emission.beam_source = match &btdf.scattered {
             _ if sun_direction.is_none() => BeamSource::None,
+            _ if emission.beams.iter().any(|beam| beam.doubt > 0.0) => BeamSource::Extracted,
             _ if !emission.beams.is_empty() => BeamSource::Described,
             None | Some(Scattered::Lambert(_)) => BeamSource::None,
             Some(_) => BeamSource::Cells,
@@ -151,7 +152,7 @@ impl Emission {
             }
             Some(Scattered::Lambert(tau)) => {
                 // A constant needs the total alone; else rings of 2.5°, each with the τ of its own mean angle.
-                let rings = if matches!(tau, AngularTransmittance::Constant(_)) { 1 } else { 36 };
+                let rings = if tau.constant().is_some() { 1 } else { 36 };
                 let basis = bands(rings);
                 let illuminance = incident_illuminances(facing.outside, &basis, &frame);
                 let across = gauss_legendre(ACROSS);
@@ -240,9 +241,9 @@ impl Emission {
             sum += Estimate::new(total, total * cells.relative_error);
         }
         if let Some(tau) = &self.regular {
-            sum += match tau {
-                AngularTransmittance::Constant(tau) => self.incident_diffuse * *tau,
-                AngularTransmittance::Table(_) => {
+            sum += match tau.constant() {
+                Some(tau) => self.incident_diffuse * tau,
+                None => {
                     let (basis, across) = (bands(36), gauss_legendre(ACROSS));
                     let frame = Frame::of_aperture(facing.orientation, facing.surface);
                     incident_illuminances(facing.outside, &basis, &frame)
@@ -256,6 +257,13 @@ impl Emission {
         sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
     }
 
+    /// Do the data leave anything open of it?
+    pub fn is_doubted(&self) -> bool {
+        self.cells.iter().any(|light| !light.doubts.is_empty())
+            || self.regular.as_ref().is_some_and(AngularTransmittance::is_estimated)
+            || self.beams.iter().any(|beam| beam.doubt > 0.0)
+    }
+
     /// What the data leave open of [`Self::exitance`]. \[lm/m²\]
     pub fn exitance_doubt(&self) -> f64 {
         let flux = |light: &CellLight, doubt: &Vec<f64>| -> f64 {
@@ -263,7 +271,11 @@ impl Emission {
         };
         let on_cells = |light: &CellLight| light.doubts.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
         let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.doubt).sum();
-        self.cells.iter().map(on_cells).sum::<f64>() + beams
+        // By degrees, as an even outside sends it.
+        let even = |degree: usize| (2.0 * (degree as f64 + 0.5).to_radians()).sin() * PI / 180.0;
+        let even = std::array::from_fn(|degree| self.incident_diffuse.value * even(degree));
+        let through = self.regular.as_ref().map_or(0.0, |tau| tau.doubt_of(&even));
+        self.cells.iter().map(on_cells).sum::<f64>() + through + beams
     }
 
     /// As a luminous-intensity distribution (eq 5).

@@ -2,6 +2,7 @@
 
 mod beams;
 pub mod c_gamma;
+mod cell_doubt;
 mod disc_beams;
 mod emission;
 mod facing;

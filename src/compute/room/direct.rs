@@ -6,6 +6,7 @@ use super::band_weights::BandWeights;
 use super::cell_weights::for_each_cell;
 use super::through;
 use crate::compute::basis::RingBasis;
+use crate::compute::btdf::AngularTransmittance;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
@@ -96,7 +97,9 @@ pub fn illuminance(
         sum += Estimate::new(part, part * (relative + BAND_ERROR));
     }
     if let (Some(tau), Some(view)) = (&emission.regular, aperture.view(sensor.position, sensor.normal)) {
-        sum += through::illuminance(&view, facing, tau, tolerance);
+        let seen = seen_through(&view, facing, tau, tolerance);
+        sum += seen.all;
+        data_error += seen.data_error;
     }
     if let Some(lamps) = &emission.lamps {
         // Their parts are what they are: how a host computes is the answer, not an error.
@@ -108,6 +111,12 @@ pub fn illuminance(
     let rounding = aperture.rounding(sensor.position).max(1e-9);
     let all = Estimate::new(sum.value.max(0.0), sum.error + rounding * sum.value.abs());
     DirectLight { all, beam: beams.beam, data_error: data_error + beams.data_error }
+}
+
+/// What a sensor gets from the outside that it sees straight through an opening.
+pub fn seen_through(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> DirectLight {
+    let data_error = if tau.is_estimated() { tau.doubt_of(&through::by_degrees(view, facing)) } else { 0.0 };
+    DirectLight { all: through::illuminance(view, facing, tau, tolerance), beam: 0.0, data_error }
 }
 
 /// What a sensor gets from the sun's beams through an aperture, with the sun's penumbra.

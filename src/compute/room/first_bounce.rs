@@ -7,6 +7,7 @@ use super::mesh::Mesh;
 use super::outline::{Outline, thrown_on_patches};
 use super::patch_weights::{MOST_CELLS, PatchWeights, merged_cells, merging, points_a_side, rules, samples};
 use super::radiosity::Radiosity;
+use super::through;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Surface};
@@ -293,28 +294,11 @@ fn seen_from(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, rules
         let above = View { y: bands[0], ..*view };
         return sum + tau * luminance * projected_solid_angle(&above.corners(), view.normal);
     }
-    let angle = |x: f64| (x / view.distance).atan();
-    let [a0, a1] = view.x.map(angle);
     for band in bands {
-        let [b0, b1] = band.map(angle);
-        if b1 - b0 < 1e-12 {
-            continue;
-        }
-        let order = |width: f64| ((2.0 + 4.0 * width - 1e-9).ceil() as usize).min(rules.len() - 1);
-        let mut part = 0.0;
-        for &(s, ws) in &rules[order(a1 - a0)] {
-            let x = (a0 + (a1 - a0) * s).tan();
-            for &(t, wt) in &rules[order(b1 - b0)] {
-                let y = (b0 + (b1 - b0) * t).tan();
-                let square = 1.0 + x * x + y * y;
-                let d = DVec3::new(x, y, 1.0) / square.sqrt();
-                let tau = uniform.unwrap_or_else(|| tau.at(d.z.acos()));
-                // dω = dx dy / r³ with dx = (1 + x²) da.
-                let solid = (1.0 + x * x) * (1.0 + y * y) / (square * square.sqrt());
-                part += ws * wt * solid * view.normal.dot(d).max(0.0) * tau * facing.luminance(Dir::from_unit(d));
-            }
-        }
-        sum += part * (a1 - a0) * (b1 - b0);
+        through::nodes(view, band, rules, |d, weight| {
+            let tau = uniform.unwrap_or_else(|| tau.at(d.z.acos()));
+            sum += weight * tau * facing.luminance(Dir::from_unit(d));
+        });
     }
     sum
 }

@@ -99,6 +99,48 @@ pub fn samples(view: &View, surface: Surface, skyline: f64, parts: usize) -> Vec
     list
 }
 
+/// Directions of the façade frame through a band of the opening's y \[m\], with the solid angle that each stands for times the
+/// sensor's cosine \[sr\]: Gauss points in the two profile angles, in which the opening's near field is smooth. `rules` by
+/// number of points, from 0.
+pub fn nodes(view: &View, y: [f64; 2], rules: &[Vec<(f64, f64)>], mut visit: impl FnMut(DVec3, f64)) {
+    let angle = |x: f64| (x / view.distance).atan();
+    let ([a0, a1], [b0, b1]) = (view.x.map(angle), y.map(angle));
+    if b1 - b0 < 1e-12 {
+        return;
+    }
+    let order = |width: f64| ((2.0 + 4.0 * width - 1e-9).ceil() as usize).min(rules.len() - 1);
+    let area = (a1 - a0) * (b1 - b0);
+    for &(s, ws) in &rules[order(a1 - a0)] {
+        let x = (a0 + (a1 - a0) * s).tan();
+        for &(t, wt) in &rules[order(b1 - b0)] {
+            let y = (b0 + (b1 - b0) * t).tan();
+            let square = 1.0 + x * x + y * y;
+            let d = DVec3::new(x, y, 1.0) / square.sqrt();
+            // dω = dx dy / r³ with dx = (1 + x²) da.
+            let solid = (1.0 + x * x) * (1.0 + y * y) / (square * square.sqrt());
+            visit(d, area * ws * wt * solid * view.normal.dot(d).max(0.0));
+        }
+    }
+}
+
+/// Illuminance at a sensor through the open opening, roughly, by degrees of the polar angle. \[lx\]
+pub fn by_degrees(view: &View, facing: &Facing<'_>) -> [f64; 90] {
+    let rules = vec![gauss_legendre(NODES); 3];
+    let mut light = [0.0; 90];
+    let [low, high] = view.y;
+    let level = if facing.surface == Surface::Facade { 0.0_f64.clamp(low, high) } else { high };
+    for band in [[low, level], [level, high]] {
+        nodes(view, band, &rules, |d, weight| {
+            let degree = (d.z.min(1.0).acos().to_degrees() as usize).min(89);
+            light[degree] += weight * facing.luminance(Dir::from_unit(d));
+        });
+    }
+    light
+}
+
+/// Nodes along a side of an opening, or of its part above or below the horizon, for that.
+const NODES: usize = 12;
+
 /// A convex plane polygon seen from the origin, in azimuth and altitude.
 struct Region<'a> {
     polygon: &'a [DVec3],

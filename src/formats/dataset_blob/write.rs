@@ -146,7 +146,7 @@ impl Writer {
                 self.byte(0);
                 self.number(*value);
             }
-            AngularTransmittance::Table(values) => {
+            AngularTransmittance::Table(values) | AngularTransmittance::Estimated { tau: values, .. } => {
                 self.byte(1);
                 self.count(values.len());
                 values.iter().for_each(|value| self.number(*value));

@@ -9,7 +9,7 @@ use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
 use crate::drawing::{Drawing, Frame, Shape, legend};
 use crate::study::comparison::scales::Range;
-use crate::study::moment::{height_words, sun};
+use crate::study::moment::{height_words, sun_of_site};
 use crate::study::subject::Subject;
 use crate::texts::{fixed, hand_on as texts, words};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -67,7 +67,10 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, range:
         drawing.add(Shape::text(round.place([far * x, far * y]), word, inks.ink));
     }
     legend::scale(drawing, below, &scale, "cd/m²", inks);
-    let place = sun(&subject.file).map(|(altitude, bearing)| (altitude, bearing.to_radians()));
+    let place = match &subject.scene.weather {
+        Some(weather) => Some((weather.hour.sun.altitude(), weather.hour.sun.bearing().radians())),
+        None => sun_of_site(&subject.file).map(|(altitude, bearing)| (altitude, bearing.to_radians())),
+    };
     let up = place.filter(|(altitude, _)| *altitude >= 0.0);
     if let Some((altitude, bearing)) = up {
         let at = round.place(dome_point(altitude, bearing));

@@ -29,6 +29,7 @@ mod views;
 
 use super::error::StudyError;
 use super::scene::Scene;
+use super::session::data_share::DataShare;
 use super::session::far;
 use super::session::interreflected::{PATCHES, REST};
 use super::session::responses::Responses;
@@ -53,6 +54,8 @@ pub struct Coefficients {
     /// What the room makes of beams, where there may be any.
     landed: Option<Arc<UnitBeams>>,
     directions: f64,
+    /// What the data leave open, aperture by aperture.
+    open: Vec<DataShare>,
     /// Suns that will be asked for, as far as is known.
     suns: usize,
 }
@@ -105,7 +108,9 @@ impl Coefficients {
             || scene.room.ceiling > 0.0
             || scene.apertures.iter().any(|a| a.reflectance > 0.0);
         if !(scene.interreflection && reflects) {
-            return Self::with(session, scene, None, progress);
+            let mut coefficients = Self::with(session, scene, None, progress)?;
+            coefficients.doubt_data(session, progress)?;
+            return Ok(coefficients);
         }
         let target = scene.error_target.unwrap_or(ORDINARY_TARGET);
         let turns = if scene.error_target.is_some() { PATCHES.len() } else { 2 };
@@ -113,11 +118,12 @@ impl Coefficients {
         loop {
             progress.advance("coefficients", turn, turns);
             let room = session.responses(scene, PATCHES[turn], progress)?;
-            let coefficients = Self::with(session, scene, Some(room), progress)?;
+            let mut coefficients = Self::with(session, scene, Some(room), progress)?;
             turn += 1;
             let light = coefficients.sky_estimate(&scene.outside);
             let mean = light.iter().map(|e| e.value).sum::<f64>() / light.len().max(1) as f64;
             if turn == turns || light.iter().all(|e| e.error <= 0.9 * target * e.value.max(0.1 * mean)) {
+                coefficients.doubt_data(session, progress)?;
                 return Ok(coefficients);
             }
         }
@@ -131,7 +137,7 @@ impl Coefficients {
     ) -> Result<Self, StudyError> {
         let parts = (0..scene.apertures.len())
             .map(|index| {
-                let btdf = scene.apertures[index].system.dataset.transmission();
+                let btdf = scene.apertures[index].transmission();
                 let btdf = btdf.expect("a resolved scene has only systems with transmission data");
                 AperturePart::new(session, scene, index, btdf, room.as_ref(), progress)
             })
@@ -140,9 +146,17 @@ impl Coefficients {
             Some(room) if parts.iter().any(AperturePart::sends_beams) => Some(session.landed(scene, room)?),
             _ => None,
         };
-        let mut coefficients = Self { scene: scene.clone(), parts, room, landed, directions: 0.0, suns: 0 };
+        let mut coefficients =
+            Self { scene: scene.clone(), parts, room, landed, directions: 0.0, open: Vec::new(), suns: 0 };
         coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions(session);
         Ok(coefficients)
+    }
+
+    /// States what the data leave open, which no finer mesh tells.
+    fn doubt_data(&mut self, session: &Session, progress: &dyn Progress) -> Result<(), StudyError> {
+        let known = |index: usize| self.parts[index].transport.doubts_its_cells();
+        self.open = session.data_shares(&self.scene, known, progress)?;
+        Ok(())
     }
 
     /// Largest relative difference between the fixed directions and integrals, on the scene's sky, two clear
@@ -227,7 +241,11 @@ impl Coefficients {
                     let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
                     let squares = sums.doubtful[s].powi(2) + (rest * reflected).powi(2);
                     let error = value * relative + squares.sqrt() + sums.interpolated[s].abs() + 1e-6 * value;
-                    *sum += Estimate::new(value, error);
+                    let open = self.open.get(index).map_or(0.0, |share| {
+                        let straight = share.direct.get(s).map_or(0.0, |share| share * (value - reflected).max(0.0));
+                        straight + share.reflected * reflected
+                    });
+                    *sum += Estimate::new(value, error + open);
                 }
             }
         }

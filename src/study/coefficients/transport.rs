@@ -150,6 +150,11 @@ impl Transport {
         }
     }
 
+    /// Do its columns tell what the data leave open on cells?
+    pub fn doubts_its_cells(&self) -> bool {
+        matches!(self, Self::Lobes(_))
+    }
+
     /// Light through a patch of [`patches`].
     pub fn through_patch(&self, index: usize, cell: &Cell, sensors: usize) -> Column {
         match self {

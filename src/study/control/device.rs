@@ -2,7 +2,7 @@
 
 use super::super::error::StudyError;
 use super::keys::SlatKeys;
-use crate::catalogue::{Product, blind_of, control_curve};
+use crate::catalogue::{Product, blind_of, control_curve, moving_part, slats_of};
 use crate::compute::control::cut_off::SlatRow;
 use crate::compute::system::slats::SlatProfile;
 use crate::formats::system_toml::SystemFile;
@@ -21,6 +21,8 @@ pub struct Device {
     pub curve: Vec<[f64; 2]>,
     /// Section of its slats, where it is known.
     pub section: Option<SlatRow>,
+    /// Its slats stand upright: their profile angle is that of the horizontal plane.
+    pub upright: bool,
 }
 
 impl Device {
@@ -37,7 +39,8 @@ impl Device {
             keys: product.states.iter().map(|state| state.key.clone()).collect(),
             values: product.states.iter().map(|state| state.value).collect(),
             curve: product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect(),
-            section: section_of(product),
+            section: section_of(&product.system),
+            upright: is_upright(&product.system),
         })
     }
 
@@ -50,7 +53,8 @@ impl Device {
             values: keys.iter().map(|key| key.parse().ok().filter(|value: &f64| value.is_finite())).collect(),
             keys,
             curve: curve.iter().map(|point| [point.profile_angle, point.value]).collect(),
-            section: blind.as_ref().and_then(SlatRow::of),
+            section: section_of(text),
+            upright: is_upright(text),
         }
     }
 
@@ -62,6 +66,7 @@ impl Device {
             values: Some(states.iter().map(|one| one.value).collect()),
             curve: Vec::new(),
             section: None,
+            upright: false,
         }
     }
 
@@ -76,10 +81,14 @@ impl Device {
     }
 }
 
-/// The slats of a product. The one place that knows where products keep them: those that the program computes are
-/// described in it.
-fn section_of(product: &Product) -> Option<SlatRow> {
-    SlatRow::of(&blind_of(&product.system)?)
+/// The slats of a description: those of products that the program computes are in the catalogue.
+fn section_of(system: &str) -> Option<SlatRow> {
+    SlatRow::of(&slats_of(system)?.0)
+}
+
+/// Does what moves in a description stand upright?
+pub fn is_upright(system: &str) -> bool {
+    moving_part(system).is_some_and(|moving| moving.upright)
 }
 
 /// The section that a scene describes.

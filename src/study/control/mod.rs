@@ -11,7 +11,7 @@ pub use device::Device;
 use super::error::StudyError;
 use super::files;
 use crate::compute::control::controller::{Controller, Inputs, Period, Rounding, Rule, Settings, SunAt};
-use crate::compute::direction::Dir;
+use crate::compute::direction::{Dir, Facade};
 use crate::compute::lid::Facing;
 use crate::compute::profile_angle::{Screen, disc_span};
 use crate::compute::sky::{SUN_HALF_ANGLE, irradiance};
@@ -49,15 +49,21 @@ pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String
         return Err(StudyError::key("control.schedule", "needs sky.time: with sun angles alone there is no clock"));
     }
     table::begun(&settings.rule, asked.of_year)?;
-    let inputs = inputs(&asked.facing, asked.hour.unwrap_or(0.0), asked.keys.indoor, settings.close_above.is_some());
+    let inputs = inputs(
+        &asked.facing,
+        asked.hour.unwrap_or(0.0),
+        asked.keys.indoor,
+        settings.close_above.is_some(),
+        device.upright,
+    );
     let inputs = Inputs { of_year: asked.of_year, ..inputs };
     let state = Controller::new(settings).step(0.0, &inputs).state;
     Ok(device.keys[state].clone())
 }
 
 /// What the façade's and the room's sensors see of a moment, which has no date yet. `global`: with sky and ground, which takes
-/// an integral.
-pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool) -> Inputs {
+/// an integral. `upright`: of slats that stand upright.
+pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool, upright: bool) -> Inputs {
     let direct = facing.sun_illuminance();
     let normal = facing.surface.room_dir(Dir::from_unit(DVec3::Z));
     let normal = facing.orientation.world_from_room(normal);
@@ -65,21 +71,28 @@ pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool)
         hour,
         of_year: None,
         day: facing.sun.is_some() || facing.outside.diffuse_horizontal() > 0.0,
-        sun: sun_at(facing).filter(|_| direct > 0.0),
+        sun: sun_at(facing, upright).filter(|_| direct > 0.0),
         facade_direct: direct,
         facade_global: if global { direct + irradiance(facing.outside, normal).value } else { direct },
         indoor,
     }
 }
 
-/// The sun's disc in the section across the slats; `None` where nothing of it is seen.
-pub fn sun_at(facing: &Facing<'_>) -> Option<SunAt> {
-    let direction = facing.sun_direction()?;
-    let zenith = facing.surface.facade_from_room(DVec3::Z);
+/// Profile angle of a direction from outside in the section across slats that lie or stand upright. \[rad\]
+pub fn slat_angle(direction: Dir<Facade>, upright: bool) -> f64 {
+    let v = direction.vector();
+    if upright { v.x } else { v.y }.atan2(v.z)
+}
+
+/// The sun's disc in the section across the slats; `None` where nothing of it is seen. Slats that stand upright are lying
+/// ones turned by 90°: what was up points to the right as seen from outside.
+pub fn sun_at(facing: &Facing<'_>, upright: bool) -> Option<SunAt> {
+    let turned = |v: DVec3| if upright { DVec3::new(-v.y, v.x, v.z) } else { v };
+    let direction = Dir::from_unit(turned(facing.sun_direction()?.vector()));
+    let zenith = turned(facing.surface.facade_from_room(DVec3::Z));
     let screen = Screen { normal: zenith, offset: facing.outside.skyline_altitude().sin() };
     let span = disc_span(direction, SUN_HALF_ANGLE, screen)?;
-    let v = direction.vector();
-    Some(SunAt { centre: v.y.atan2(v.z).clamp(span[0], span[1]), span })
+    Some(SunAt { centre: slat_angle(direction, false).clamp(span[0], span[1]), span })
 }
 
 /// The settings of a controller for a device. Angles of `keys` and `device` are degrees, those of the result radians;

@@ -352,7 +352,7 @@ impl Stepper<'_> {
                 orientation: Orientation::new(here.facade),
                 surface: one.surface,
             };
-            let mut inputs = inputs(&facing, hour, one.keys.indoor, false);
+            let mut inputs = inputs(&facing, hour, one.keys.indoor, false, one.device.upright);
             let at = of_year(time);
             inputs.of_year = Some(at);
             if up {

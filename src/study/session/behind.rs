@@ -340,7 +340,7 @@ impl Split {
         let seen = eyes.map(|(share, eye)| (share, scene.outside.seen_from(eye))).collect();
         LidResult {
             lid: self.whole.lid_through(&facing, aperture.size, seen),
-            flux: self.exitance * aperture.area(),
+            flux: (self.exitance + Estimate::new(0.0, self.whole.exitance_doubt())) * aperture.area(),
             incident: (self.whole.incident_diffuse, self.whole.incident_sun),
         }
     }
@@ -383,9 +383,9 @@ impl Split {
         }
         if let Some((tau, _)) = &self.regular {
             let outside = facing.outside.seen_from(facing.orientation.to_world(sensor.position));
-            let mut all = through::illuminance(&view, &Facing { outside: &outside, ..*facing }, tau, tolerance);
-            all.error += PAST_EDGES * all.value;
-            sum += DirectLight { all, ..DirectLight::default() };
+            let mut seen = direct::seen_through(&view, &Facing { outside: &outside, ..*facing }, tau, tolerance);
+            seen.all.error += PAST_EDGES * seen.all.value;
+            sum += seen;
         }
         sum += beams_past(sensor, aperture, &self.lit, &self.rim, &self.beams, facing, around);
         sum

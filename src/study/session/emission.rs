@@ -1,13 +1,13 @@
 //! What an aperture emits: by its description for the very sun, by its data for all other light; and what of both is kept.
 
 use super::Session;
-use crate::compute::btdf::{CellMatrix, Dataset, Indicatrices, Scattered};
+use crate::compute::btdf::{Btdf, CellMatrix, Dataset, Indicatrices, Scattered};
 use crate::compute::lid::peaks::{self, Peaks};
 use crate::compute::lid::{Emission, Facing, Interpolator, SkyThrough, SunThrough};
 use crate::study::cache::bits;
-use crate::study::scene::Scene;
+use crate::study::scene::{Scene, SceneAperture};
 use crate::study::scene_file::Interpolation;
-use crate::study::system::{System, VerySystem};
+use crate::study::system::VerySystem;
 use std::sync::Arc;
 
 impl Session {
@@ -30,21 +30,21 @@ impl Session {
         let system = &scene.apertures[aperture].system;
         match system.very.as_ref().filter(|_| scene.beams) {
             Some(very) => {
-                let mut emission = self.diffuse(scene, system, very, &Facing { sun: None, ..*facing });
+                let mut emission = self.diffuse(scene, aperture, very, &Facing { sun: None, ..*facing });
                 emission.add_sun_through(&self.sun_through(very, facing).1);
                 emission
             }
-            None => self.by_data(scene, &system.dataset, facing),
+            None => self.by_data(scene, aperture, facing),
         }
     }
 
     /// What a described system makes of sky and ground.
-    fn diffuse(&self, scene: &Scene, system: &System, very: &VerySystem, facing: &Facing<'_>) -> Emission {
+    fn diffuse(&self, scene: &Scene, aperture: usize, very: &VerySystem, facing: &Facing<'_>) -> Emission {
         if !facing.outside.is_lit() {
             return Emission::dark();
         }
         if !very.answers_for_the_sky() {
-            return self.by_data(scene, &system.dataset, facing);
+            return self.by_data(scene, aperture, facing);
         }
         self.sky_through(very).1.emission(facing)
     }
@@ -78,8 +78,22 @@ impl Session {
     }
 
     /// What the data make of the outside.
-    fn by_data(&self, scene: &Scene, dataset: &Arc<Dataset>, facing: &Facing<'_>) -> Emission {
-        let btdf = dataset.transmission().expect("a resolved scene has only systems with transmission data");
+    fn by_data(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
+        let one = &scene.apertures[aperture];
+        let btdf = one.transmission().expect("a resolved scene has only systems with transmission data");
+        let mut emission = self.scattered_by_data(scene, one, btdf, facing);
+        if let (Some(_), Some(tau)) = (&one.apart, &btdf.regular) {
+            emission.notes.push(format!(
+                "data: light that keeps its direction is recognised in them, {:.1} % ± {:.1} % of it at normal incidence; \
+                 sky, ground and sun come through as sharp as they are",
+                100.0 * tau.at(0.0),
+                100.0 * tau.doubt(0.0)
+            ));
+        }
+        emission
+    }
+
+    fn scattered_by_data(&self, scene: &Scene, one: &SceneAperture, btdf: &Btdf, facing: &Facing<'_>) -> Emission {
         match &btdf.scattered {
             // Taken at their word.
             _ if scene.interpolation == Interpolation::Patch => Emission::new(btdf, facing),
@@ -89,8 +103,9 @@ impl Session {
             }
             Some(Scattered::Cells(matrix)) => {
                 let mut emission = Emission::new(btdf, facing);
+                emission.doubt_widths();
                 if emission.incident_sun > 0.0
-                    && let Some(peaks) = self.peaks(dataset, matrix, facing)
+                    && let Some(peaks) = self.peaks(one, matrix, facing)
                 {
                     emission.take_peaks(&peaks.1, facing, scene.beams);
                 }
@@ -98,6 +113,7 @@ impl Session {
             }
             Some(Scattered::Tree(tree)) => {
                 let mut emission = Emission::new(btdf, facing);
+                emission.doubt_widths();
                 emission.doubt_leaves(tree, facing);
                 emission
             }
@@ -108,12 +124,13 @@ impl Session {
     /// The beams in a matrix.
     fn peaks(
         &self,
-        dataset: &Arc<Dataset>,
+        one: &SceneAperture,
         matrix: &CellMatrix,
         facing: &Facing<'_>,
     ) -> Option<Arc<(Arc<Dataset>, Peaks)>> {
         let sun = facing.sun_entering()?;
-        let mut key = vec![Arc::as_ptr(dataset) as u64];
+        let dataset = &one.system.dataset;
+        let mut key = vec![Arc::as_ptr(dataset) as u64, u64::from(one.apart.is_some())];
         if matrix.incident().len() > peaks::MOST_CELLS {
             key.extend(matrix.incident().index(sun).map(|cell| cell as u64));
         }

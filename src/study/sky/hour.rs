@@ -5,7 +5,7 @@ use crate::compute::sky::{Distribution, Outside, SkyError};
 use crate::compute::weather::{Closure, Hour, LightSource, Reading, SunOffset, Weather};
 use crate::study::scene_file::{IlluminanceKey, SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::parse_local_time;
-use crate::study::weather::load;
+use crate::study::weather::kept;
 use crate::study::weather_keys::reading;
 use std::path::Path;
 
@@ -64,21 +64,29 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
         return Err(wrong("sky.time", "missing: sky.weather needs it, month, day and hour of the row"));
     };
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
-    let weather = load(name, base).map_err(|error| wrong("sky.weather", error.to_string()))?;
+    let kept = kept(name, base).map_err(|error| wrong("sky.weather", error.to_string()))?;
+    let (weather, closure) = (&kept.weather, kept.closure.as_ref());
+    // People read the hour off their clock; records are in the standard time of the weather's own place.
+    let time = site.dst.standard(time, weather.station.utc_offset);
     let minute = 60 * time.hour() as u16 + time.minute() as u16;
     let index = weather.find(time.month() as u8, time.day() as u8, minute).ok_or_else(|| {
         let found = format!("{} has no interval that holds {}", name.display(), time.strftime("%-d %B, %H:%M"));
         wrong("sky.time", format!("{found}; expected one of its {} rows", weather.records.len()))
     })?;
-    let reading = reading(sky.light, sky.sun_offset_minutes);
+    let asked = reading(sky.light, sky.sun_offset_minutes);
+    let reading = match (asked.offset, closure) {
+        (SunOffset::Auto, Some(closure)) if weather.tested.is_none() => {
+            Reading { offset: SunOffset::Minutes(closure.best_offset), ..asked }
+        }
+        _ => asked,
+    };
     let failed =
         |error: crate::compute::weather::HourError| wrong("sky.weather", format!("{}: {error}", name.display()));
     let mut hours = weather.hours(reading).map_err(failed)?;
     let hour = hours.at(index).map_err(failed)?;
     let record = &weather.records[index];
-    let mut warnings = places_apart(&weather, site);
-    let closure = weather.closure().map_err(|error| wrong("sky.weather", error.to_string()))?;
-    warnings.extend(clock_warning(&weather, name, reading, closure.as_ref(), "sun_offset_minutes"));
+    let mut warnings = places_apart(weather, site);
+    warnings.extend(clock_warning(weather, name, asked, closure, "sun_offset_minutes"));
     Ok(Some(HourOfWeather {
         hour,
         interval: format!("{} {}", record.day, record.clock_words(weather.interval)),

@@ -124,7 +124,7 @@ impl Engine {
             before.is_empty() && dark.is_some() && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
         let year = (question.steps.number(), question.steps.list.len());
         let table = |index: usize| {
-            let btdf = scene.apertures[index].system.dataset.transmission()?;
+            let btdf = scene.apertures[index].transmission()?;
             Some(EyeLight::new(question.session, &scene, index, btdf, &fields, year))
         };
         let tables = if tabled { (0..scene.apertures.len()).filter_map(table).collect() } else { Vec::new() };

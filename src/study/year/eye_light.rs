@@ -49,7 +49,7 @@ struct OfEye {
 /// Can an aperture's diffuse light be had this way?
 pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
     let one = &scene.apertures[index];
-    let Some(btdf) = one.system.dataset.transmission() else { return false };
+    let Some(btdf) = one.transmission() else { return false };
     let scheme = matches!(scene.diffuse_interpolation, DiffuseScheme::Auto | DiffuseScheme::Shift);
     let by_directions = scheme || scene.interpolation == Interpolation::Patch;
     let by_data = by_directions || !matches!(btdf.scattered, Some(Scattered::Directions(_)));

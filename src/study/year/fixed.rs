@@ -57,11 +57,12 @@ pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys
     if parted {
         put_at(scene, steps, at);
     } else {
+        let clock = scene.site.dst.clock(steps.list[at].time, steps.station.utc_offset);
         scene.sky = SkyKeys {
             weather: Some(keys.weather.clone()),
             light: keys.light,
             sun_offset_minutes: keys.sun_offset_minutes,
-            time: Some(TimeKey::Text(steps.list[at].time.strftime("%Y-%m-%dT%H:%M").to_string())),
+            time: Some(TimeKey::Text(clock.strftime("%Y-%m-%dT%H:%M").to_string())),
             ..bare(scene, SkyModelKey::Weather)
         };
         scene.site.ground_reflectance = steps.ground(at);

@@ -154,6 +154,7 @@ mod tests {
             values: Some(vec![0.0, 75.0]),
             curve: Vec::new(),
             section: None,
+            upright: false,
         };
         Moving { aperture: 1, surface: Surface::Facade, device, keys, section: None }
     }

@@ -228,8 +228,7 @@ impl Engine {
 
 /// The sun straight at the places through what lets it pass unscattered; `None` where nothing does.
 fn straight(scene: &Scene, outside: &Outside, sun: Option<&Sun>) -> Option<Vec<f64>> {
-    let regular =
-        |index: usize| scene.apertures[index].system.dataset.transmission().and_then(|btdf| btdf.regular.as_ref());
+    let regular = |index: usize| scene.apertures[index].transmission().and_then(|btdf| btdf.regular.as_ref());
     let through: Vec<usize> = (0..scene.apertures.len()).filter(|&index| regular(index).is_some()).collect();
     if through.is_empty() {
         return None;

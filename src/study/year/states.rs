@@ -106,7 +106,10 @@ pub(super) fn states(
             if step.hour.is_lit() {
                 begun(&controller.settings().rule, at)?;
             }
-            all.push(Inputs { of_year: at, ..inputs(&facing, step.clock, one.keys.indoor, global) });
+            all.push(Inputs {
+                of_year: at,
+                ..inputs(&facing, step.clock, one.keys.indoor, global, one.device.upright)
+            });
         }
         let time = 3600.0 * steps.length * k as f64;
         let decisions = match &mut reader {

@@ -52,7 +52,8 @@ const fn model_word(model: SkyModelKey) -> Text {
 
 /// Why the figures of a sky cannot be with a sun that stands as low as it does; `None` where they can.
 pub fn low_sun(scene: &SceneFile) -> Option<Text> {
-    let (altitude, _) = moment::sun(scene)?;
+    // Weather brings its own sun: what is typed here has none.
+    let (altitude, _) = moment::sun_of_site(scene).filter(|_| scene.sky.weather.is_none())?;
     let sky = &scene.sky;
     match sky.model {
         SkyModelKey::Cie if sky.illuminance == IlluminanceKey::Stated => {

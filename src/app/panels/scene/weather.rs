@@ -97,6 +97,7 @@ fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &
         lines(ui, &texts::clock_off(fixed(closure.best_offset, 0)), palette.warning, 2);
     }
     let moment = moment::of(scene).filter(|_| scene.sky.weather.as_deref() == Some(&*calendar.key.0)).map(|time| {
+        let time = scene.site.dst.standard(time, calendar.station.utc_offset);
         let minute = 60 * u16::from(time.hour().unsigned_abs()) + u16::from(time.minute().unsigned_abs());
         (time.month().unsigned_abs(), time.day().unsigned_abs(), minute)
     });
@@ -104,7 +105,8 @@ fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &
     if let Some((record, walking)) = calendar::show(ui, &input, view)
         && let Some(time) = calendar.starts.get(record)
     {
-        commands.push(Command::Year(YearAct::Pick(*time, walking)));
+        let clock = scene.site.dst.clock(*time, calendar.station.utc_offset);
+        commands.push(Command::Year(YearAct::Pick(clock, walking)));
     }
 }
 

@@ -12,13 +12,14 @@ use egui::cache::{ComputerMut, FrameCache};
 use egui::{Slider, Stroke, Ui, WidgetInfo};
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
+use std::path::Path;
 
 /// Steps of the time's slider. \[min\]
 const STEP: i32 = 5;
 
 /// Draws the section.
-pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
-    let Some(time) = moment::of(scene) else { return angles(ui, scene) };
+pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
+    let Some(time) = moment::of(scene) else { return angles(ui, scene, base) };
     let shown = clock::date(time.date());
     let date = typed(ui, texts::DATE, &shown, texts::DATE_TIP, |text| read_date(text, time.year()));
     if let Some(date) = date {
@@ -54,7 +55,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
         let stepped = steps as i32 * STEP;
         moment::step(scene, 0, stepped - before);
     }
-    sun(ui, scene);
+    sun(ui, scene, base);
 }
 
 /// The day of a scene, as what sunrise and sunset hang on.
@@ -84,7 +85,7 @@ fn sun_hours(ui: &Ui, scene: &SceneFile) -> Option<RiseSet> {
 }
 
 /// When the sun rises and sets, and where it stands.
-fn sun(ui: &mut Ui, scene: &SceneFile) {
+fn sun(ui: &mut Ui, scene: &SceneFile, base: &Path) {
     let day = match sun_hours(ui, scene).map(|hours| (hours.rise, hours.set)) {
         Some((Some(rise), Some(set))) => texts::rise_and_set(moment::clock(rise), moment::clock(set)),
         Some((Some(rise), None)) => texts::no_set(moment::clock(rise)),
@@ -94,12 +95,12 @@ fn sun(ui: &mut Ui, scene: &SceneFile) {
     };
     let weak = theme::palette(ui).weak;
     lines(ui, &day, weak, 1);
-    lines(ui, &position(scene), weak, 1);
+    lines(ui, &position(scene, base), weak, 1);
 }
 
 /// Where the sun stands, against horizon and façade.
-fn position(scene: &SceneFile) -> String {
-    let Some((altitude, bearing)) = moment::sun(scene) else { return String::new() };
+fn position(scene: &SceneFile, base: &Path) -> String {
+    let Some((altitude, bearing)) = moment::sun(scene, base) else { return String::new() };
     let words = moment::height_words(altitude.to_degrees(), 0);
     if altitude <= 0.0 {
         texts::sun_at(words)
@@ -110,7 +111,7 @@ fn position(scene: &SceneFile) -> String {
     }
 }
 
-fn angles(ui: &mut Ui, scene: &mut SceneFile) {
+fn angles(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     ui.weak(texts::BY_ANGLES);
     let sun = &mut scene.sky.sun;
     let mut altitude = sun.altitude.unwrap_or(40.0);
@@ -122,7 +123,7 @@ fn angles(ui: &mut Ui, scene: &mut SceneFile) {
         sun.azimuth = Some(azimuth);
     }
     let weak = theme::palette(ui).weak;
-    lines(ui, &position(scene), weak, 1);
+    lines(ui, &position(scene, base), weak, 1);
     if ui.button(texts::BY_DATE).clicked() {
         moment::set(scene, jiff::civil::date(2026, 3, 21).at(12, 0, 0, 0));
         scene.site.latitude.get_or_insert(48.78);

@@ -9,7 +9,7 @@ mod mean_field;
 mod separation;
 
 use super::{BeamLight, BeamSource, Emission, Facing};
-use crate::compute::basis::RingBasis;
+use crate::compute::basis::{Neighbours, RingBasis};
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Dir, Facade};
 use mean_field::{Covariance, MeanField, Observation, Point};
@@ -58,7 +58,7 @@ pub struct SunOnCells {
 /// What of a matrix is beams, and what is not.
 pub struct Peaks {
     matrix: CellMatrix,
-    around: Vec<Vec<usize>>,
+    around: Neighbours,
     paths: Vec<Path>,
     beams: Option<MeanField>,
     /// The strongest mean: strengths in `beams` are shares of it.
@@ -165,7 +165,7 @@ impl Peaks {
                 below += share * background;
                 if k == 0 {
                     let near: Vec<usize> =
-                        self.around[cells[0]].iter().copied().filter(|o| !turned.contains(o)).collect();
+                        self.around.of(cells[0]).iter().copied().filter(|o| !turned.contains(o)).collect();
                     let but: Vec<usize> = cells.iter().chain(turned).copied().collect();
                     let outer = parts.background(&row, &near, &but);
                     let leak = |&o: &usize| (row[o] - outer).max(0.0) * parts.weight[o];
@@ -306,7 +306,7 @@ impl Peaks {
         }
         let luminance: Vec<f64> = smooth.iter().zip(&own.uneven).map(|(a, b)| incident * (a + b)).collect();
         let surroundings = |o: usize| {
-            let near = &self.around[o];
+            let near = self.around.of(o);
             near.iter().map(|&n| smooth[n]).sum::<f64>() / near.len().max(1) as f64
         };
         let doubts = vec![
@@ -357,7 +357,9 @@ impl Emission {
         light.sun = sun.luminance;
         light.doubts.extend(sun.doubts);
         self.beams.extend(sun.beams);
-        self.beam_source = if sharp && found { BeamSource::Extracted } else { BeamSource::Cells };
+        if sharp && found {
+            self.beam_source = BeamSource::Extracted;
+        }
         self.notes.push(if sharp { sun.note } else { format!("{}, as asked for", LEFT) });
     }
 }

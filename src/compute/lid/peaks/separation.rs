@@ -2,7 +2,7 @@
 //! surrounds them.
 
 use super::mean_field::{Point, points};
-use crate::compute::basis::RingBasis;
+use crate::compute::basis::Neighbours;
 use crate::compute::btdf::CellMatrix;
 use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
@@ -57,7 +57,7 @@ pub(super) struct Reached {
 pub(super) struct Separation<'a> {
     pub(super) matrix: &'a CellMatrix,
     /// Emergent cells that touch each emergent cell.
-    pub(super) around: Vec<Vec<usize>>,
+    pub(super) around: Neighbours,
     pub(super) incident_weight: Vec<f64>,
     pub(super) weight: Vec<f64>,
     points: Vec<Vec<Point>>,
@@ -67,7 +67,7 @@ impl<'a> Separation<'a> {
     pub(super) fn new(matrix: &'a CellMatrix) -> Self {
         Self {
             matrix,
-            around: around(matrix.emergent()),
+            around: Neighbours::new(matrix.emergent()),
             incident_weight: matrix.incident().projected_solid_angles(),
             weight: matrix.emergent().projected_solid_angles(),
             points: (0..matrix.incident().len()).map(|i| points(matrix.incident(), i)).collect(),
@@ -105,18 +105,9 @@ impl<'a> Separation<'a> {
         Reached { points, cells }
     }
 
-    /// Luminance coefficient that surrounds emergent cells: the median of what touches them, `but` left out. \[1/sr\]
+    /// Luminance coefficient that surrounds emergent cells, `but` left out. \[1/sr\]
     pub(super) fn background(&self, row: &[f64], cells: &[usize], but: &[usize]) -> f64 {
-        let mut near: Vec<usize> = cells.iter().flat_map(|&o| self.around[o].iter().copied()).collect();
-        near.sort_unstable();
-        near.dedup();
-        let mut values: Vec<f64> =
-            near.into_iter().filter(|o| !cells.contains(o) && !but.contains(o)).map(|o| row[o]).collect();
-        values.sort_unstable_by(f64::total_cmp);
-        match values.len() {
-            0 => 0.0,
-            n => 0.5 * (values[(n - 1) / 2] + values[n / 2]),
-        }
+        self.around.level(row, cells, but)
     }
 
     /// The mirrors that best explain what stands out beside the straight beam, if any do.
@@ -164,20 +155,4 @@ impl<'a> Separation<'a> {
         }
         (best.0 > EXPLAINED).then_some(Path::Mirrored(best.1))
     }
-}
-
-/// Cells that touch each cell, by borders in common.
-fn around(basis: &RingBasis) -> Vec<Vec<usize>> {
-    let cells: Vec<_> = basis.cells().collect();
-    let touch = |a: usize, b: usize| {
-        let (p, q) = (&cells[a], &cells[b]);
-        let apart = (p.phi - q.phi).rem_euclid(2.0 * PI);
-        let apart = apart.min(2.0 * PI - apart);
-        let slack = 1e-6;
-        let same_ring = (p.theta_min - q.theta_min).abs() < slack;
-        let next_ring = (p.theta_max - q.theta_min).abs() < slack || (q.theta_max - p.theta_min).abs() < slack;
-        let half = 0.5 * (p.width + q.width);
-        a != b && ((same_ring && apart < half + slack) || (next_ring && apart < half - slack))
-    };
-    (0..cells.len()).map(|a| (0..cells.len()).filter(|&b| touch(a, b)).collect()).collect()
 }

@@ -1,0 +1,80 @@
+//! Which cells of a division touch each other.
+
+use super::rings::RingBasis;
+use std::f64::consts::PI;
+
+/// Borders nearer than this are the same. \[rad\]
+const SLACK: f64 = 1e-6;
+
+/// For every cell those that share a border with it.
+#[derive(Debug, Clone)]
+pub struct Neighbours(Vec<Vec<usize>>);
+
+impl Neighbours {
+    /// Of the cells of a division.
+    pub fn new(basis: &RingBasis) -> Self {
+        let cells: Vec<_> = basis.cells().collect();
+        let of_ring = |ring: usize| basis.first_cell(ring)..basis.first_cell(ring) + basis.rings()[ring].sectors;
+        let last = basis.rings().len() - 1;
+        let mut list = Vec::with_capacity(cells.len());
+        for ring in 0..=last {
+            for a in of_ring(ring) {
+                let touches = |b: &usize| {
+                    let (p, q) = (&cells[a], &cells[*b]);
+                    let apart = (p.phi - q.phi).rem_euclid(2.0 * PI);
+                    let apart = apart.min(2.0 * PI - apart);
+                    // Of the next ring a corner in common is not enough.
+                    let slack = if of_ring(ring).contains(b) { SLACK } else { -SLACK };
+                    a != *b && apart < 0.5 * (p.width + q.width) + slack
+                };
+                list.push((ring.saturating_sub(1)..=(ring + 1).min(last)).flat_map(of_ring).filter(touches).collect());
+            }
+        }
+        Self(list)
+    }
+
+    /// Of one cell.
+    pub fn of(&self, cell: usize) -> &[usize] {
+        &self.0[cell]
+    }
+
+    /// Those of some cells, `but` and themselves left out; each once, in order.
+    pub fn about(&self, cells: &[usize], but: &[usize]) -> Vec<usize> {
+        let mut near: Vec<usize> = cells.iter().flat_map(|&cell| self.of(cell).iter().copied()).collect();
+        near.retain(|cell| !cells.contains(cell) && !but.contains(cell));
+        near.sort_unstable();
+        near.dedup();
+        near
+    }
+
+    /// What surrounds some cells: the median of the values about them, `but` left out; 0 where nothing does.
+    pub fn level(&self, values: &[f64], cells: &[usize], but: &[usize]) -> f64 {
+        let mut near: Vec<f64> = self.about(cells, but).into_iter().map(|cell| values[cell]).collect();
+        near.sort_unstable_by(f64::total_cmp);
+        match near.len() {
+            0 => 0.0,
+            n => 0.5 * (near[(n - 1) / 2] + near[n / 2]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::basis::AzimuthMap;
+
+    #[test]
+    fn who_touches_is_touched() {
+        for basis in [RingBasis::klems_full(AzimuthMap::KLEMS_FRONT), RingBasis::tregenza(), RingBasis::equal_area(9)] {
+            let near = Neighbours::new(&basis);
+            for a in 0..basis.len() {
+                assert!(near.of(a).len() >= 3 && near.of(a).iter().all(|&b| b != a && near.of(b).contains(&a)), "{a}");
+            }
+        }
+        // The cap and its ring.
+        let klems = Neighbours::new(&RingBasis::klems_full(AzimuthMap::KLEMS_FRONT));
+        assert_eq!(klems.of(0), [1, 2, 3, 4, 5, 6, 7, 8]);
+        let values: Vec<f64> = (0..145).map(f64::from).collect();
+        assert_eq!(klems.level(&values, &[0], &[8]), 4.0);
+    }
+}

@@ -1,0 +1,289 @@
+//! Regular light in data that hold it as a part of what they scatter: a pane in a file of patches is a diagonal of them, and
+//! the width of a patch blurs what a designer sees clear. Where light keeps its direction it is known to: then only how much
+//! of it passes at an angle of incidence has to be found, from what its means over patches or its values at single
+//! directions say, and how far they leave it open.
+//!
+//! Light is taken for regular that
+//! - lies in the emergent cells alone that an incident direction has for a name, nothing of it in those about them, as a
+//!   lobe of any width would have;
+//! - depends on the angle to the normal alone, as behind panes, sheets with holes, and fabrics.
+//!
+//! τ(θ) is the smoothest function of cosθ with the data's means (Gaussian process with a Matérn covariance of order 5/2;
+//! Rasmussen & Williams 2006, ch. 2 and 4), 0 at 90° where that is no surprise.
+
+use super::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered};
+use crate::compute::basis::{Neighbours, RingBasis, sub_directions};
+use crate::compute::direction::{Dir, Facade};
+use crate::compute::quadrature::gauss_legendre;
+use faer::linalg::solvers::{Llt, Solve};
+use faer::{Mat, Side};
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
+
+/// Of what is taken for regular light, the most that may lie in the cells about it: a lobe of a degree in a cell of ten
+/// leaves 15 %.
+const LEAK: f64 = 0.02;
+/// Of even light that surrounds it, the least that it must be.
+const STANDS_OUT: f64 = 0.5;
+/// Least share of all light that is worth it.
+const LEAST: f64 = 1e-3;
+/// Of the strongest, how far τ may differ at the same angle to the normal ...
+const EVEN: f64 = 0.01;
+/// ... and of the light that surrounds it: how well that is known.
+const ROUGH: f64 = 0.3;
+/// Incident directions whose angles differ less have the same. \[1/rad\]
+const SAME_ANGLE: f64 = 1800.0 / PI;
+/// Angles at which τ must be known at least, and the least that the largest of them must be. \[rad\]
+const KNOWN: (usize, f64) = (4, 65.0 * PI / 180.0);
+/// Directions a side of an incident cell by which the emergent ones are found that hold its names.
+const NAMES: usize = 8;
+/// Light of a single direction may be held beside it: nearer to the normal or farther away \[rad\] ...
+const BESIDE: f64 = 0.3 * PI / 180.0;
+/// ... and where a row was turned about the normal, in cells at both sides, as a share of their width.
+const TURNED: f64 = 0.999;
+/// Gauss points for the mean over a cell.
+const ACROSS: usize = 8;
+/// Length of the covariance over cosθ, and what the data are known to, relative to the strongest: digits of files.
+const LENGTH: f64 = 1.0;
+const DIGITS: f64 = 1e-4;
+/// τ(90°) = 0 is believed if it lies within so many standard errors of what the data say alone: panes of one to three sheets
+/// are within 3.6 on all usual lattices, an opening is beyond 11.
+const NO_SURPRISE: f64 = 4.0;
+/// How well it is then known.
+const AT_GRAZING: f64 = 1e-3;
+/// Standard errors that are stated, the largest within so many degrees: true errors of panes at single angles are up to three
+/// of their own, of means over ten degrees half as many.
+const STATED: f64 = 3.5;
+const WITHIN: usize = 8;
+/// Deviations of less than this share of the largest, squared, are left out.
+const FAINT: f64 = 1e-4;
+
+/// One row of the data.
+struct Row {
+    /// Angle to the normal, for rows with the same. \[rad\]
+    theta: f64,
+    /// Cosines of incidence with weights that sum to 1.
+    points: Vec<(f64, f64)>,
+    /// Emergent cells that hold its names.
+    names: Vec<usize>,
+    /// Share of the hemisphere that it stands for.
+    share: f64,
+}
+
+/// What the rows of one angle say.
+#[derive(Clone)]
+struct Known {
+    theta: f64,
+    points: Vec<(f64, f64)>,
+    tau: f64,
+    /// Standard error.
+    noise: f64,
+}
+
+/// The same function with the regular light apart that its data hold in cells; `None` where they hold none.
+pub fn regular_apart(btdf: &Btdf) -> Option<Btdf> {
+    if btdf.regular.is_some() {
+        return None;
+    }
+    match btdf.scattered.as_ref()? {
+        Scattered::Cells(matrix) => {
+            let (incident, emergent) = (matrix.incident(), matrix.emergent());
+            let rows: Vec<Row> = incident.cells().map(|cell| Row::of_cell(&cell, emergent)).collect();
+            let (tau, rest) = apart(&rows, emergent, |i| matrix.row(i).into_owned())?;
+            let rest = rest.map(|rest| CellMatrix::new(incident.clone(), emergent.clone(), rest));
+            Some(Btdf { regular: Some(tau), scattered: rest.flatten().map(|rest| Scattered::Cells(Box::new(rest))) })
+        }
+        Scattered::Directions(data) => {
+            let of = |(d, share): (&crate::compute::direction::Incident, &f64)| Row::of_direction(d.0, *share, data);
+            let rows: Vec<Row> = data.incident().iter().zip(data.shares()).map(of).collect();
+            let (tau, rest) = apart(&rows, data.emergent(), |i| data.row(i).into_owned())?;
+            let rest = rest.map(|rest| Indicatrices::new(data.incident().to_vec(), data.emergent().clone(), rest));
+            let scattered = rest.flatten().map(|rest| Scattered::Directions(Arc::new(rest)));
+            Some(Btdf { regular: Some(tau), scattered })
+        }
+        Scattered::Lambert(_) | Scattered::Tree(_) => None,
+    }
+}
+
+fn held(emergent: &RingBasis, names: impl Iterator<Item = Dir<Facade>>) -> Vec<usize> {
+    let mut cells: Vec<usize> = names.filter_map(|name| emergent.index(name)).collect();
+    cells.sort_unstable();
+    cells.dedup();
+    cells
+}
+
+impl Row {
+    fn of_cell(cell: &crate::compute::basis::Cell, emergent: &RingBasis) -> Self {
+        let [low, high] = [cell.theta_min, cell.theta_max].map(|theta| theta.sin().powi(2));
+        let points = gauss_legendre(ACROSS).into_iter().map(|(at, w)| ((1.0 - low - (high - low) * at).sqrt(), w));
+        Self {
+            theta: cell.theta(),
+            points: points.collect(),
+            names: held(emergent, sub_directions(cell, NAMES)),
+            share: cell.projected_solid_angle() / PI,
+        }
+    }
+
+    fn of_direction(d: Dir<Facade>, share: f64, data: &Indicatrices) -> Self {
+        let v = d.vector();
+        let own = data.emergent().index(d).map_or(0.0, |cell| data.emergent().cell(cell).width);
+        let turns = [-1.0, -0.5, 0.0, 0.5, 1.0].map(|part| TURNED * part * own);
+        let about = [-BESIDE, 0.0, BESIDE].into_iter().flat_map(|by| {
+            turns.map(|turn| Dir::from_theta_phi((d.theta() + by).clamp(0.0, FRAC_PI_2), d.phi() + turn))
+        });
+        Self { theta: d.theta(), points: vec![(v.z, 1.0)], names: held(data.emergent(), about), share }
+    }
+}
+
+/// Regular transmittance and what is left, row by row; nothing where that is no light at all.
+fn apart(
+    rows: &[Row],
+    emergent: &RingBasis,
+    row: impl Fn(usize) -> Vec<f64>,
+) -> Option<(AngularTransmittance, Option<Vec<f64>>)> {
+    let weight = emergent.projected_solid_angles();
+    let near = Neighbours::new(emergent);
+    let flux = |q: &[f64], cells: &[usize]| cells.iter().map(|&cell| q[cell] * weight[cell]).sum::<f64>();
+    let mut rest = Vec::with_capacity(rows.len() * weight.len());
+    let (mut all, mut straight, mut even, mut leaked) = (0.0, 0.0, 0.0, 0.0);
+    // Straight flux of every row, and what surrounds it.
+    let mut found: Vec<[f64; 2]> = Vec::with_capacity(rows.len());
+    for (index, own) in rows.iter().enumerate() {
+        let mut q = row(index);
+        let level = near.level(&q, &own.names, &[]);
+        let wide: f64 = own.names.iter().map(|&cell| weight[cell]).sum();
+        let inside = flux(&q, &own.names);
+        let background = (level * wide).min(inside);
+        let about = near.about(&own.names, &[]);
+        let outer = near.level(&q, &about, &own.names);
+        // What leaks out of a lobe does so on all sides: twice the lesser half of it.
+        let mut leaks: Vec<f64> = about.iter().map(|&cell| (q[cell] - outer).max(0.0) * weight[cell]).collect();
+        leaks.sort_unstable_by(f64::total_cmp);
+        leaked += own.share * 2.0 * leaks[..leaks.len() / 2].iter().sum::<f64>();
+        all += own.share * q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
+        straight += own.share * (inside - background);
+        even += own.share * background;
+        found.push([inside - background, background]);
+        own.names.iter().for_each(|&cell| q[cell] = q[cell].min(level));
+        rest.extend(q);
+    }
+    if straight <= LEAST * all || straight < STANDS_OUT * even || leaked > LEAK * straight {
+        return None;
+    }
+    let tau = transmittance(&by_angle(rows, &found)?)?;
+    let scattered = all - straight > 1e-6 * all;
+    Some((tau, scattered.then_some(rest)))
+}
+
+/// What rows of the same angle say together; `None` where they contradict each other.
+fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
+    let key = |row: &Row| (row.theta * SAME_ANGLE).round() as i64;
+    let mut groups = std::collections::BTreeMap::<i64, Vec<usize>>::new();
+    (0..rows.len()).for_each(|row| groups.entry(key(&rows[row])).or_default().push(row));
+    let strongest = found.iter().map(|[tau, _]| *tau).fold(0.0, f64::max);
+    let known: Option<Vec<Known>> = groups
+        .into_values()
+        .map(|list| {
+            let mean = |of: usize| list.iter().map(|&row| found[row][of]).sum::<f64>() / list.len() as f64;
+            let (tau, background) = (mean(0), mean(1));
+            let apart = list.iter().map(|&row| (found[row][0] - tau).abs()).fold(0.0, f64::max);
+            let noise = (DIGITS * strongest).hypot(ROUGH * background).hypot(apart);
+            let row = &rows[list[0]];
+            let agree = apart <= EVEN * strongest + ROUGH * background;
+            agree.then(|| Known { theta: row.theta, points: row.points.clone(), tau, noise })
+        })
+        .collect();
+    let reach = |known: &Vec<Known>| known.iter().map(|one| one.theta).fold(0.0, f64::max) >= KNOWN.1;
+    known.filter(|known| known.len() >= KNOWN.0 && reach(known))
+}
+
+/// The smoothest function through what is known.
+struct Smooth<'a> {
+    known: &'a [Known],
+    factor: Llt<f64>,
+    solved: Mat<f64>,
+    /// Of the function itself.
+    variance: f64,
+    /// How far each of them is off what all others say, squared, in units of what they should know it to.
+    surprise: Vec<f64>,
+}
+
+fn covariance(a: f64, b: f64) -> f64 {
+    let r = 5.0_f64.sqrt() * (a - b).abs() / LENGTH;
+    (1.0 + r + r * r / 3.0) * (-r).exp()
+}
+
+impl<'a> Smooth<'a> {
+    fn new(known: &'a [Known]) -> Option<Self> {
+        let n = known.len();
+        let strongest = known.iter().map(|one| one.tau).fold(0.0, f64::max);
+        let between = |a: &Known, b: &Known| -> f64 {
+            a.points.iter().flat_map(|p| b.points.iter().map(move |q| p.1 * q.1 * covariance(p.0, q.0))).sum()
+        };
+        let noise = |i: usize, j: usize| if i == j { (known[i].noise / strongest).powi(2) } else { 0.0 };
+        let matrix = Mat::from_fn(n, n, |i, j| between(&known[i], &known[j]) + noise(i, j));
+        let factor = matrix.llt(Side::Lower).ok()?;
+        let values = Mat::from_fn(n, 1, |i, _| known[i].tau);
+        let solved = factor.solve(&values);
+        let variance = (0..n).map(|i| values[(i, 0)] * solved[(i, 0)]).sum::<f64>() / n as f64;
+        // Leaving one out: its residual is [C⁻¹y]ᵢ/[C⁻¹]ᵢᵢ, its variance 1/[C⁻¹]ᵢᵢ.
+        let inverse = factor.solve(&Mat::<f64>::identity(n, n));
+        let surprise = (0..n).map(|i| solved[(i, 0)].powi(2) / (inverse[(i, i)] * variance)).collect();
+        Some(Self { known, factor, solved, variance, surprise })
+    }
+
+    /// Value and standard error at a cosine of incidence, and what the data about it are off what they should be, squared.
+    fn at(&self, cosine: f64) -> [f64; 3] {
+        let one = |known: &Known| known.points.iter().map(|p| p.1 * covariance(p.0, cosine)).sum::<f64>();
+        let n = self.known.len();
+        let here = Mat::from_fn(n, 1, |i, _| one(&self.known[i]));
+        let told = self.factor.solve(&here);
+        let sum = |of: &dyn Fn(usize) -> f64| (0..n).map(of).sum::<f64>();
+        let value = sum(&|i| here[(i, 0)] * self.solved[(i, 0)]);
+        let variance = self.variance * (1.0 - sum(&|i| here[(i, 0)] * told[(i, 0)])).max(0.0);
+        // Where the function is smoother than it is on the whole, its neighbours know it better than the variance says; where
+        // it has kinks, worse.
+        let weights = sum(&|i| told[(i, 0)].powi(2));
+        let surprise = sum(&|i| told[(i, 0)].powi(2) * self.surprise[i]) / weights.max(1e-300);
+        [value, variance.sqrt(), surprise]
+    }
+}
+
+impl Smooth<'_> {
+    /// Deviations of the values at whole degrees that are independent of each other, scaled degree by degree: what the
+    /// covariance of what is not known is made of.
+    fn modes(&self, scale: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let (n, count) = (self.known.len(), scale.len());
+        let cosine = |degree: usize| (degree as f64).to_radians().cos();
+        let one = |i: usize, at: f64| self.known[i].points.iter().map(|p| p.1 * covariance(p.0, at)).sum::<f64>();
+        let here = Mat::from_fn(n, count, |i, degree| one(i, cosine(degree)));
+        let told = here.transpose() * self.factor.solve(&here);
+        let left = Mat::from_fn(count, count, |i, j| self.variance * (covariance(cosine(i), cosine(j)) - told[(i, j)]));
+        let parts = left.self_adjoint_eigen(Side::Lower).ok()?;
+        let (sizes, shapes) = (parts.S().column_vector(), parts.U());
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        let kept = (0..count).filter(|&k| sizes[k] > FAINT * largest);
+        Some(kept.map(|k| (0..count).map(|i| scale[i] * sizes[k].sqrt() * shapes[(i, k)]).collect()).collect())
+    }
+}
+
+fn transmittance(known: &[Known]) -> Option<AngularTransmittance> {
+    let strongest = known.iter().map(|one| one.tau).fold(0.0, f64::max);
+    let end = Known { theta: FRAC_PI_2, points: vec![(0.0, 1.0)], tau: 0.0, noise: AT_GRAZING * strongest };
+    let with_end: Vec<Known> = known.iter().cloned().chain([end]).collect();
+    let mut smooth = Smooth::new(known)?;
+    let [value, error, _] = smooth.at(0.0);
+    if value.abs() <= NO_SURPRISE * error {
+        smooth = Smooth::new(&with_end)?;
+    }
+    let values: Vec<[f64; 3]> = (0..=90).map(|degree| smooth.at(f64::from(degree).to_radians().cos())).collect();
+    let tau: Vec<f64> = values.iter().map(|[tau, ..]| tau.clamp(0.0, 1.0)).collect();
+    let doubt = |degree: usize| {
+        let about = &values[degree.saturating_sub(WITHIN)..=(degree + WITHIN).min(90)];
+        let stated = about.iter().map(|[_, error, surprise]| error * surprise.sqrt()).fold(0.0, f64::max);
+        (STATED * stated).min(tau[degree].max(1.0 - tau[degree]))
+    };
+    let doubt = (0..=90).map(doubt).collect();
+    let scale: Vec<f64> = values.iter().map(|[.., surprise]| STATED * surprise.sqrt()).collect();
+    Some(AngularTransmittance::Estimated { tau, doubt, modes: smooth.modes(&scale)? })
+}
