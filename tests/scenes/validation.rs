@@ -12,6 +12,9 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::path::Path;
 
+/// The data as they are: light keeps to their cells.
+const PATCH: &str = "interpolation = \"patch\"";
+
 fn close(got: f64, want: f64, relative: f64, what: &str) {
     assert!((got - want).abs() <= relative * want.abs(), "{what}: {got} instead of {want}");
 }
@@ -93,6 +96,7 @@ fn an_endless_uniform_outside_looks_the_same_through_every_colourless_system() {
                 sky: UNIFORM.into(),
                 ground: 1.0,
                 sensors: points(&list, [0.0, 0.0, 1.0]),
+                compute: PATCH.into(),
                 ..Text::default()
             };
             compute(&text.scene_with(straight_cells()))
@@ -113,7 +117,7 @@ fn straight_cells_keep_the_flux_of_a_clear_opening() {
     for sky in [OVERCAST.to_owned(), clear(35.0, 200.0, 0.0), clear(35.0, 200.0, 70_000.0)] {
         let fluxes = [TRANSPARENT, MADE].map(|system| {
             let apertures = vec![facade([0.5, 1.0], [3.0, 1.5], system)];
-            let text = Text { apertures, sky: sky.clone(), ground: 0.2, ..Text::default() };
+            let text = Text { apertures, sky: sky.clone(), ground: 0.2, compute: PATCH.into(), ..Text::default() };
             compute(&text.scene_with(straight_cells())).flux.value
         });
         close(fluxes[1], fluxes[0], 1e-5, &sky);

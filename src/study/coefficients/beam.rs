@@ -41,7 +41,7 @@ impl Coefficients {
                 continue;
             }
             let beams = match self.parts[index].sun.light(&facing, self.suns, sensors) {
-                Some(found) => self.add_scattered(index, found, &mut sums),
+                Some(found) => self.add_scattered(index, &facing, found, &mut sums),
                 None => self.add_data(index, &facing, doubts, &mut sums),
             };
             let aperture = &self.scene.apertures[index].aperture;
@@ -114,14 +114,22 @@ impl Coefficients {
     }
 
     /// Adds light found for this very sun, and gives its beams.
-    fn add_scattered(&self, index: usize, found: SunLight, sums: &mut [Estimate]) -> Vec<BeamLight> {
-        let (clear, sensors) = (self.parts[index].clear, sums.len());
+    fn add_scattered(
+        &self,
+        index: usize,
+        facing: &Facing<'_>,
+        found: SunLight,
+        sums: &mut [Estimate],
+    ) -> Vec<BeamLight> {
+        let part = &self.parts[index];
+        let (clear, sensors) = (part.clear, sums.len());
         for (s, sum) in sums.iter_mut().enumerate() {
             let [value, reflected, doubt] = [0, 1, 2].map(|row| clear * found.light[row * sensors + s]);
             let error = doubt.hypot(self.rest() * reflected) + clear * found.errors[s];
             *sum += Estimate::new(value, error);
         }
-        found.beams.into_iter().map(|beam| beam.scaled(clear)).collect()
+        let regular = part.regular.as_ref().filter(|_| part.sun.leaves_regular());
+        found.beams.into_iter().chain(BeamLight::regular(regular, facing)).map(|beam| beam.scaled(clear)).collect()
     }
 
     /// The same by the data's own cells or directions.

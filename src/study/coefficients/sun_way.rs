@@ -57,6 +57,11 @@ pub(super) struct SunLight {
 }
 
 impl SunWay {
+    /// Is what the data keep apart as regular not among the beams?
+    pub const fn leaves_regular(&self) -> bool {
+        matches!(self, Self::Peaks(_))
+    }
+
     /// Of one aperture; `bands`: how a described system scatters, where that is by profile angle.
     pub fn new(
         session: &Session,
