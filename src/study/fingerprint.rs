@@ -8,6 +8,10 @@ use crate::catalogue::Product;
 use crate::formats::system_toml::is_system_file;
 use std::path::Path;
 
+/// Number of the definitions that results follow. Raised whenever the same inputs come to give other numbers, so that nothing
+/// that an earlier build has kept is continued.
+const DEFINITIONS: &str = "2";
+
 /// Of parts in their order. Half a hash is enough to tell millions apart.
 pub fn digest(parts: &[&[u8]]) -> String {
     let mut hash = blake3::Hasher::new();
@@ -18,11 +22,11 @@ pub fn digest(parts: &[&[u8]]) -> String {
     hash.finalize().to_hex()[..16].to_owned()
 }
 
-/// A scene as parts: the program's version, its keys, and what stands in the files that it names.
+/// A scene as parts: the program's version and definitions, its keys, and what stands in the files that it names.
 pub fn of_scene(scene: &SceneFile, base: &Path) -> Vec<Vec<u8>> {
     // What cannot be written is told apart by its debug form.
     let text = toml::to_string(scene).unwrap_or_else(|_| format!("{scene:?}"));
-    let mut parts = vec![env!("CARGO_PKG_VERSION").as_bytes().to_vec(), text.into_bytes()];
+    let mut parts = vec![env!("CARGO_PKG_VERSION").into(), DEFINITIONS.into(), text.into_bytes()];
     // Where a file lies does not matter: what is in it does. One that cannot be read is told when it is needed.
     let files = inputs_of(scene, base);
     parts.extend(files.iter().map(|path| std::fs::read(path).unwrap_or_default()));

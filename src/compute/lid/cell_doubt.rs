@@ -17,7 +17,7 @@ impl Emission {
         let Some(light) = self.cells.first_mut() else { return };
         // Beyond the aperture's own plane there is no light: towards it luminances fall.
         let value = |d: DVec3| Dir::new(d).filter(|_| d.z > 0.0).and_then(|d| light.basis.index(d));
-        let mut doubts = vec![Vec::with_capacity(light.basis.len()); 3];
+        let mut doubts = [const { Vec::new() }; 3];
         for (cell, own) in light.basis.cells().zip(&light.diffuse) {
             let (v, width) = (cell.centre().vector(), cell.solid_angle().sqrt());
             let [[left, right], [below, above]] = [DVec3::X, DVec3::Y].map(|axis| {
