@@ -351,9 +351,9 @@ fn the_accuracy_of_a_ranking_is_told_by_effort() {
     assert_eq!(settings[2..5], targets);
     let (finest, others) = rankings.split_last().unwrap();
     assert!(finest["error_target"] == 0.003 && finest["error_rms"].is_null() && finest["coverage"].is_null());
-    // Four products in two lists.
+    // Four products in two lists, of data in two rings, which leave open where in them the light goes.
     let apart = finest["pairs"]["apart"].as_u64().unwrap();
-    assert!(finest["pairs"]["all"] == 12 && (4..=12).contains(&apart), "{finest}");
+    assert!(finest["pairs"]["all"] == 12 && (3..=12).contains(&apart), "{finest}");
     for one in others {
         assert!(one["seconds"].as_f64().unwrap() > 0.0 && one["stated_mean"].as_f64().unwrap() > 0.0, "{one}");
         assert!(one["pairs"]["apart"] == apart && one["pairs"]["reversed"] == 0, "{one}");

@@ -12,17 +12,17 @@ const HALVES: f64 = 0.2;
 const MIDDLE: f64 = 0.5;
 
 impl Emission {
-    /// Doubts the diffuse light on the data's cells by its change along both axes of the façade frame.
+    /// Doubts the diffuse light on the data's cells by its change along both axes of the façade frame. Towards the aperture's
+    /// own plane it goes on as it is.
     pub fn doubt_widths(&mut self) {
         let Some(light) = self.cells.first_mut() else { return };
-        // Beyond the aperture's own plane there is no light: towards it luminances fall.
         let value = |d: DVec3| Dir::new(d).filter(|_| d.z > 0.0).and_then(|d| light.basis.index(d));
         let mut doubts = [const { Vec::new() }; 3];
         for (cell, own) in light.basis.cells().zip(&light.diffuse) {
             let (v, width) = (cell.centre().vector(), cell.solid_angle().sqrt());
             let [[left, right], [below, above]] = [DVec3::X, DVec3::Y].map(|axis| {
                 let step = width * (axis - v * axis.dot(v)).normalize_or_zero();
-                [v - step, v + step].map(|d| value(d).map_or(0.0, |k| light.diffuse[k]))
+                [v - step, v + step].map(|d| value(d).map_or(*own, |k| light.diffuse[k]))
             });
             doubts[0].push(HALVES * (right - left));
             doubts[1].push(HALVES * (above - below));
