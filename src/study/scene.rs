@@ -14,7 +14,7 @@ use super::scene_file::{
 use super::scene_places::{apertures, clear, room, sensors, within};
 use super::sky::{HourOfWeather, Illuminances, hour_of_weather, illuminances, outside_from_keys};
 use super::sun_position::parse_local_time;
-use super::system::{Need, System, SystemLibrary, regular_apart};
+use super::system::{Need, System, SystemLibrary, separate_regular};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::{Btdf, CellMatrix};
 use crate::compute::direction::Orientation;
@@ -41,8 +41,8 @@ pub struct SceneAperture {
     pub aperture: Aperture,
     /// What fills it.
     pub system: Arc<System>,
-    /// What its data make of light, where that is not as they hold it: with the regular light in them apart.
-    pub apart: Option<Arc<Btdf>>,
+    /// Its transmission with regular transmission separated, where that is recognised in patch-averaged data.
+    pub separated: Option<Arc<Btdf>>,
     /// Diffuse reflectance of the room side.
     pub reflectance: f64,
     /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
@@ -58,10 +58,10 @@ pub struct SceneAperture {
 }
 
 impl SceneAperture {
-    /// What the system's data make of light from outside, the regular light in them apart unless the scene takes them at
-    /// their word; `None` for luminaires.
+    /// Transmission for light from outside, regular transmission separated unless the scene uses the data as given; `None` for
+    /// luminaires.
     pub fn transmission(&self) -> Option<&Btdf> {
-        self.apart.as_deref().or_else(|| self.system.dataset.transmission())
+        self.separated.as_deref().or_else(|| self.system.dataset.transmission())
     }
 
     /// Sensors nearer than this see the structure, which the data do not hold; `None` where it is not known. \[m\]
@@ -224,11 +224,11 @@ impl Scene {
                 };
             let clear = clear(keys, index)?;
             let controlled = picked;
-            let apart = if beams { regular_apart(&system.dataset) } else { None };
+            let separated = if beams { separate_regular(&system.dataset) } else { None };
             list.push(SceneAperture {
                 aperture,
                 system,
-                apart,
+                separated,
                 reflectance,
                 structure,
                 directional,

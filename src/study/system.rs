@@ -52,9 +52,8 @@ impl PartialEq for VerySystem {
     }
 }
 
-/// What a dataset makes of light with the regular light apart that its data hold in cells; `None` where they hold none.
-/// Found once a dataset.
-pub fn regular_apart(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
+/// Transmission of a dataset with regular transmission separated; `None` where none is recognised. Computed once a dataset.
+pub fn separate_regular(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
     type Known = (Weak<Dataset>, Option<Arc<Btdf>>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
     // What is kept is whole even if another thread has failed while it held the lock.
@@ -63,7 +62,7 @@ pub fn regular_apart(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
     if let Some((_, found)) = kept().iter().find(|known| same(known)) {
         return found.clone();
     }
-    let found = dataset.transmission().and_then(btdf::regular_apart).map(Arc::new);
+    let found = dataset.transmission().and_then(btdf::separate_regular).map(Arc::new);
     let mut kept = kept();
     // An address that is held, if by a weak reference alone, is no other's.
     kept.retain(|(other, _)| other.strong_count() > 0);

@@ -103,7 +103,8 @@ impl Tally {
             self.held += usize::from(off <= total.error + 1e-3 * want + 1e-3);
             self.worst = self.worst.max(off / want.max(1.0));
         }
-        self.recognised |= result.plan.stages.iter().any(|stage| stage.reason.contains("is recognised"));
+        self.recognised |=
+            result.plan.stages.iter().any(|stage| stage.reason.contains("regular transmission recognised"));
     }
 }
 

@@ -160,6 +160,8 @@ pub struct Drawing {
     view: control::State,
     today: Cache<Option<(rules::YearKey, i16)>, Vec<control::TracePoint>>,
     curve: Cache<CurveKey, Vec<[f64; 2]>>,
+    /// Are the slats of this description vertical?
+    upright: Cache<String, bool>,
 }
 
 impl Drawn for Drawing {
@@ -215,7 +217,8 @@ impl Drawn for Drawing {
         }
         let moving = states.len() > 1;
         let sun = sun_incident(scene, &state.base());
-        let upright = product.as_deref().is_some_and(|product| is_upright(&product.system));
+        let system = product.as_deref().map_or("", |product| &product.system);
+        let upright = *self.upright.get(system.to_owned(), || is_upright(system));
         let still = still(title::selected(state));
         let remark = match (&key, moving) {
             (_, false) => String::new(),

@@ -10,14 +10,14 @@ pub enum AngularTransmittance {
     /// Values at θ = 0 … 90° in equal steps, at least two; between them piecewise cubic, never beyond the values
     /// at both sides.
     Table(Vec<f64>),
-    /// The same found in data that do not tell it by themselves, such as means over cells; all at 0, 1 … 90°.
+    /// The same estimated from other data, such as means over patches; all at 0, 1 … 90°.
     Estimated {
         /// Values as of a table.
         tau: Vec<f64>,
-        /// How far each may be off by itself.
-        doubt: Vec<f64>,
-        /// How far they may be off together: independent deviations of all of them, each signed, whose light is to be added
-        /// by squares. What is too much at one angle is too little at another.
+        /// Uncertainty of each value for itself.
+        uncertainty: Vec<f64>,
+        /// Independent deviations of all values, signed, whose effects on a sum add up in quadrature: what is too much at one
+        /// angle is too little at another.
         modes: Vec<Vec<f64>>,
     },
 }
@@ -34,9 +34,9 @@ impl AngularTransmittance {
         match self {
             Self::Constant(tau) => Self::Constant(factor * tau),
             Self::Table(values) => Self::Table(all(values)),
-            Self::Estimated { tau, doubt, modes } => {
+            Self::Estimated { tau, uncertainty, modes } => {
                 let modes = modes.iter().map(|mode| all(mode)).collect();
-                Self::Estimated { tau: all(tau), doubt: all(doubt), modes }
+                Self::Estimated { tau: all(tau), uncertainty: all(uncertainty), modes }
             }
         }
     }
@@ -46,13 +46,13 @@ impl AngularTransmittance {
         if let Self::Constant(tau) = self { Some(*tau) } else { None }
     }
 
-    /// How far τ at a polar angle \[rad\] may be off by itself: nothing where it is what it is.
-    pub fn doubt(&self, theta: f64) -> f64 {
-        if let Self::Estimated { doubt, .. } = self { table_at(doubt, theta) } else { 0.0 }
+    /// Uncertainty of τ at a polar angle of incidence \[rad\]; 0 unless it is estimated.
+    pub fn uncertainty(&self, theta: f64) -> f64 {
+        if let Self::Estimated { uncertainty, .. } = self { table_at(uncertainty, theta) } else { 0.0 }
     }
 
-    /// How far the light may be off that all angles let pass together, given what falls in by degrees of θ.
-    pub fn doubt_of(&self, incident: &[f64; 90]) -> f64 {
+    /// Uncertainty of the transmitted light, given the incident light by degrees of θ, in its unit.
+    pub fn uncertainty_of_light(&self, incident: &[f64; 90]) -> f64 {
         let Self::Estimated { modes, .. } = self else { return 0.0 };
         let of = |mode: &Vec<f64>| {
             let at = |degree: usize| 0.5 * (mode[degree] + mode[degree + 1]);
@@ -61,7 +61,7 @@ impl AngularTransmittance {
         modes.iter().map(|mode| of(mode).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Is it only known by what other data tell of it?
+    /// Is it estimated from other data?
     pub const fn is_estimated(&self) -> bool {
         matches!(self, Self::Estimated { .. })
     }

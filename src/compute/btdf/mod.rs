@@ -36,7 +36,7 @@ pub use finding::{Finding, Severity};
 pub use indicatrices::Indicatrices;
 pub use on_cells::{matrix_on, matrix_roughly_on};
 pub use on_tree::{OnTree, OnTreeError, TreeShape, tree_on};
-pub use regular::regular_apart;
+pub use regular::separate_regular;
 pub use resample::resample_matrix;
 pub use solar::{BandName, PARTLY_VISIBLE, SolarSource};
 pub use tensor_tree::{TensorTree, TreeAxes, TreeError, TreeNode, TreeRank};

@@ -1,61 +1,60 @@
-//! Regular light in data that hold it as a part of what they scatter: a pane in a file of patches is a diagonal of them, and
-//! the width of a patch blurs what a designer sees clear. Where light keeps its direction it is known to: then only how much
-//! of it passes at an angle of incidence has to be found, from what its means over patches or its values at single
-//! directions say, and how far they leave it open.
+//! Regular transmission in patch-averaged data and in data at single directions. A pane in such a file is a diagonal of
+//! patches, and their width blurs the view through it. Where light keeps its direction, the direction is known exactly, and
+//! only τ(θ) has to be estimated, from means over patches or from values at single directions.
 //!
-//! Light is taken for regular that
-//! - lies in the emergent cells alone that an incident direction has for a name, nothing of it in those about them, as a
-//!   lobe of any width would have;
-//! - depends on the angle to the normal alone, as behind panes, sheets with holes, and fabrics.
+//! Transmission is recognised as regular if it
+//! - lies only in the emergent patches straight ahead of the incident direction, and not in their neighbours, as every lobe
+//!   with a width does;
+//! - depends on the angle of incidence only, as that of panes, perforated sheets and fabrics.
 //!
-//! τ(θ) is the smoothest function of cosθ with the data's means (Gaussian process with a Matérn covariance of order 5/2;
-//! Rasmussen & Williams 2006, ch. 2 and 4), 0 at 90° where that is no surprise.
+//! τ(θ) is the smoothest function of cosθ with the means of the data (Gaussian process with a Matérn covariance of order 5/2;
+//! Rasmussen & Williams 2006, ch. 2 and 4), with τ(90°) = 0 unless the data contradict it.
 
 use super::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered};
-use crate::compute::basis::{Neighbours, RingBasis, sub_directions};
-use crate::compute::direction::{Dir, Facade};
+use crate::compute::basis::{Cell, Neighbours, RingBasis, sub_directions};
+use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::quadrature::gauss_legendre;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
+use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// Of what is taken for regular light, the most that may lie in the cells about it: a lobe of a degree in a cell of ten
-/// leaves 15 %.
+/// Largest share of the regular flux in the neighbouring patches: a lobe of 1° in a patch of 10° leaves 15 % there.
 const LEAK: f64 = 0.02;
-/// Of even light that surrounds it, the least that it must be.
+/// Smallest ratio of the regular flux to the scattered flux in the same patches.
 const STANDS_OUT: f64 = 0.5;
-/// Least share of all light that is worth it.
+/// Smallest share of the transmitted flux that is separated.
 const LEAST: f64 = 1e-3;
-/// Of the strongest, how far τ may differ at the same angle to the normal ...
+/// Largest difference of τ at the same angle of incidence, as a share of the largest τ ...
 const EVEN: f64 = 0.01;
-/// ... and of the light that surrounds it: how well that is known.
+/// ... and as a share of the scattered flux in the same patches, which is known to this accuracy.
 const ROUGH: f64 = 0.3;
-/// Incident directions whose angles differ less have the same. \[1/rad\]
+/// Angles of incidence that round to the same multiple of the inverse are the same. \[1/rad\]
 const SAME_ANGLE: f64 = 1800.0 / PI;
-/// Angles at which τ must be known at least, and the least that the largest of them must be. \[rad\]
+/// Fewest angles of incidence, and the least value of the largest of them. \[rad\]
 const KNOWN: (usize, f64) = (4, 65.0 * PI / 180.0);
-/// Directions a side of an incident cell by which the emergent ones are found that hold its names.
+/// Directions along each side of an incident patch that find the emergent patches straight ahead.
 const NAMES: usize = 8;
-/// Light of a single direction may be held beside it: nearer to the normal or farther away \[rad\] ...
+/// Light of a single direction may be stored in a patch next to it: this far in θ \[rad\] ...
 const BESIDE: f64 = 0.3 * PI / 180.0;
-/// ... and where a row was turned about the normal, in cells at both sides, as a share of their width.
+/// ... and, where a row was rotated about the normal, this share of a patch in φ.
 const TURNED: f64 = 0.999;
-/// Gauss points for the mean over a cell.
+/// Gauss points for the mean over a patch.
 const ACROSS: usize = 8;
-/// Length of the covariance over cosθ, and what the data are known to, relative to the strongest: digits of files.
+/// Length of the covariance over cosθ, and relative accuracy of the digits in files.
 const LENGTH: f64 = 1.0;
 const DIGITS: f64 = 1e-4;
-/// τ(90°) = 0 is believed if it lies within so many standard errors of what the data say alone: panes of one to three sheets
-/// are within 3.6 on all usual lattices, an opening is beyond 11.
+/// τ(90°) = 0 is used within this number of standard errors: computed for one to three panes on Klems, half, quarter and
+/// Tregenza patches it is at most 3.6, for an opening at least 11.
 const NO_SURPRISE: f64 = 4.0;
-/// How well it is then known.
+/// Standard error of τ(90°) = 0, relative to the largest τ.
 const AT_GRAZING: f64 = 1e-3;
-/// Standard errors that are stated, the largest within so many degrees: true errors of panes at single angles are up to three
-/// of their own, of means over ten degrees half as many.
+/// Uncertainty in standard errors, and the range of angles over which the largest is used \[°\]: computed errors of panes are up
+/// to three standard errors at single angles.
 const STATED: f64 = 3.5;
 const WITHIN: usize = 8;
-/// Deviations of less than this share of the largest, squared, are left out.
+/// Smallest squared deviation that is kept, as a share of the largest.
 const FAINT: f64 = 1e-4;
 
 /// One row of the data.
@@ -80,8 +79,8 @@ struct Known {
     noise: f64,
 }
 
-/// The same function with the regular light apart that its data hold in cells; `None` where they hold none.
-pub fn regular_apart(btdf: &Btdf) -> Option<Btdf> {
+/// The same function with regular transmission separated; `None` where none is recognised in its data.
+pub fn separate_regular(btdf: &Btdf) -> Option<Btdf> {
     if btdf.regular.is_some() {
         return None;
     }
@@ -94,7 +93,7 @@ pub fn regular_apart(btdf: &Btdf) -> Option<Btdf> {
             Some(Btdf { regular: Some(tau), scattered: rest.flatten().map(|rest| Scattered::Cells(Box::new(rest))) })
         }
         Scattered::Directions(data) => {
-            let of = |(d, share): (&crate::compute::direction::Incident, &f64)| Row::of_direction(d.0, *share, data);
+            let of = |(d, share): (&Incident, &f64)| Row::of_direction(d.0, *share, data);
             let rows: Vec<Row> = data.incident().iter().zip(data.shares()).map(of).collect();
             let (tau, rest) = apart(&rows, data.emergent(), |i| data.row(i).into_owned())?;
             let rest = rest.map(|rest| Indicatrices::new(data.incident().to_vec(), data.emergent().clone(), rest));
@@ -113,7 +112,7 @@ fn held(emergent: &RingBasis, names: impl Iterator<Item = Dir<Facade>>) -> Vec<u
 }
 
 impl Row {
-    fn of_cell(cell: &crate::compute::basis::Cell, emergent: &RingBasis) -> Self {
+    fn of_cell(cell: &Cell, emergent: &RingBasis) -> Self {
         let [low, high] = [cell.theta_min, cell.theta_max].map(|theta| theta.sin().powi(2));
         let points = gauss_legendre(ACROSS).into_iter().map(|(at, w)| ((1.0 - low - (high - low) * at).sqrt(), w));
         Self {
@@ -178,7 +177,7 @@ fn apart(
 /// What rows of the same angle say together; `None` where they contradict each other.
 fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
     let key = |row: &Row| (row.theta * SAME_ANGLE).round() as i64;
-    let mut groups = std::collections::BTreeMap::<i64, Vec<usize>>::new();
+    let mut groups = BTreeMap::<i64, Vec<usize>>::new();
     (0..rows.len()).for_each(|row| groups.entry(key(&rows[row])).or_default().push(row));
     let strongest = found.iter().map(|[tau, _]| *tau).fold(0.0, f64::max);
     let known: Option<Vec<Known>> = groups
@@ -208,6 +207,13 @@ struct Smooth<'a> {
     surprise: Vec<f64>,
 }
 
+impl Known {
+    /// Covariance with the value at a cosine of incidence.
+    fn covariance_with(&self, cosine: f64) -> f64 {
+        self.points.iter().map(|p| p.1 * covariance(p.0, cosine)).sum()
+    }
+}
+
 fn covariance(a: f64, b: f64) -> f64 {
     let r = 5.0_f64.sqrt() * (a - b).abs() / LENGTH;
     (1.0 + r + r * r / 3.0) * (-r).exp()
@@ -234,31 +240,28 @@ impl<'a> Smooth<'a> {
 
     /// Value and standard error at a cosine of incidence, and what the data about it are off what they should be, squared.
     fn at(&self, cosine: f64) -> [f64; 3] {
-        let one = |known: &Known| known.points.iter().map(|p| p.1 * covariance(p.0, cosine)).sum::<f64>();
         let n = self.known.len();
-        let here = Mat::from_fn(n, 1, |i, _| one(&self.known[i]));
-        let told = self.factor.solve(&here);
+        let here = Mat::from_fn(n, 1, |i, _| self.known[i].covariance_with(cosine));
+        let weights = self.factor.solve(&here);
         let sum = |of: &dyn Fn(usize) -> f64| (0..n).map(of).sum::<f64>();
         let value = sum(&|i| here[(i, 0)] * self.solved[(i, 0)]);
-        let variance = self.variance * (1.0 - sum(&|i| here[(i, 0)] * told[(i, 0)])).max(0.0);
+        let variance = self.variance * (1.0 - sum(&|i| here[(i, 0)] * weights[(i, 0)])).max(0.0);
         // Where the function is smoother than it is on the whole, its neighbours know it better than the variance says; where
         // it has kinks, worse.
-        let weights = sum(&|i| told[(i, 0)].powi(2));
-        let surprise = sum(&|i| told[(i, 0)].powi(2) * self.surprise[i]) / weights.max(1e-300);
+        let squares = sum(&|i| weights[(i, 0)].powi(2));
+        let surprise = sum(&|i| weights[(i, 0)].powi(2) * self.surprise[i]) / squares.max(1e-300);
         [value, variance.sqrt(), surprise]
     }
-}
 
-impl Smooth<'_> {
     /// Deviations of the values at whole degrees that are independent of each other, scaled degree by degree: what the
     /// covariance of what is not known is made of.
     fn modes(&self, scale: &[f64]) -> Option<Vec<Vec<f64>>> {
         let (n, count) = (self.known.len(), scale.len());
         let cosine = |degree: usize| (degree as f64).to_radians().cos();
-        let one = |i: usize, at: f64| self.known[i].points.iter().map(|p| p.1 * covariance(p.0, at)).sum::<f64>();
-        let here = Mat::from_fn(n, count, |i, degree| one(i, cosine(degree)));
-        let told = here.transpose() * self.factor.solve(&here);
-        let left = Mat::from_fn(count, count, |i, j| self.variance * (covariance(cosine(i), cosine(j)) - told[(i, j)]));
+        let here = Mat::from_fn(n, count, |i, degree| self.known[i].covariance_with(cosine(degree)));
+        let weights = here.transpose() * self.factor.solve(&here);
+        let left =
+            Mat::from_fn(count, count, |i, j| self.variance * (covariance(cosine(i), cosine(j)) - weights[(i, j)]));
         let parts = left.self_adjoint_eigen(Side::Lower).ok()?;
         let (sizes, shapes) = (parts.S().column_vector(), parts.U());
         let largest = sizes.iter().copied().fold(0.0, f64::max);
@@ -278,12 +281,12 @@ fn transmittance(known: &[Known]) -> Option<AngularTransmittance> {
     }
     let values: Vec<[f64; 3]> = (0..=90).map(|degree| smooth.at(f64::from(degree).to_radians().cos())).collect();
     let tau: Vec<f64> = values.iter().map(|[tau, ..]| tau.clamp(0.0, 1.0)).collect();
-    let doubt = |degree: usize| {
+    let uncertainty = |degree: usize| {
         let about = &values[degree.saturating_sub(WITHIN)..=(degree + WITHIN).min(90)];
         let stated = about.iter().map(|[_, error, surprise]| error * surprise.sqrt()).fold(0.0, f64::max);
         (STATED * stated).min(tau[degree].max(1.0 - tau[degree]))
     };
-    let doubt = (0..=90).map(doubt).collect();
+    let uncertainty = (0..=90).map(uncertainty).collect();
     let scale: Vec<f64> = values.iter().map(|[.., surprise]| STATED * surprise.sqrt()).collect();
-    Some(AngularTransmittance::Estimated { tau, doubt, modes: smooth.modes(&scale)? })
+    Some(AngularTransmittance::Estimated { tau, uncertainty, modes: smooth.modes(&scale)? })
 }

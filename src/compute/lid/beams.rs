@@ -40,14 +40,14 @@ impl BeamLight {
         let incident = facing.sun_illuminance();
         let (sun, to) = (facing.sun?, facing.sun_direction()?);
         let theta = to.theta().min(0.5 * PI);
-        let (tau, doubt) = (tau?.at(theta), tau?.doubt(theta));
+        let (tau, uncertainty) = (tau?.at(theta), tau?.uncertainty(theta));
         let beam = Self {
             to,
             exitance: tau * incident,
             normal: tau * sun.direct_normal,
             straight: true,
             error: 0.0,
-            doubt: if tau > 0.0 { doubt / tau } else { 0.0 },
+            doubt: if tau > 0.0 { uncertainty / tau } else { 0.0 },
         };
         (beam.exitance > 0.0).then_some(beam)
     }

@@ -257,8 +257,8 @@ impl Emission {
         sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
     }
 
-    /// Do the data leave anything open of it?
-    pub fn is_doubted(&self) -> bool {
+    /// Is there an uncertainty of the data?
+    pub fn is_uncertain(&self) -> bool {
         self.cells.iter().any(|light| !light.doubts.is_empty())
             || self.regular.as_ref().is_some_and(AngularTransmittance::is_estimated)
             || self.beams.iter().any(|beam| beam.doubt > 0.0)
@@ -274,7 +274,7 @@ impl Emission {
         // By degrees, as an even outside sends it.
         let even = |degree: usize| (2.0 * (degree as f64 + 0.5).to_radians()).sin() * PI / 180.0;
         let even = std::array::from_fn(|degree| self.incident_diffuse.value * even(degree));
-        let through = self.regular.as_ref().map_or(0.0, |tau| tau.doubt_of(&even));
+        let through = self.regular.as_ref().map_or(0.0, |tau| tau.uncertainty_of_light(&even));
         self.cells.iter().map(on_cells).sum::<f64>() + through + beams
     }
 

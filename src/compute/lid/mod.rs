@@ -2,7 +2,6 @@
 
 mod beams;
 pub mod c_gamma;
-mod cell_doubt;
 mod disc_beams;
 mod emission;
 mod facing;
@@ -11,6 +10,7 @@ mod interpolated;
 mod lamp;
 mod leaf_doubt;
 mod mixed;
+mod patch_uncertainty;
 pub mod peaks;
 pub mod sky_columns;
 mod sky_through;

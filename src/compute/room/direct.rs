@@ -115,7 +115,8 @@ pub fn illuminance(
 
 /// What a sensor gets from the outside that it sees straight through an opening.
 pub fn seen_through(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> DirectLight {
-    let data_error = if tau.is_estimated() { tau.doubt_of(&through::by_degrees(view, facing)) } else { 0.0 };
+    let data_error =
+        if tau.is_estimated() { tau.uncertainty_of_light(&through::by_degrees(view, facing)) } else { 0.0 };
     DirectLight { all: through::illuminance(view, facing, tau, tolerance), beam: 0.0, data_error }
 }
 

@@ -54,8 +54,8 @@ pub struct Coefficients {
     /// What the room makes of beams, where there may be any.
     landed: Option<Arc<UnitBeams>>,
     directions: f64,
-    /// What the data leave open, aperture by aperture.
-    open: Vec<DataShare>,
+    /// Data part of the uncertainty, by aperture.
+    data: Vec<DataShare>,
     /// Suns that will be asked for, as far as is known.
     suns: usize,
 }
@@ -109,7 +109,7 @@ impl Coefficients {
             || scene.apertures.iter().any(|a| a.reflectance > 0.0);
         if !(scene.interreflection && reflects) {
             let mut coefficients = Self::with(session, scene, None, progress)?;
-            coefficients.doubt_data(session, progress)?;
+            coefficients.add_data_uncertainty(session, progress)?;
             return Ok(coefficients);
         }
         let target = scene.error_target.unwrap_or(ORDINARY_TARGET);
@@ -123,7 +123,7 @@ impl Coefficients {
             let light = coefficients.sky_estimate(&scene.outside);
             let mean = light.iter().map(|e| e.value).sum::<f64>() / light.len().max(1) as f64;
             if turn == turns || light.iter().all(|e| e.error <= 0.9 * target * e.value.max(0.1 * mean)) {
-                coefficients.doubt_data(session, progress)?;
+                coefficients.add_data_uncertainty(session, progress)?;
                 return Ok(coefficients);
             }
         }
@@ -147,15 +147,15 @@ impl Coefficients {
             _ => None,
         };
         let mut coefficients =
-            Self { scene: scene.clone(), parts, room, landed, directions: 0.0, open: Vec::new(), suns: 0 };
+            Self { scene: scene.clone(), parts, room, landed, directions: 0.0, data: Vec::new(), suns: 0 };
         coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions(session);
         Ok(coefficients)
     }
 
-    /// States what the data leave open, which no finer mesh tells.
-    fn doubt_data(&mut self, session: &Session, progress: &dyn Progress) -> Result<(), StudyError> {
-        let known = |index: usize| self.parts[index].transport.doubts_its_cells();
-        self.open = session.data_shares(&self.scene, known, progress)?;
+    /// Adds the data part of the uncertainty, which a finer mesh does not reduce.
+    fn add_data_uncertainty(&mut self, session: &Session, progress: &dyn Progress) -> Result<(), StudyError> {
+        let known = |index: usize| self.parts[index].transport.estimates_uncertainty();
+        self.data = session.data_shares(&self.scene, known, progress)?;
         Ok(())
     }
 
@@ -241,11 +241,11 @@ impl Coefficients {
                     let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
                     let squares = sums.doubtful[s].powi(2) + (rest * reflected).powi(2);
                     let error = value * relative + squares.sqrt() + sums.interpolated[s].abs() + 1e-6 * value;
-                    let open = self.open.get(index).map_or(0.0, |share| {
+                    let data = self.data.get(index).map_or(0.0, |share| {
                         let straight = share.direct.get(s).map_or(0.0, |share| share * (value - reflected).max(0.0));
                         straight + share.reflected * reflected
                     });
-                    *sum += Estimate::new(value, error + open);
+                    *sum += Estimate::new(value, error + data);
                 }
             }
         }

@@ -150,8 +150,8 @@ impl Transport {
         }
     }
 
-    /// Do its columns tell what the data leave open on cells?
-    pub fn doubts_its_cells(&self) -> bool {
+    /// Do its columns contain the uncertainty on patches?
+    pub fn estimates_uncertainty(&self) -> bool {
         matches!(self, Self::Lobes(_))
     }
 

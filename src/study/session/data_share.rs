@@ -1,4 +1,4 @@
-//! What the data leave open of sky and ground at the sensors, as shares: for skies of which there are thousands.
+//! Data part of the uncertainty of diffuse light at the sensors, as shares of the light: for the skies of a year.
 
 use super::Session;
 use crate::compute::estimate::Progress;
@@ -8,15 +8,14 @@ use crate::study::scene::Scene;
 /// Of one aperture.
 #[derive(Debug, Clone, Default)]
 pub struct DataShare {
-    /// Sensor by sensor, of what comes straight; empty where nothing is open.
+    /// Of the direct component, by sensor; empty without uncertainty.
     pub direct: Vec<f64>,
-    /// Of what the room makes of it.
+    /// Of the interreflected component.
     pub reflected: f64,
 }
 
 impl Session {
-    /// The shares under the scene's own sky, aperture by aperture; `known`: of these the doubts on cells are known
-    /// otherwise.
+    /// The shares under the scene's own sky, by aperture; `known`: for these the uncertainty on patches is known otherwise.
     ///
     /// # Errors
     /// Cancelled.
@@ -34,19 +33,19 @@ impl Session {
             if known(index) {
                 emission.cells.iter_mut().for_each(|light| light.doubts.clear());
             }
-            if !emission.is_doubted() {
+            if !emission.is_uncertain() {
                 return Ok(DataShare::default());
             }
-            let open = emission.exitance_doubt() * own.apertures[0].aperture.area();
+            let uncertainty = emission.exitance_doubt() * own.apertures[0].aperture.area();
             let direct = if lights.splits.is_empty() {
                 self.direct(&own, &lights.emissions, progress)?
             } else {
                 self.direct_behind(&own, &lights.splits, progress)?
             };
-            let share = |value: f64, open: f64| if value > 0.0 { open / value } else { 0.0 };
+            let share = |value: f64, part: f64| if value > 0.0 { part / value } else { 0.0 };
             Ok(DataShare {
                 direct: direct.iter().map(|one| share(one.all.value, one.data_error)).collect(),
-                reflected: share(lights.flux(&own).value, open),
+                reflected: share(lights.flux(&own).value, uncertainty),
             })
         };
         (0..scene.apertures.len()).map(of).collect()

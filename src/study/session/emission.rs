@@ -82,12 +82,12 @@ impl Session {
         let one = &scene.apertures[aperture];
         let btdf = one.transmission().expect("a resolved scene has only systems with transmission data");
         let mut emission = self.scattered_by_data(scene, one, btdf, facing);
-        if let (Some(_), Some(tau)) = (&one.apart, &btdf.regular) {
+        if let (Some(_), Some(tau)) = (&one.separated, &btdf.regular) {
             emission.notes.push(format!(
-                "data: light that keeps its direction is recognised in them, {:.1} % ± {:.1} % of it at normal incidence; \
-                 sky, ground and sun come through as sharp as they are",
+                "data: regular transmission recognised, {:.1} % ± {:.1} % at normal incidence; sky, ground and sun are seen \
+                 through it directly",
                 100.0 * tau.at(0.0),
-                100.0 * tau.doubt(0.0)
+                100.0 * tau.uncertainty(0.0)
             ));
         }
         emission
@@ -103,7 +103,7 @@ impl Session {
             }
             Some(Scattered::Cells(matrix)) => {
                 let mut emission = Emission::new(btdf, facing);
-                emission.doubt_widths();
+                emission.estimate_patch_uncertainty();
                 if emission.incident_sun > 0.0
                     && let Some(peaks) = self.peaks(one, matrix, facing)
                 {
@@ -113,7 +113,7 @@ impl Session {
             }
             Some(Scattered::Tree(tree)) => {
                 let mut emission = Emission::new(btdf, facing);
-                emission.doubt_widths();
+                emission.estimate_patch_uncertainty();
                 emission.doubt_leaves(tree, facing);
                 emission
             }
@@ -130,7 +130,7 @@ impl Session {
     ) -> Option<Arc<(Arc<Dataset>, Peaks)>> {
         let sun = facing.sun_entering()?;
         let dataset = &one.system.dataset;
-        let mut key = vec![Arc::as_ptr(dataset) as u64, u64::from(one.apart.is_some())];
+        let mut key = vec![Arc::as_ptr(dataset) as u64, u64::from(one.separated.is_some())];
         if matrix.incident().len() > peaks::MOST_CELLS {
             key.extend(matrix.incident().index(sun).map(|cell| cell as u64));
         }

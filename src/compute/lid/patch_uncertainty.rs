@@ -1,20 +1,20 @@
-//! How far the width of cells leaves open what sky, ground and skyline make: a luminance that changes from cell to cell
-//! changes within them, too, and a sensor sees no more than a part of those at an aperture's edge.
+//! Uncertainty of diffuse light on patches: a luminance that changes from patch to patch changes within them, too, and a
+//! sensor sees only a part of those at the edge of an aperture.
 
 use super::Emission;
 use crate::compute::direction::Dir;
 use glam::DVec3;
 
-/// Of the change of luminance from the cell before to the cell behind, what both halves of a cell may differ by from
-/// its mean; and of what it stands out of those about it, what its middle may. On foils whose lobes are 4 to 15° wide to
-/// half their height more than 98 % of sensors are held with these.
+/// Deviation of half a patch from its mean, as a share of the difference between the patches on both sides; and of its middle,
+/// as a share of the difference to the mean of its neighbours. With these 65 of 66 sensor points behind foils with forward
+/// lobes of 4 to 15° half width are within the uncertainty (`tests/scenes/sky_in_cells.rs`).
 const HALVES: f64 = 0.2;
 const MIDDLE: f64 = 0.5;
 
 impl Emission {
-    /// Doubts the diffuse light on the data's cells by its change along both axes of the façade frame. Towards the aperture's
-    /// own plane it goes on as it is.
-    pub fn doubt_widths(&mut self) {
+    /// Adds the uncertainty of the diffuse light on the data's patches, from its change along both axes of the façade frame.
+    /// Beyond the last patches the luminance counts as constant.
+    pub fn estimate_patch_uncertainty(&mut self) {
         let Some(light) = self.cells.first_mut() else { return };
         let value = |d: DVec3| Dir::new(d).filter(|_| d.z > 0.0).and_then(|d| light.basis.index(d));
         let mut doubts = [const { Vec::new() }; 3];
