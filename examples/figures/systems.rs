@@ -255,9 +255,15 @@ impl Place {
         Ok(SESSION.room(&self.scene(system)?, &Silent)?)
     }
 
-    /// Computes the luminous intensity distribution of the first aperture.
+    /// Computes the luminous intensity distribution of the first aperture. Data on cells show what cells can: regular
+    /// light is not recognised in them.
     pub fn lid(&self, system: &Arc<Dataset>) -> Result<(Scene, LidResult)> {
-        let scene = self.scene(system)?;
+        let scattered = system.visible.transmission_front.as_ref().and_then(|btdf| btdf.scattered.as_ref());
+        let compute = match scattered {
+            Some(Scattered::Cells(_)) => "interpolation = \"patch\"",
+            _ => self.compute,
+        };
+        let scene = Self { compute, ..self.clone() }.scene(system)?;
         let light = SESSION.lid(&scene, 0, &Silent)?;
         Ok((scene, light))
     }

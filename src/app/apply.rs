@@ -89,9 +89,11 @@ impl App {
             Command::TextSize(change) => self.change_text_size(change),
             Command::Tour(act) => self.tour(act),
             Command::ResetScene => {
-                // The first scene names no product: the one that is chosen stays.
-                let compare = std::mem::take(&mut state.document.scene.compare);
-                state.document.scene = SceneFile { compare, ..first_scene() };
+                // The first scene names no product: the one that is chosen stays, with its rule.
+                let SceneFile { aperture, control, compare, .. } =
+                    std::mem::replace(&mut state.document.scene, first_scene());
+                let control = control.or_else(|| aperture.into_iter().find_map(|one| one.control));
+                state.document.scene = SceneFile { compare, control, ..first_scene() };
                 fill(&mut state.document.scene, &state.document.selection);
             }
             Command::Sheet(sheet) => {

@@ -5,6 +5,7 @@ use super::shelf::Query;
 use super::year::usual_year;
 use crate::catalogue::Product;
 use crate::study::StudyError;
+use crate::study::inputs::names_files;
 use crate::study::rank::{
     Group, Known, List, Look, Shortlist, Stage, list_of, objectives as judged, offered, usual_objectives,
 };
@@ -114,13 +115,16 @@ impl Asked {
         let mut open = opened(scene, &places, control);
         open.year.get_or_insert_with(|| usual_year(scene));
         let query = if look.in_search {
-            let shown = if asking.query.recent { asking.recent.to_vec() } else { Vec::new() };
-            // The order of the list is no matter.
+            let mut shown = if asking.query.recent { asking.recent.to_vec() } else { Vec::new() };
+            // The order of the list does not matter.
+            shown.sort_unstable();
             let Query { sort, descending, .. } = Query::default();
             Query { shown, sort, descending, ..asking.query.clone() }
         } else {
             Query { text: rank.map(|rank| rank.products.clone()).unwrap_or_default(), ..Query::default() }
         };
+        // A scene without files is the same wherever it is saved.
+        let base = if names_files(&open) { base } else { PathBuf::new() };
         let [additions, changes] = asking.catalogue.map(<[usize]>::to_vec);
         let catalogue = (additions, changes);
         (!places.is_empty()).then_some(Self { scene: open, base, control, query, catalogue })
@@ -293,6 +297,7 @@ mod tests {
     use super::*;
     use crate::study::example::first_scene;
     use crate::study::scene_file::{ControlKeys, ControlMode};
+    use crate::study::year_keys::YearKeys;
 
     fn scene() -> SceneFile {
         let mut scene = first_scene();
@@ -327,6 +332,20 @@ mod tests {
         assert_ne!(asked(&scene, None).unwrap(), first);
         scene.aperture.clear();
         assert!(asked(&scene, None).is_none());
+    }
+
+    #[test]
+    fn a_scene_without_files_asks_the_same_wherever_it_is_saved() {
+        let look = Look::default();
+        let of = |scene: &SceneFile, base: &str| {
+            let query = Query { recent: true, ..Query::default() };
+            let asking = Asking { look: &look, query: &query, recent: &[], catalogue: [&[], &[]] };
+            Asked::of(scene, base.into(), &asking).unwrap()
+        };
+        let mut scene = scene();
+        assert_eq!(of(&scene, ""), of(&scene, "/data/office"));
+        scene.year = Some(YearKeys { weather: "own.epw".into(), ..usual_year(&scene) });
+        assert_ne!(of(&scene, ""), of(&scene, "/data/office"));
     }
 
     #[test]

@@ -23,6 +23,11 @@ pub fn write_several(list: &[(PathBuf, Vec<u8>)], made_from: &[PathBuf]) -> Resu
     Ok(files::write_all(&outputs)?)
 }
 
+/// Creates a folder where there is none.
+pub fn create_folder(path: &Path) -> Result<(), AppError> {
+    std::fs::create_dir_all(path).map_err(|error| AppError::from(files::cannot_write(path, &error)))
+}
+
 /// Does a path end so? Case does not matter.
 pub fn ends_in(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(extension))

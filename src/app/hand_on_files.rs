@@ -1,6 +1,6 @@
 //! The bytes of what is handed on, and what is seen of them before. Runs in jobs.
 
-use super::disk::write_several;
+use super::disk::{create_folder, write_several};
 use super::engine::{Engine, Question};
 use super::error::AppError;
 use super::hand_on::{Choices, MOST_FILES, Moment, Preview, ReportKind, What, moments};
@@ -20,7 +20,7 @@ use crate::report::{Look as PictureLook, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
 use crate::study::inputs::inputs_of;
 use crate::study::luminaire_file::LidFormat;
-use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish};
+use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish, tile_name};
 use crate::study::moment;
 use crate::study::rank::{Look as Choosing, Shortlist};
 use crate::study::scene_file::SceneFile;
@@ -199,13 +199,14 @@ impl Order {
         self.engine.luminaires(&question, &wish, path, progress)
     }
 
-    /// The window in tiles, and their index last, so that it never names a file that is not there.
-    fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<(LuminaireSet, Files), AppError> {
-        let set = self.luminaires(&self.question.scene, path, progress)?;
+    /// The window in tiles in a folder of their own, and their index last, so that it never names a file that is not there.
+    fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<Files, AppError> {
+        let path = in_own_folder(path);
+        let set = self.luminaires(&self.question.scene, &path, progress)?;
         let of = |file: &TileFile| (path.with_file_name(&file.row.file), file.bytes.clone());
         let mut files: Vec<_> = set.files.iter().map(of).collect();
-        files.push((index_of(path), set.index()));
-        Ok((set, files))
+        files.push((index_of(&path), set.index()));
+        Ok(files)
     }
 
     /// The luminaire files of each moment, and the index last, so that it never names a file that is not there.
@@ -236,7 +237,7 @@ impl Order {
         }
         let files = match self.choices.what {
             What::Series => self.series(path, progress)?,
-            What::Luminaire if self.choices.tiles => self.tiles(path, progress)?.1,
+            What::Luminaire if self.choices.tiles => self.tiles(path, progress)?,
             _ => vec![(path.to_owned(), self.bytes(path, progress)?)],
         };
         // Withdrawn after the last computation: nothing is written either.
@@ -244,8 +245,19 @@ impl Order {
         let mut made_from = inputs_of(&self.question.scene, &self.question.base);
         // A scene may take its own place.
         made_from.extend(self.scene_path.clone().filter(|_| self.choices.what != What::Scene));
-        write_several(&files, &made_from)?;
-        Ok(path.to_owned())
+        let in_tiles = self.choices.what == What::Luminaire && self.choices.tiles;
+        if !in_tiles {
+            write_several(&files, &made_from)?;
+            return Ok(path.to_owned());
+        }
+        let index = index_of(&in_own_folder(path));
+        let folder = path.with_extension("");
+        create_folder(&folder)?;
+        write_several(&files, &made_from).inspect_err(|_| {
+            // Only where nothing is in it: what was there before stays.
+            let _ = std::fs::remove_dir(&folder);
+        })?;
+        Ok(index)
     }
 
     /// What would be written at a path, as far as it can be shown.
@@ -283,17 +295,14 @@ impl Order {
                 list.extend(moments.into_iter().map(|one| (one.name.clone(), words(&one))));
                 Preview::Files(list)
             }
+            // Minutes of work: only when they are asked for.
             What::Luminaire if self.choices.tiles => {
-                let (set, files) = self.tiles(path, progress)?;
-                let percent = |share: f64| format!("{:.2}", 100.0 * share);
-                let reached = set.reached.map_or_else(
-                    || texts::INDEX.into(),
-                    |reached| texts::tiles_reached(set.files.len(), percent(reached.sum), percent(reached.rms)),
-                );
-                let tiles = set.files.iter().map(|file| format!("{:.1} lm", file.row.flux));
-                let words = std::iter::once(reached).chain(tiles);
-                let names = files.iter().rev().take(1).chain(&files).map(|(path, _)| name(path));
-                Preview::Files(names.zip(words).collect())
+                let path = in_own_folder(path);
+                let first = path.with_file_name(tile_name(&path, Some(0)));
+                Preview::Files(vec![
+                    (name(&index_of(&path)), texts::TILES_LATER.into()),
+                    (name(&first), texts::FIRST_TILE.into()),
+                ])
             }
             What::Package => {
                 let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
@@ -312,6 +321,11 @@ impl Order {
             }
         })
     }
+}
+
+/// A file's path in a folder that bears its name.
+pub(super) fn in_own_folder(path: &Path) -> PathBuf {
+    path.with_extension("").join(path.file_name().unwrap_or_default())
 }
 
 /// The index beside the files of tiles.

@@ -3,7 +3,7 @@
 use super::engine::Question;
 use super::error::AppError;
 use super::hand_on::{Choices, Key, What, moments};
-use super::hand_on_files::{Order, index_of};
+use super::hand_on_files::{Order, in_own_folder, index_of};
 use super::jobs::Lane;
 use super::naming::file_name;
 use super::naming::start_path;
@@ -43,7 +43,8 @@ pub fn targets(state: &State, path: &Path) -> Vec<PathBuf> {
     let mut list = vec![path.to_owned()];
     if choices.what == What::Luminaire && choices.tiles {
         // How many there will be is not known before; the index and the first stand for all.
-        list = vec![index_of(path), path.with_file_name(tile_name(path, Some(0)))];
+        let path = in_own_folder(path);
+        list = vec![index_of(&path), path.with_file_name(tile_name(&path, Some(0)))];
     }
     if choices.what == What::Series {
         let moments = moments(choices, &state.document.scene, &state.base(), state.product.as_deref(), path);

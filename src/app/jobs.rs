@@ -17,6 +17,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 /// Counts the jobs whose results are still to come into sight.
 #[derive(Default)]
@@ -69,8 +70,12 @@ pub struct JobState {
     cancelled: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
-    stage: Mutex<&'static str>,
+    /// The present stage, and since when.
+    stage: Mutex<(&'static str, Option<Instant>)>,
 }
+
+/// A stage that has taken so long is judged by what it has done.
+const JUDGED: Duration = Duration::from_secs(1);
 
 impl JobState {
     /// Share done of the present stage, 0 … 1; `None` before the first report.
@@ -81,7 +86,14 @@ impl JobState {
 
     /// The present stage; empty before the first report.
     pub fn stage(&self) -> &'static str {
-        *self.stage.lock().unwrap_or_else(PoisonError::into_inner)
+        self.stage.lock().unwrap_or_else(PoisonError::into_inner).0
+    }
+
+    /// What the present stage will still take if it goes on as it has begun; `None` while that is not known.
+    pub fn left(&self) -> Option<Duration> {
+        let spent = self.stage.lock().unwrap_or_else(PoisonError::into_inner).1?.elapsed();
+        let share = f64::from(self.fraction()?);
+        (spent >= JUDGED && share > 0.0).then(|| spent.mul_f64((1.0 - share) / share))
     }
 
     fn done(&self) -> usize {
@@ -95,7 +107,10 @@ impl JobState {
     fn report(&self, stage: &'static str, done: usize, total: usize) {
         self.done.store(done, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
-        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        let mut present = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+        if present.0 != stage || present.1.is_none() {
+            *present = (stage, Some(Instant::now()));
+        }
     }
 
     fn rest(&self) {

@@ -5,9 +5,11 @@ use super::state::{CatalogueState, State};
 use super::{control, moment};
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
+use crate::study::sky::is_elsewhere;
+use crate::study::weather::kept;
 use crate::texts::shell;
 
-pub use crate::study::scene_words::{coordinates, place, sky, system, time};
+pub use crate::study::scene_words::{coordinates, place, site, sky, system, time};
 
 /// Name of the selected product: the product's own, whatever the list shows. While it is read, the list's, else its key.
 pub fn product(state: &State) -> String {
@@ -48,8 +50,11 @@ pub fn title(state: &State) -> String {
         (CatalogueState::Opening, true) => shell::OPENING_CATALOGUE.into(),
         (_, true) => shell::NO_PRODUCT_WORD.into(),
     };
+    let weather = scene.sky.weather.as_deref().and_then(|name| kept(name, &state.base()).ok());
+    let elsewhere = weather.is_some_and(|kept| is_elsewhere(&kept.weather.station, &scene.site));
+    let elsewhere = if elsewhere { shell::WEATHER_ELSEWHERE.get() } else { "" };
     format!(
-        "cfs – {product} · {}, {}, {}, {}",
+        "cfs – {product} · {}{elsewhere}, {}, {}, {}",
         place(scene),
         moment::bearing_word(scene.site.azimuth),
         time(scene),

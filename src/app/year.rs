@@ -1,16 +1,16 @@
 //! What is asked about a year and its weather, the weather as hours are picked from it, and the year that a scene without
 //! one is given.
 
-use crate::compute::weather::{Closure, Station, Weather};
+use crate::compute::weather::{Closure, Record, Station};
 use crate::drawing::hour_map::HourMap;
 use crate::study::scene_file::{SceneFile, SkyKeys, SkyModelKey, TimeKey};
-use crate::study::weather::{YEARS, load, nearest};
+use crate::study::weather::{YEARS, kept, moment, nearest};
 use crate::study::weather_keys::{LightKey, OffsetKey, reading};
 use crate::study::year::{Look, weather_map};
 use crate::study::year_keys::{DaysKey, EyeKeys, HoursKeys, LampControlKey, LightingKeys, SunlightKeys, YearKeys};
 use crate::study::{StudyError, example::first_scene};
 use crate::texts::{fixed, year as say};
-use jiff::civil::{DateTime, date};
+use jiff::civil::DateTime;
 use std::path::{Path, PathBuf};
 
 /// What is asked about a year.
@@ -46,9 +46,11 @@ pub struct Calendar {
     pub station: Station,
     /// Test of its clock, where there is one.
     pub closure: Option<Closure>,
+    /// Codes of its warnings.
+    pub warnings: Vec<&'static str>,
     /// Direct normal, and diffuse horizontal.
     pub maps: [HourMap; 2],
-    /// Begin of every record, in the file's order.
+    /// Begin of every record in local standard time, in the file's order.
     pub starts: Vec<DateTime>,
 }
 
@@ -61,27 +63,17 @@ impl Calendar {
     /// # Errors
     /// A file that cannot be read, or a clock that cannot be tested.
     pub fn read(key: CalendarKey) -> Result<Self, StudyError> {
-        let weather = load(&key.0, &key.1)?;
+        let kept = kept(&key.0, &key.1)?;
+        let weather = &kept.weather;
         let reading = reading(key.2, key.3);
         let told = |message: String| StudyError::File { path: key.0.clone(), message };
-        weather.hours(reading).map_err(|error| told(error.to_string()))?;
-        let closure = weather.closure().map_err(|error| told(error.to_string()))?;
-        let maps = [true, false].map(|direct| weather_map(&weather, reading, direct));
-        let starts = starts(&weather);
-        Ok(Self { station: weather.station, closure, maps, starts, key })
+        let moved = 60 * weather.hours(reading).map_err(|error| told(error.to_string()))?.moved_clock();
+        let maps = [true, false].map(|direct| weather_map(weather, reading, direct));
+        let start = |record: &Record| moment(record, f64::from(60 * i32::from(record.start) + moved));
+        let starts = weather.records.iter().map(start).collect();
+        let warnings = kept.warnings().map(|one| one.code).collect();
+        Ok(Self { station: weather.station.clone(), closure: kept.summary.closure, warnings, maps, starts, key })
     }
-}
-
-fn starts(weather: &Weather) -> Vec<DateTime> {
-    let of = |record: &crate::compute::weather::Record| {
-        let day = record.day;
-        let at = |number: u8| jiff::civil::Date::new(day.year, day.month.cast_signed(), number.cast_signed()).ok();
-        // A 29th of February in a common year is no date.
-        let date = at(day.day).or_else(|| at(28)).unwrap_or(date(2001, 1, 1));
-        let (hour, minute) = ((record.start / 60) as i8, (record.start % 60) as i8);
-        date.at(hour.min(23), minute, 0, 0)
-    };
-    weather.records.iter().map(of).collect()
 }
 
 /// The weather that the scene speaks of: of its sky, else of its year.

@@ -36,7 +36,7 @@ Columns (i counts sensor points or observers, N apertures, both from 1):
   E_i, Ev_i              illuminance at sensor point and at observer i [lx]
   E_error_i, Ev_error_i  their estimated absolute errors [lx]
   S_i, Sv_i              part of E_i and Ev_i from direct sun [lx]; only if a
-                         system transmits it unscattered
+                         system may transmit it unscattered
   DGP_i, DGP_error_i     daylight glare probability of observer i, its error;
                          empty outside occupied hours and when dark
   lighting_W_m2          electric lighting [W/m²]; only with [year.lighting]

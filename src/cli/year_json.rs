@@ -144,8 +144,7 @@ fn left_out(year: &Year, figures: &Figures) -> Vec<String> {
             year.steps.length
         ));
     } else if figures.exposure.is_none() {
-        let needs = "something that lets the sun through unscattered, nothing that a control moves, no boxes outside";
-        list.push(format!("ASE1000,250: needs {needs}"));
+        list.push("ASE1000,250: needs something that lets the sun through unscattered".to_owned());
     }
     list
 }

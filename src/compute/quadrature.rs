@@ -114,7 +114,7 @@ fn scaled_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
 /// one digit is left. Pieces that are not smooth after all are found out when they are halved, see [`adapt`].
 fn smooth_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     let error = if variation > 0.0 && difference > 0.0 {
-        variation * (8.0 * difference / variation).powf(1.5).min(1.0)
+        variation * (10.0 * difference / variation).powf(1.5).min(1.0)
     } else {
         difference
     };

@@ -16,7 +16,7 @@ use crate::study::scene_file::{SceneFile, SurfaceKey};
 use crate::study::scene_words::{coordinates, error_words};
 use crate::study::subject::Subject;
 use crate::study::{RoomResult, SensorResult};
-use crate::texts::{Text, hand_on as texts};
+use crate::texts::{Text, hand_on as texts, one_line};
 
 /// What a report is made from.
 pub struct Study<'a> {
@@ -68,7 +68,12 @@ fn situation(subject: &Subject) -> Vec<(String, String)> {
     let mut add = |name: Text, value: String| list.push((name.into(), value));
     add(texts::SYSTEM, subject.name.clone());
     let site = &file.site;
-    if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
+    if let Some(weather) = &subject.scene.weather {
+        let station = &weather.station;
+        let name = if station.name.is_empty() { &weather.name } else { &station.name };
+        let place = coordinates(station.latitude, station.longitude);
+        add(texts::WEATHER, format!("{}, {place}: {}", one_line(name), weather.interval));
+    } else if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
         add(texts::PLACE, format!("{}, {} m", coordinates(latitude, longitude), tick(site.elevation)));
     }
     add(texts::FACADE_FACES, texts::from_north(tick(site.azimuth)));

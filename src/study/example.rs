@@ -32,7 +32,7 @@ pub fn first_scene() -> SceneFile {
             latitude: Some(48.78),
             longitude: Some(9.18),
             utc_offset: Some(1.0),
-            dst: DstKey::None,
+            dst: DstKey::Eu,
             elevation: 252.0,
             ground_reflectance: 0.2,
         },

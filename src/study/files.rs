@@ -202,7 +202,7 @@ pub fn write_at_once(path: &Path, bytes: &[u8]) -> Result<std::fs::File, StudyEr
 }
 
 /// Why a file cannot be written, and what would be right.
-fn cannot_write(path: &Path, error: &std::io::Error) -> StudyError {
+pub fn cannot_write(path: &Path, error: &std::io::Error) -> StudyError {
     let expected = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "nothing was written; make room, or choose another place",
         _ => "expected a writable place",

@@ -2,6 +2,7 @@
 
 use super::luminaires::{self, INDEX};
 use super::scene_file::SceneFile;
+use super::weather::BUILTIN;
 use crate::formats::system_toml::{MOST_NESTED, is_system_file};
 use std::path::{Path, PathBuf};
 
@@ -34,6 +35,19 @@ pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
     let Ok(mut value) = toml::Value::try_from(scene) else { return scene.clone() };
     absolute(&mut value, base);
     value.try_into().unwrap_or_else(|_| scene.clone())
+}
+
+/// May a scene name files by paths, so that it matters where they start from? By its words alone; no file is looked for.
+pub fn names_files(scene: &SceneFile) -> bool {
+    fn within(value: &toml::Value) -> bool {
+        match value {
+            toml::Value::String(word) => word.contains('.') && !word.starts_with(BUILTIN),
+            toml::Value::Array(values) => values.iter().any(within),
+            toml::Value::Table(table) => table.values().any(within),
+            _ => false,
+        }
+    }
+    toml::Value::try_from(scene).is_ok_and(|value| within(&value))
 }
 
 fn named_in(value: &toml::Value, base: &Path, depth: usize, list: &mut Vec<PathBuf>) {

@@ -237,7 +237,17 @@ pub(super) struct Choice {
 
 /// The fewest tiles, and the widest step with them, that reach the target; else the best that was found. `step`: no other
 /// one.
-pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, probe: &Probe) -> Choice {
+///
+/// # Errors
+/// Cancelled.
+pub(super) fn choose(
+    lid: &Lid,
+    aim: Aim,
+    step: Option<Step>,
+    place: Place,
+    probe: &Probe,
+    progress: &dyn Progress,
+) -> Result<Choice, Cancelled> {
     let fine = step.unwrap_or(Step::FINE);
     let averaged = Averaged::new(lid, aim, fine);
     let with = |averaged: &Averaged, step: Step, tiling: Tiling, narrow: bool| {
@@ -250,6 +260,9 @@ pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, prob
     let few: Vec<f64> = LONGEST.into_iter().filter(|longest| tiling_of(*longest).count() <= MOST_TILES).collect();
     let finest = few.last().copied().unwrap_or(f64::INFINITY);
     let most = if lid.beam_flux() > 0.0 { finest.max(LONGEST_OF_BEAMS) } else { f64::INFINITY };
+    // Each tiling with and without tables of its own for narrow light; the first that holds ends it.
+    let work: usize = few.iter().map(|longest| 2 * tiling_of(*longest).count()).sum();
+    let mut done = 0;
     'tilings: for longest in few.into_iter().filter(|longest| *longest <= most) {
         let tiling = tiling_of(longest);
         if before == Some(tiling) {
@@ -258,6 +271,11 @@ pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, prob
         before = Some(tiling);
         // What costs less first.
         for narrow in [false, true] {
+            progress.advance("tiles", done, work);
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            done += tiling.count();
             let choice = with(&averaged, fine, tiling, narrow);
             let holds = choice.reached.holds();
             if holds || best.as_ref().is_none_or(|best| choice.reached.rms < best.reached.rms) {
@@ -272,8 +290,8 @@ pub(super) fn choose(lid: &Lid, aim: Aim, step: Option<Step>, place: Place, prob
     if step.is_none() && best.reached.holds() {
         let normal = with(&Averaged::new(lid, aim, Step::NORMAL), Step::NORMAL, best.tiling, best.narrow);
         if normal.reached.holds() {
-            return normal;
+            return Ok(normal);
         }
     }
-    best
+    Ok(best)
 }

@@ -147,7 +147,8 @@ pub fn make(
         }
         Tiles::Auto => {
             let probe = Probe::new(session, scene, aperture, wish.without_beam, progress)?;
-            let choice = luminaire_choice::choose(&lid, aim, wish.step, place, &probe);
+            let choice =
+                luminaire_choice::choose(&lid, aim, wish.step, place, &probe, progress).map_err(StudyError::from)?;
             (Some(choice.tiling), choice.step, Some(choice.reached), choice.tables)
         }
         Tiles::Fixed(tiling) => {

@@ -7,6 +7,7 @@ pub use crate::formats::gazetteer::City;
 
 use crate::catalogue::folded;
 use crate::formats::gazetteer::read_cities;
+use crate::study::scene_file::DstKey;
 use std::sync::LazyLock;
 
 /// All, the largest first.
@@ -70,6 +71,35 @@ pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     (found.into_iter().take(most).map(|(_, city)| city).collect(), count)
 }
 
+/// Countries whose clocks change with those of the European Union, and with those of the United States.
+const WITH_EU: &str = "AD AL AT AX BA BE BG CH CY CZ DE DK EE ES FI FO FR GB GG GI GL GR HR HU IE IM IT JE LI LT LU LV MC MD \
+                       ME MK MT NL NO PL PT RO RS SE SI SJ SK SM UA VA XK";
+const WITH_US: &str = "BM BS CA CU HT PM TC US";
+/// States of the United States that keep standard time.
+const WITHOUT_SUMMER_TIME: [&str; 2] = ["AZ", "HI"];
+
+/// The rule of summer time at a city (IANA time zone database, 2026); [`DstKey::None`] where it keeps standard time, or
+/// has a rule without a name.
+pub fn summer_time(city: &City) -> DstKey {
+    let code: String = city.code.iter().collect();
+    let among = |codes: &str| codes.split(' ').any(|one| one == code);
+    let (north, east, offset) = (city.latitude, city.longitude, city.utc_offset);
+    // Saskatchewan keeps the time of the prairies, Yukon and the north-east of British Columbia that of the mountains.
+    let canada_without = (offset == -6.0 && east < -101.4) || (offset == -7.0 && east < -120.0);
+    match code.as_str() {
+        "US" if WITHOUT_SUMMER_TIME.contains(&&*city.region) => DstKey::None,
+        "CA" if canada_without => DstKey::None,
+        // Without Queensland, north of 28.1° S at the coast, and the Northern Territory, north of 26° S.
+        "AU" if (offset == 10.0 && north < -28.1) || (offset == 9.5 && north < -26.0) => DstKey::Australia,
+        "NZ" => DstKey::NewZealand,
+        // The south of Chile keeps the time of Argentina.
+        "CL" if offset == -4.0 => DstKey::Chile,
+        _ if among(WITH_EU) => DstKey::Eu,
+        _ if among(WITH_US) => DstKey::Us,
+        _ => DstKey::None,
+    }
+}
+
 /// The city that lies nearest to a place \[°\], and how far away it is. \[km\]
 pub fn nearest(latitude: f64, longitude: f64) -> Option<(&'static City, f64)> {
     closest(latitude, longitude, 180.0)
@@ -124,6 +154,36 @@ mod tests {
         assert_eq!(search("  ", 5).1, 0);
         let (list, count) = search("san", 4);
         assert!(list.len() == 4 && count > 50);
+    }
+
+    #[test]
+    fn summer_time_is_that_of_the_place() {
+        for (typed, rule) in [
+            ("Stuttgart", DstKey::Eu),
+            ("London", DstKey::Eu),
+            ("Oslo", DstKey::Eu),
+            ("Istanbul", DstKey::None),
+            ("Chicago", DstKey::Us),
+            ("Phoenix", DstKey::None),
+            ("Honolulu", DstKey::None),
+            ("Toronto", DstKey::Us),
+            ("Winnipeg", DstKey::Us),
+            ("Regina, CA", DstKey::None),
+            ("Calgary", DstKey::Us),
+            ("Sydney, AU", DstKey::Australia),
+            ("Adelaide", DstKey::Australia),
+            ("Brisbane", DstKey::None),
+            ("Gold Coast", DstKey::None),
+            ("Perth, AU", DstKey::None),
+            ("Darwin", DstKey::None),
+            ("Auckland", DstKey::NewZealand),
+            ("Santiago, CL", DstKey::Chile),
+            ("Punta Arenas", DstKey::None),
+            ("Tokyo", DstKey::None),
+            ("Singapore", DstKey::None),
+        ] {
+            assert_eq!(summer_time(first(typed)), rule, "{typed}");
+        }
     }
 
     #[test]

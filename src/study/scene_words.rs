@@ -3,12 +3,19 @@
 use super::moment;
 use super::places::city_at;
 use super::scene_file::{IdealKind, RANKED, SceneFile, SkyModelKey, SystemKeys};
+use super::weather::short_name;
 use crate::compute::estimate::{Estimate, largest_relative_error};
 use crate::drawing::ticks::number;
 use crate::texts::{fixed, words as texts};
 
-/// The place in words: the city that it lies in, else coordinates.
+/// The place in words: of an hour of a weather, whose own place counts, the weather's name; else the city that it lies
+/// in, or coordinates.
 pub fn place(scene: &SceneFile) -> String {
+    scene.sky.weather.as_deref().map_or_else(|| site(scene), short_name)
+}
+
+/// The site in words, whatever the weather: the city that it lies in, else coordinates.
+pub fn site(scene: &SceneFile) -> String {
     let (Some(latitude), Some(longitude)) = (scene.site.latitude, scene.site.longitude) else {
         return texts::NO_PLACE.into();
     };
@@ -71,11 +78,16 @@ pub fn system(keys: &SystemKeys) -> String {
     }
 }
 
+/// Relative error from which words say that figures are uncertain: a step of the scale of illuminances of EN 12464-1, a
+/// factor of about 1.5. \[%\]
+const LARGE_ERROR: f64 = 50.0;
+
 /// How exact illuminances are, in the one way in which the program says it: see [`largest_relative_error`].
 pub fn error_words(totals: impl Iterator<Item = Estimate> + Clone) -> String {
     match 100.0 * largest_relative_error(totals) {
         error if error <= 0.0 => texts::NO_ERROR_STATED.into(),
         error if error < 0.005 => texts::ERROR_TINY.into(),
+        error if error >= LARGE_ERROR => texts::error_large(number(error, 2)),
         error => texts::error_at_most(number(error, 2)),
     }
 }

@@ -385,8 +385,9 @@ impl Session {
                 Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
                 None => None,
             };
-            // Dark corners are not chased beyond what anyone can see.
-            let absolute = 1e-7 * (facing.outside.diffuse_horizontal());
+            // Below this a sensor is dark: the error is relative to what it receives, also in dark corners, since what the
+            // rules state there is thousands of times what they miss.
+            let absolute = 1e-14 * facing.outside.diffuse_horizontal();
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
             let part = in_blocks(scene, DIRECT, progress, |s, sensor| {
                 let own: Vec<Cow<'_, Reception>> = receptions.iter().map(|all| all.of(s, sensor)).collect();

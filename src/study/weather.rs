@@ -2,10 +2,12 @@
 
 use super::error::StudyError;
 use super::files;
+use crate::compute::btdf::{Finding, Severity};
 use crate::compute::limits;
-use crate::compute::weather::{Closure, Weather};
+use crate::compute::weather::{Record, Summary, Weather};
 use crate::formats::weather;
-use crate::texts::year as say;
+use crate::texts::{Text, year as say};
+use jiff::civil::{Date, DateTime};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
@@ -70,6 +72,14 @@ pub fn words(year: &BuiltinYear) -> &'static str {
     }
 }
 
+/// A weather in a few words: the place of a year that comes with the program, else the file's name.
+pub fn short_name(name: &Path) -> String {
+    let built_in = YEARS.iter().find(|year| *name == *year.name());
+    // The place stands before the first comma.
+    let place = built_in.map(|year| words(year).split(',').next().unwrap_or_default().to_owned());
+    place.unwrap_or_else(|| name.file_name().unwrap_or(name.as_os_str()).to_string_lossy().into_owned())
+}
+
 /// The year that comes with the program from nearest to a place \[latitude and longitude in °\], along the earth's surface.
 pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
     let upright = |[latitude, longitude]: [f64; 2]| {
@@ -103,9 +113,9 @@ pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
         return Ok(Arc::clone(weather));
     }
     let weather = load(name, base)?;
-    let closure =
-        weather.closure().map_err(|error| StudyError::File { path: name.into(), message: error.to_string() })?;
-    let made = Arc::new(KeptWeather { weather, closure });
+    let summary =
+        weather.examine().map_err(|error| StudyError::File { path: name.into(), message: error.to_string() })?;
+    let made = Arc::new(KeptWeather { weather, summary });
     let mut list = kept();
     list.retain(|known| known.0 != path);
     list.truncate(MOST - 1);
@@ -113,12 +123,42 @@ pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
     Ok(made)
 }
 
-/// A weather, and how well its irradiances close.
+/// A weather, and what was found of it.
 pub struct KeptWeather {
     /// As the file has it.
     pub weather: Weather,
-    /// `None` where it does not tell.
-    pub closure: Option<Closure>,
+    /// Its clock and its faults.
+    pub summary: Summary,
+}
+
+impl KeptWeather {
+    /// Warnings that belong beside every figure of the weather. Whether its clock is off depends on how it is read, and
+    /// what a part of a year lacks on what is asked.
+    pub fn warnings(&self) -> impl Iterator<Item = &Finding> {
+        let depends = |code: &str| matches!(code, "clock-off" | "partial-year");
+        self.summary.findings.iter().filter(move |one| one.severity > Severity::Info && !depends(one.code))
+    }
+}
+
+/// A warning of a weather file in the window's language, by its code.
+pub fn warning_words(code: &str) -> Text {
+    match code {
+        "gaps" => say::WEATHER_GAPS,
+        "order" => say::WEATHER_ORDER,
+        "light-missing" => say::WEATHER_MISSING,
+        "sun-down-light" => say::WEATHER_SUN_DOWN,
+        "black-sky" => say::WEATHER_BLACK_SKY,
+        _ => say::WEATHER_SUMMER_TIME,
+    }
+}
+
+/// A moment in local standard time: seconds from the midnight of a record's day. A 29th of February in a common year is
+/// believed as a row, but no calendar has it: it is the 28th.
+pub fn moment(record: &Record, seconds: f64) -> DateTime {
+    let day = record.day;
+    let of = |number: u8| Date::new(day.year, day.month.cast_signed(), number.cast_signed());
+    let date = of(day.day).or_else(|_| of(28)).unwrap_or(Date::MIN);
+    date.at(0, 0, 0, 0).saturating_add(jiff::Span::new().seconds(seconds.round() as i64))
 }
 
 /// Reads a weather file, or a year that comes with the program (`builtin:new-york`). A name that is not absolute starts

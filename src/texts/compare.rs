@@ -96,9 +96,9 @@ texts! {
     const PEAK_TIP = "Largest scattered intensity as a luminaire file holds it: brightness to the ceiling is wanted, to the eyes it is not" | "Größte gestreute Lichtstärke, wie eine Leuchtendatei sie enthält: zur Decke gewünscht, ins Auge nicht";
     const MEAN = "Mean illuminance" | "Mittlere Beleuchtungsstärke";
     const MEAN_TIP = "Mean over the sensors; light or shade may be wanted" | "Mittel über die Messpunkte; Licht oder Schatten kann gewünscht sein";
-    const LEAST = "Worst sensor" | "Dunkelster Messpunkt";
+    const LEAST = "Darkest sensor" | "Dunkelster Messpunkt";
     const LEAST_TIP = "Least illuminance of any sensor: where daylight is short" | "Kleinste Beleuchtungsstärke aller Messpunkte: wo Tageslicht fehlt";
-    const GREATEST = "Best sensor" | "Hellster Messpunkt";
+    const GREATEST = "Brightest sensor" | "Hellster Messpunkt";
     const GREATEST_TIP = "Greatest illuminance of any sensor; much more than elsewhere may dazzle" | "Größte Beleuchtungsstärke aller Messpunkte; viel mehr als anderswo kann blenden";
     const UNIFORMITY = "Uniformity" | "Gleichmäßigkeit";
     const UNIFORMITY_TIP = "Least over mean illuminance" | "Kleinste zu mittlerer Beleuchtungsstärke";

@@ -55,7 +55,7 @@ texts! {
     fn state(key) = "state {key}" | "Stellung {key}";
     const SUN_BEHIND = "the sun is not before the façade" | "die Sonne steht nicht vor der Fassade";
     fn profile_angle_is(angle) = "profile angle {angle}°" | "Profilwinkel {angle}°";
-    fn movements(count) = "{count} movements a year" | "{count} Bewegungen im Jahr";
+    fn movements(count) = "{count} movements a year if every hour is sunny" | "{count} Bewegungen im Jahr, wenn jede Stunde sonnig ist";
     const RULE = "rule" | "Regel";
     const TODAY = "today" | "heute";
     const NOW = "now" | "jetzt";
@@ -130,6 +130,7 @@ texts! {
     const ACCURACY = "Accuracy" | "Genauigkeit";
     const SYSTEM = "system" | "System";
     const PLACE = "place" | "Ort";
+    const WEATHER = "weather" | "Wetter";
     const FACADE_FACES = "façade faces" | "Fassade nach";
     fn from_north(degrees) = "{degrees}° from north" | "{degrees}° von Nord";
     const GROUND = "ground reflectance" | "Bodenreflexionsgrad";
@@ -207,7 +208,9 @@ texts! {
     const IN_TILES_TIP = "As many luminaires as light a room within 1 %, and an index of where they stand; one file alone blurs patches of sun" | "So viele Leuchten, wie einen Raum auf 1 % genau beleuchten, und ein Verzeichnis ihrer Orte; eine einzelne Datei verwischt Sonnenflecken";
     const WITHOUT_BEAM = "Without the straight sunbeam" | "Ohne den geraden Sonnenstrahl";
     const WITHOUT_BEAM_TIP = "Where the other program draws the sun through by itself; flux and direction stand in the header" | "Wenn das andere Programm die Sonne selbst hindurchzeichnet; Lichtstrom und Richtung stehen im Dateikopf";
-    fn tiles_reached(count, sum, rms) = "index; {count} tiles light this room with a sum of {sum} %, rms {rms} %" | "Verzeichnis; {count} Kacheln beleuchten diesen Raum mit Summe {sum} %, quadratisches Mittel {rms} %";
+    const TILES_LATER = "index of the tiles; how many the room needs is found as they are written, in a folder of their own" | "Verzeichnis der Kacheln; wie viele der Raum braucht, ergibt sich beim Schreiben, in einen eigenen Ordner";
+    const FIRST_TILE = "the first tile" | "die erste Kachel";
+    fn stage_left(stage, seconds) = "{stage}, about {seconds} s left" | "{stage}, noch etwa {seconds} s";
     const ON_THE_21ST = "On the 21st of" | "Am 21.";
     const FROM = "From" | "Von";
     const TO = "to" | "bis";

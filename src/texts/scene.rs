@@ -140,6 +140,7 @@ texts! {
     const DATE_TIP = "21.3., 21 Mar or 2026-03-21" | "21.3., 21. März oder 2026-03-21";
     const DAY_OF_YEAR = "Day of the year" | "Tag des Jahres";
     const TIME = "Time" | "Zeit";
+    const STANDARD_TIME = "Standard time" | "Normalzeit";
     const TIME_TIP = "12:30, 12.5 or 9; standard time, or summer time where the place has it" | "12:30, 12,5 oder 9; Normalzeit, oder Sommerzeit, wo der Ort sie hat";
     const TIME_OF_DAY = "Time of day" | "Tageszeit";
     fn rise_and_set(rise, set) = "Sunrise {rise}, sunset {set}" | "Aufgang {rise}, Untergang {set}";

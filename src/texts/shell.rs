@@ -7,6 +7,7 @@ texts! {
     fn language_is(name) = "Language: {name}" | "Sprache: {name}";
     const NO_LARGER = "The window has no room for larger text: make it larger first" | "Das Fenster hat keinen Platz für größere Schrift: zuerst das Fenster vergrößern";
     const OPENING_CATALOGUE = "opening the catalogue…" | "Katalog wird geöffnet…";
+    const WEATHER_ELSEWHERE = " (not the scene's place)" | " (nicht der Ort der Szene)";
     const NO_PRODUCT_WORD = "no product" | "kein Produkt";
 
     const COMMAND = "Command" | "Befehl";

@@ -25,6 +25,7 @@ texts! {
     const SCENE = "scene" | "Szene";
     const STATES = "states" | "Stellungen";
     const SURFACES = "surfaces" | "Flächen";
+    const TILES = "tiles" | "Kacheln";
     const WEATHER = "weather" | "Wetter";
     const WAITING = "waiting for the product's data" | "auf Produktdaten warten";
 }

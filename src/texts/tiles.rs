@@ -340,7 +340,7 @@ texts! {
     const LOAD_CURVE = "Load a curve (.csv)…" | "Kurve laden (.csv)…";
     const EXPORT_YEAR = "Export the year (.csv)…" | "Jahr exportieren (.csv)…";
     const MORE_CONTROL = "Thresholds, curve files, export" | "Schwellen, Kurvendateien, Export";
-    fn movements(count) = "{count} movements a year" | "{count} Bewegungen im Jahr";
+    fn movements(count) = "{count} movements a year if every hour is sunny" | "{count} Bewegungen im Jahr, wenn jede Stunde sonnig ist";
     const STATE_WORD = "state" | "Stellung";
     const SUN_NOT_BEFORE = "the sun is not before the façade" | "die Sonne steht nicht vor der Fassade";
     fn profile_angle(angle) = "profile angle {angle}°" | "Profilwinkel {angle}°";

@@ -54,6 +54,7 @@ texts! {
     // How exact.
     const NO_ERROR_STATED = "no error stated" | "keine Unsicherheit angegeben";
     const ERROR_TINY = "error < 0.01 % of each value" | "Unsicherheit < 0,01 % jedes Werts";
+    fn error_large(percent) = "UNCERTAIN: error up to {percent} % of a value" | "UNSICHER: Unsicherheit bis {percent} % eines Werts";
     fn error_at_most(percent) = "error ≤ {percent} % of each value" | "Unsicherheit ≤ {percent} % jedes Werts";
 
     // The direction of incidence.

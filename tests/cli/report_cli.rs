@@ -230,7 +230,7 @@ fn a_study_tells_its_candidates_as_the_table_does_and_draws_them_on_one_scale() 
         let line = line.unwrap_or_else(|| panic!("{name}: {text}"));
         line[name.len()..].split("  ").map(|cell| cell.trim().trim_start_matches("▲ ").to_owned()).collect()
     };
-    for name in ["Mean illuminance / lx", "Worst sensor / lx", "Luminous flux / lm", "Uniformity"] {
+    for name in ["Mean illuminance / lx", "Darkest sensor / lx", "Luminous flux / lm", "Uniformity"] {
         let cells = |text: &str| row(text, name).into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>();
         let (wanted, found) = (cells(&plain), cells(&study));
         assert!(wanted.len() >= 3 && found[..2] == wanted[..2], "{name}: {wanted:?} {found:?}");

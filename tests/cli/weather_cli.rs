@@ -186,7 +186,9 @@ fn a_scene_in_another_place_and_a_clock_that_is_off_are_told() {
     assert!(said.contains("warning: the clock of") && said.contains("sun_offset_minutes = -30"), "{said}");
     scene(folder.path(), &hour("sun_offset_minutes = \"auto\""), "");
     let (auto, said) = sky(folder.path());
-    assert!(!said.contains("warning"), "{said}");
+    assert!(!said.contains("the clock of"), "{said}");
+    // The file itself is not without faults: what `cfs info` warns of stands beside the hour.
+    assert!(said.contains("no diffuse light with the sun more than 10°"), "{said}");
     scene(folder.path(), &hour("sun_offset_minutes = -30"), "");
     let (moved, _) = sky(folder.path());
     assert_eq!(auto["weather"]["sun_azimuth_deg"], moved["weather"]["sun_azimuth_deg"]);

@@ -245,3 +245,44 @@ fn openings_stand_beside_a_whole_year() {
     assert_eq!((&standard["view"]["layers"]["ground"], &standard["view"]["points"]), (&true.into(), &4.into()));
     assert_eq!(standard["view"]["distance"], "nothing in the way");
 }
+
+/// The figures of a whole year of sun through a window.
+fn sun_of_a_year(folder: &Path, system: &str, rest: &str) -> serde_json::Value {
+    scene(
+        folder,
+        system,
+        &format!("{rest}[compute]\ninterreflection = false\n[year]\nweather = \"builtin:renton\"\ndgp = false\n"),
+    );
+    let json: serde_json::Value = serde_json::from_str(&done(folder, &["year", "scene.toml", "--json"])).unwrap();
+    json["metrics"].clone()
+}
+
+#[test]
+fn sunlight_exposure_has_shading_retracted_and_boxes_in_the_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for (name, absorption) in [("clear", 8.0), ("dark", 800.0)] {
+        let text = format!(
+            "name = \"{name}\"\nkind = \"pane\"\n[pane]\nindex = 1.52\nthickness = 0.004\nabsorption = {absorption:?}\n"
+        );
+        std::fs::write(folder.join(format!("{name}.system.toml")), text).unwrap();
+    }
+    let clear = sun_of_a_year(folder, "{ file = \"clear.system.toml\" }", "");
+    let hours = |metrics: &serde_json::Value, key: &str| -> Vec<f64> {
+        metrics[key].as_array().unwrap().iter().map(|hours| hours.as_f64().unwrap()).collect()
+    };
+    let open = hours(&clear, "sun_hours_1000");
+    assert_eq!(hours(&clear, "ASE_hours_1000"), open);
+    assert!(open.iter().any(|hours| *hours > 250.0) && clear["ASE1000_250"].as_f64().unwrap() > 0.0, "{open:?}");
+    // A control darkens the glass while the sun shines on it: in use no point has 1000 lx, retracted all have what they had.
+    let family = "{ state = \"controlled\", states = [{ state = \"clear\", value = 0.0, file = \"clear.system.toml\" }, \
+                  { state = \"dark\", value = 1.0, file = \"dark.system.toml\" }] }";
+    let moved = sun_of_a_year(folder, family, "[control]\nmode = \"din-5034\"\n");
+    assert_eq!((hours(&moved, "ASE_hours_1000"), &moved["ASE1000_250"]), (open.clone(), &clear["ASE1000_250"]));
+    assert!(hours(&moved, "sun_hours_1000").iter().all(|hours| *hours == 0.0));
+    // An overhang hides high suns and leaves low ones.
+    let overhang = "[[outside]]\nbox = { from = [-3.0, -2.0, 3.0], to = [7.0, 0.0, 3.1] }\nreflectance = 0.0\n";
+    let shaded = hours(&sun_of_a_year(folder, "{ file = \"clear.system.toml\" }", overhang), "sun_hours_1000");
+    assert!(shaded.iter().zip(&open).all(|(shaded, open)| shaded < open), "{shaded:?} {open:?}");
+    assert!(shaded.iter().any(|hours| *hours > 0.0), "{shaded:?}");
+}

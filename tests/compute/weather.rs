@@ -37,6 +37,7 @@ fn day_of(latitude: f64, day: Day, direct: f64, diffuse: f64) -> Weather {
         line: 9 + u32::from(hour),
     });
     Weather {
+        first_weekday: None,
         format: "made",
         station: Station { latitude, ..Station::default() },
         quantity: Quantity::NormalIrradiance,
@@ -324,4 +325,55 @@ fn wrong_signs_and_gaps_are_told() {
     assert!(message.contains("3 h between lines 2000 and 2001"), "{message}");
     lines.insert(1000, lines[1000]);
     assert!(codes(&lines.join("\n")).contains(&"order"));
+}
+
+/// A typical year: each month of another year, one record a day.
+fn spliced(years: [i16; 12], first_weekday: Option<u8>) -> Weather {
+    let month = |(month, year): (u8, i16)| {
+        (1..=31).filter_map(move |day| Day::new(year, month, day)).filter(|day| (day.month, day.day) != (2, 29))
+    };
+    let days = (1..).zip(years).flat_map(month);
+    let records = days.map(|day| Record { day, ..day_of(45.0, day, 0.0, 0.0).records[12] }).collect();
+    Weather { first_weekday, records, ..day_of(45.0, Day::new(2001, 1, 1).unwrap(), 0.0, 0.0) }
+}
+
+#[test]
+fn weekdays_of_typical_years_are_those_of_one_calendar() {
+    const SUNDAY: u8 = 6;
+    let working = |weather: &Weather| weather.weekdays().iter().filter(|weekday| **weekday < 5).count();
+    let years = [1999, 1983, 1992, 2001, 1987, 1990, 1979, 1995, 1980, 2003, 1976, 1998];
+    let stated = spliced(years, Some(SUNDAY));
+    assert!(stated.is_spliced());
+    let weekdays = stated.weekdays();
+    assert_eq!((weekdays.len(), weekdays[0], weekdays[31], weekdays[364]), (365, SUNDAY, 2, SUNDAY));
+    assert!(weekdays.windows(2).all(|pair| pair[1] == (pair[0] + 1) % 7));
+    assert_eq!(working(&stated), 260);
+    // Without a statement the calendar begins as in the year of the first record: 1 January 1999 was a Friday.
+    let own = spliced(years, None);
+    assert_eq!(own.weekdays()[0], 4);
+    assert!((260..=262).contains(&working(&own)));
+    // The rows of one year, or of years that follow each other, have their own weekdays, whatever the file states.
+    for year in [spliced([2024; 12], Some(SUNDAY)), spliced([2023; 12], Some(SUNDAY))] {
+        assert!(!year.is_spliced());
+        let own: Vec<u8> = year.records.iter().map(|record| record.day.weekday()).collect();
+        assert_eq!(year.weekdays(), own);
+    }
+}
+
+#[test]
+fn whole_hours_of_an_offset_are_a_clock_that_is_wrong() {
+    let weather = day_of(45.0, Day::new(2001, 6, 21).unwrap(), 100.0, 100.0);
+    for (minutes, moved_clock) in [(0.0, 0), (30.0, 0), (59.0, 0), (60.0, 60), (-90.0, -60), (150.0, 120)] {
+        let hours = weather.hours(moved(minutes)).unwrap();
+        assert_eq!((hours.moved_clock(), hours.offset()), (moved_clock, minutes));
+    }
+}
+
+#[test]
+fn a_black_sky_under_a_high_sun_is_warned_of() {
+    let codes = |diffuse: f64| -> Vec<&'static str> {
+        let weather = day_of(45.0, Day::new(2001, 6, 21).unwrap(), 0.0, diffuse);
+        weather.examine().unwrap().findings.iter().map(|finding| finding.code).collect()
+    };
+    assert!(codes(0.0).contains(&"black-sky") && !codes(10.0).contains(&"black-sky"));
 }

@@ -162,7 +162,9 @@ pub fn show<F: Into<Foot>>(
             let mut line = ui.new_child(UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center)));
             let short = text.fitting(ui, foot.width());
             let shortened = short != text.full();
-            let label = egui::Label::new(RichText::new(&short).size(SMALL).color(palette.ink)).truncate();
+            // Figures of an earlier scene stand back as their picture does.
+            let colour = if status.stale { palette.weak } else { palette.ink };
+            let label = egui::Label::new(RichText::new(&short).size(SMALL).color(colour)).truncate();
             let said = line.add(label.show_tooltip_when_elided(!shortened));
             if shortened {
                 said.on_hover_text(text.full());

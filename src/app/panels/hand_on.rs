@@ -10,7 +10,7 @@ use crate::report::size::Unit;
 use crate::report::tender::spoken;
 use crate::report::{Size, TileKind};
 use crate::texts::words::MONTHS;
-use crate::texts::{Text, hand_on as texts};
+use crate::texts::{Text, hand_on as texts, stages};
 use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, TextureOptions, Ui, vec2};
 use std::path::PathBuf;
 
@@ -218,7 +218,10 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
                 commands.push(Command::Cancel(Lane::Export));
             }
             let share = job.state.fraction().unwrap_or(0.0);
-            ui.add(egui::ProgressBar::new(share).desired_width(140.0).text(job.state.stage()));
+            let stage = stages::word(job.state.stage());
+            let words = job.state.left().map(|left| texts::stage_left(stage, left.as_secs().max(1)));
+            let words = words.unwrap_or_else(|| stage.to_owned());
+            ui.add(egui::ProgressBar::new(share).desired_width(240.0).text(words));
         });
         return;
     }

@@ -42,7 +42,7 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather
         let error = state.scene_error.as_ref().filter(|error| section_of(error.key, perez) == title)?;
         Some(error.to_string())
     };
-    section(ui, texts::PLACE, &title::place(scene), wrong(texts::PLACE), false, |ui| place::show(ui, scene));
+    section(ui, texts::PLACE, &title::site(scene), wrong(texts::PLACE), false, |ui| place::show(ui, scene));
     let facing = format!("{}, {:.0}°", moment::bearing_word(scene.site.azimuth), scene.site.azimuth);
     section(ui, texts::FACADE, &facing, wrong(texts::FACADE), true, |ui| facade(ui, scene, &state.base()));
     section(ui, texts::DATE_AND_TIME, &title::time(scene), wrong(texts::DATE_AND_TIME), true, |ui| {

@@ -9,6 +9,7 @@ use crate::app::views::{Cache, year as view};
 use crate::app::year::{YearAct, weather_of_year};
 use crate::app::{moment, title};
 use crate::drawing::hour_map::HourMap;
+use crate::study::weather::warning_words;
 use crate::study::year::{Annual, Day, Look, Row, day, map, months, sunniest, table};
 use crate::texts::{Language, language, year as say};
 use egui::Ui;
@@ -26,8 +27,15 @@ pub struct Drawing {
     months: Cache<u64, Option<[(f64, f64); 12]>>,
 }
 
+/// What stands beside the year's figures: faults of its weather file, and a state that is another than the year's.
+fn remarks(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
+    let warnings = annual.year.steps.weather_warnings.iter().map(|code| warning_words(code).to_string());
+    let all = warnings.chain(Some(other_state(seen, annual, now)).filter(|words| !words.is_empty()));
+    all.collect::<Vec<_>>().join(". ")
+}
+
 /// Is the state of the scene's moment another than the year has at that step? In words, or nothing.
-fn remark(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
+fn other_state(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
     let state = seen.state;
     let aperture = state.control_aperture() + 1;
     let moving = annual.year.moving.iter().position(|one| one.aperture == aperture);
@@ -56,7 +64,7 @@ impl Drawn for Drawing {
         let of = result.revision;
         let month = moment::of(scene).map_or(6, |time| time.month().unsigned_abs());
         let now = annual.and_then(|annual| annual.now(scene));
-        let remark = annual.map_or_else(String::new, |annual| remark(seen, annual, now));
+        let remark = annual.map_or_else(String::new, |annual| remarks(seen, annual, now));
         let shown = match annual {
             Some(annual) => {
                 let of_day = look.month.unwrap_or(month);

@@ -43,10 +43,10 @@ impl Day {
         BEFORE[usize::from(self.month.clamp(1, 12)) - 1] + u16::from(day)
     }
 
-    /// Saturday or Sunday?
-    pub fn is_weekend(self) -> bool {
+    /// Day of the week, 0 (Monday) … 6 (Sunday).
+    pub fn weekday(self) -> u8 {
         // 1 January 1970 was a Thursday.
-        (self.number() + 3).rem_euclid(7) >= 5
+        (self.number() + 3).rem_euclid(7) as u8
     }
 
     /// Square of the mean distance of the sun over that of the day, by which the solar constant is multiplied: Spencer
@@ -78,7 +78,7 @@ mod tests {
         assert_eq!(day(1900, 3, 1).number() - day(1900, 2, 28).number(), 1);
         assert_eq!(day(1900, 2, 29).number(), day(1900, 3, 1).number());
         assert_eq!(day(2026, 1, 1).number() - day(2025, 1, 1).number(), 365);
-        assert!(day(2026, 11, 22).is_weekend() && !day(2026, 11, 23).is_weekend());
+        assert_eq!((day(2026, 11, 22).weekday(), day(2026, 11, 23).weekday()), (6, 0));
         assert_eq!((day(2001, 12, 31).of_common_year(), day(2004, 2, 29).of_common_year()), (365, 59));
         for (month, number) in [(0, 1), (13, 1), (4, 31), (2, 30), (1, 0)] {
             assert_eq!(Day::new(2001, month, number), None);

@@ -1,6 +1,6 @@
 //! What is to be said about a weather file: period, gaps, clock, light with the sun down, sums.
 
-use super::hour::{HourError, LightSource, Reading, SunOffset};
+use super::hour::{HIGH_SUN, HourError, LightSource, Reading, SunOffset};
 use super::record::{Closure, Quantity, Record, Weather};
 use super::sun_path::SunPath;
 use crate::compute::btdf::Finding;
@@ -104,7 +104,7 @@ impl Weather {
         let mut first_gap = String::new();
         for pair in self.records.windows(2) {
             let (before, after) = (&pair[0], &pair[1]);
-            let minutes = minutes_between(before, after);
+            let minutes = before.minutes_to(after);
             if minutes > step {
                 if gaps.number == 0 {
                     let hours = (minutes - step) as f64 / 60.0;
@@ -177,7 +177,7 @@ impl Weather {
         let mut hours = self.hours(Reading { light: LightSource::File, offset: SunOffset::default() })?;
         let mut path = SunPath::new(&self.station);
         let length = f64::from(self.interval) / 60.0;
-        let (mut absent, mut night) = (Count::default(), Count::default());
+        let (mut absent, mut night, mut black) = (Count::default(), Count::default(), Count::default());
         let (mut dew, mut lit) = (0, 0);
         let sums = &mut summary.sums;
         for (index, record) in self.records.iter().enumerate() {
@@ -198,6 +198,9 @@ impl Weather {
                 }
                 Err(error) => return Err(error),
             };
+            if hour.lacks_sky() {
+                black.add(record);
+            }
             if !hour.is_lit() {
                 continue;
             }
@@ -232,8 +235,16 @@ impl Weather {
             );
             findings.push(Finding::warning("sun-down-light", message));
         }
-        if summary.without_sky > 0 {
-            let message = format!("{} rows with sun and a diffuse part of 0: their sky is dark", summary.without_sky);
+        if black.number > 0 {
+            let message = format!(
+                "no diffuse light with the sun more than {HIGH_SUN}° above the horizon: {}; their sky is black",
+                black.words()
+            );
+            findings.push(Finding::warning("black-sky", message));
+        }
+        let low = summary.without_sky.saturating_sub(black.number);
+        if low > 0 {
+            let message = format!("{low} rows with a low sun and a diffuse part of 0: their sky is dark");
             findings.push(Finding::info("dark-sky", message));
         }
         if dew == 0 && lit > 0 {
@@ -249,24 +260,4 @@ impl Weather {
         }
         Ok(())
     }
-}
-
-/// From the begin of one record to that of the next. Typical years change the year from month to month: years count
-/// only where both are the same.
-fn minutes_between(before: &Record, after: &Record) -> i64 {
-    let minutes = |record: &Record, year: i16| {
-        let mut day = record.day;
-        day.year = year;
-        1440 * day.number() + i64::from(record.start)
-    };
-    if before.day.year == after.day.year {
-        return minutes(after, after.day.year) - minutes(before, before.day.year);
-    }
-    let whole = minutes(after, after.day.year) - minutes(before, before.day.year);
-    // A common year for both; the new one after the old one's end.
-    let mut spliced = minutes(after, 2001) - minutes(before, 2001);
-    if (before.day.month, before.day.day) > (after.day.month, after.day.day) {
-        spliced += 1440 * 365;
-    }
-    if whole >= 0 && whole < spliced { whole } else { spliced }
 }

@@ -30,6 +30,10 @@ impl Default for SunOffset {
     }
 }
 
+/// Altitude of the sun above which every sky is bright: in typical years (CZ2010, TMY3) rows that are dark at sunrise and
+/// sunset end at 8.6°, what is above is a gap. \[°\]
+pub const HIGH_SUN: f64 = 10.0;
+
 /// Furthest that intervals can be moved. \[min\]
 pub const WIDEST_OFFSET: f64 = 180.0;
 
@@ -102,6 +106,11 @@ impl Hour {
         self.direct_normal > 0.0 || self.diffuse_horizontal > 0.0
     }
 
+    /// Is the sky black with the sun high up, which no sky is?
+    pub fn lacks_sky(&self) -> bool {
+        self.diffuse_horizontal <= 0.0 && self.sun.altitude().to_degrees() > HIGH_SUN
+    }
+
     /// Where the sky's circumsolar part peaks: the sun, on the horizon while it is below.
     pub fn sky_sun(&self) -> Dir<World> {
         if self.sun.vector().z >= 0.0 { self.sun } else { Dir::from_altitude_bearing(0.0, self.sun.bearing()) }
@@ -114,6 +123,7 @@ pub struct Hours<'a> {
     weather: &'a Weather,
     path: SunPath,
     offset: f64,
+    moved_clock: i32,
     light: LightSource,
     next: usize,
 }
@@ -132,7 +142,8 @@ impl Weather {
             SunOffset::Auto => self.closure()?.ok_or(HourError::NoClosure)?.best_offset,
         };
         let path = SunPath::new(&self.station);
-        Ok(Hours { weather: self, path, offset: self.clock + offset, light: reading.light, next: 0 })
+        let moved_clock = 60 * (offset / 60.0).trunc() as i32;
+        Ok(Hours { weather: self, path, offset: self.clock + offset, moved_clock, light: reading.light, next: 0 })
     }
 }
 
@@ -140,6 +151,13 @@ impl Hours<'_> {
     /// Minutes by which intervals lie later than the records say, the file's own clock included.
     pub fn offset(&self) -> f64 {
         self.offset
+    }
+
+    /// Whole hours of what the reading moves the intervals by, in minutes: the file's clock is wrong by them (rows by UTC
+    /// under a header of local time), so that people and schedules move with the sun. The rest says where in its
+    /// interval the light belongs and moves the sun alone.
+    pub fn moved_clock(&self) -> i32 {
+        self.moved_clock
     }
 
     /// The light of a record.

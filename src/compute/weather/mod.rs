@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `calendar` | days of the civil calendar, the earth's distance from the sun |
 //! | `record` | what a file tells: station, records, their quantities |
+//! | `weekdays` | days of the week, also of spliced years |
 //! | `sun_path` | the sun's place at any minute of a day, fast |
 //! | `hour` | a record with its sun in the lit part, irradiances and illuminances |
 //! | `closure` | is the file's clock right? |
@@ -19,6 +20,7 @@ mod examine;
 mod hour;
 mod record;
 mod sun_path;
+mod weekdays;
 
 pub use calendar::Day;
 pub use closure::SEARCHED;

@@ -112,6 +112,8 @@ pub struct Weather {
     pub clock: f64,
     /// How the clock was found where the file states one: it was tested before the global irradiances were left out.
     pub tested: Option<Closure>,
+    /// Day of the week on which the records begin, as the file states it; 0 (Monday) … 6 (Sunday).
+    pub first_weekday: Option<u8>,
     /// In the file's order; at least one.
     pub records: Vec<Record>,
     /// What the reader had to say.
@@ -149,6 +151,22 @@ impl Weather {
 }
 
 impl Record {
+    /// Minutes from the begin of this record to that of a later one. Typical years are spliced of months of several
+    /// years: years count only where both are the same, or follow each other.
+    pub(super) fn minutes_to(&self, later: &Self) -> i64 {
+        let minutes = |record: &Self, year: i16| 1440 * Day { year, ..record.day }.number() + i64::from(record.start);
+        let whole = minutes(later, later.day.year) - minutes(self, self.day.year);
+        if self.day.year == later.day.year {
+            return whole;
+        }
+        // A common year for both; the new one after the old one's end.
+        let mut spliced = minutes(later, 2001) - minutes(self, 2001);
+        if (self.day.month, self.day.day) > (later.day.month, later.day.day) {
+            spliced += 1440 * 365;
+        }
+        if whole >= 0 && whole < spliced { whole } else { spliced }
+    }
+
     /// Begin and end as clocks show them: `12:00–13:00`.
     pub fn clock_words(&self, interval: u16) -> String {
         let at = |minutes: u16| format!("{:02}:{:02}", minutes / 60, minutes % 60);

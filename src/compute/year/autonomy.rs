@@ -83,20 +83,26 @@ fn one_if(yes: bool) -> f64 {
 /// Sun straight on the places.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
-    /// Occupied hours with 1000 lx or more, by place.
+    /// Occupied hours with 1000 lx or more in use, by place.
     pub hours_1000: Vec<f64>,
-    /// ASE1000,250.
+    /// The same with shading retracted.
+    pub ase_hours_1000: Vec<f64>,
+    /// ASE1000,250: share of the places with more than 250 of these.
     pub ase_1000_250: f64,
 }
 
 impl Exposure {
-    /// Of the sun's light that comes through unscattered and unreflected; `length` of a step in hours.
-    pub fn of(steps: &[Step], sun: Light<'_>, length: f64) -> Self {
+    /// Of the sun's light that comes through unscattered and unreflected, in use and with shading retracted; `length` of a
+    /// step in hours.
+    pub fn of(steps: &[Step], in_use: Light<'_>, retracted: Light<'_>, length: f64) -> Self {
         let occupied = occupied(steps);
-        let hours = |place| length * occupied.iter().filter(|&&k| sun.at(k, place) >= 1000.0).count() as f64;
-        let hours_1000: Vec<f64> = (0..sun.places()).map(hours).collect();
-        let ase_1000_250 = share(hours_1000.iter().filter(|hours| **hours > 250.0).count(), hours_1000.len());
-        Self { hours_1000, ase_1000_250 }
+        let hours = |sun: Light<'_>| -> Vec<f64> {
+            let at = |place| length * occupied.iter().filter(|&&k| sun.at(k, place) >= 1000.0).count() as f64;
+            (0..sun.places()).map(at).collect()
+        };
+        let ase_hours_1000 = hours(retracted);
+        let ase_1000_250 = share(ase_hours_1000.iter().filter(|hours| **hours > 250.0).count(), ase_hours_1000.len());
+        Self { hours_1000: hours(in_use), ase_hours_1000, ase_1000_250 }
     }
 }
 
@@ -133,8 +139,10 @@ mod tests {
         let mut sun = vec![1000.0; 2 * 251];
         sun[1] = 999.9;
         let light = Light::new(2, &sun).unwrap();
-        let exposure = Exposure::of(&year, light, 1.0);
-        assert_eq!((exposure.hours_1000, exposure.ase_1000_250), (vec![251.0, 250.0], 0.5));
-        assert_eq!(Exposure::of(&year, light, 0.5).ase_1000_250, 0.0);
+        let dark = vec![0.0; 2 * 251];
+        let exposure = Exposure::of(&year, Light::new(2, &dark).unwrap(), light, 1.0);
+        assert_eq!((exposure.hours_1000, exposure.ase_1000_250), (vec![0.0; 2], 0.5));
+        assert_eq!(exposure.ase_hours_1000, [251.0, 250.0]);
+        assert_eq!(Exposure::of(&year, light, light, 0.5).ase_1000_250, 0.0);
     }
 }

@@ -4,7 +4,7 @@
 //! must be there. Hours count from 1 to 24 and end there; of one record an hour the minute (0 or 60) says nothing. Rows
 //! are believed and the header's flags not: leap years, periods, gaps. Missing codes are no values.
 
-use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, text_of};
+use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, text_of, weekday};
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
 use crate::compute::weather::{Quantity, Record, Station, Weather};
@@ -36,7 +36,7 @@ const LONGEST_HEADER: usize = 200;
 pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
     let mut rows = lines(bytes);
     let mut findings = Vec::new();
-    let (station, interval) = header(&mut rows, &mut findings)?;
+    let Header { station, interval, first_weekday } = header(&mut rows, &mut findings)?;
     let mut records = Vec::new();
     let mut changed = Changed::default();
     let mut last = 1;
@@ -66,17 +66,26 @@ pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
         interval,
         clock: 0.0,
         tested: None,
+        first_weekday,
         records,
         findings,
         field_names: [DIRECT, DIFFUSE],
     })
 }
 
-/// Station and length of the records. \[min\]
+/// What the lines before the first row state.
+struct Header {
+    station: Station,
+    /// Length of the records. \[min\]
+    interval: u16,
+    /// Of the first row, 0 (Monday) … 6 (Sunday).
+    first_weekday: Option<u8>,
+}
+
 fn header<'a>(
     rows: &mut impl Iterator<Item = (usize, &'a [u8])>,
     findings: &mut Vec<Finding>,
-) -> Result<(Station, u16), FormatError> {
+) -> Result<Header, FormatError> {
     let (_, first) = rows.next().unwrap_or((1, &[]));
     let first = text_of(first);
     if !first.trim_start().to_ascii_uppercase().starts_with("LOCATION") {
@@ -88,7 +97,9 @@ fn header<'a>(
         let text = text_of(line);
         let word = text.trim_start().to_ascii_uppercase();
         if word.starts_with("DATA PERIODS") {
-            return Ok((station, interval(&text, number)?));
+            let fields = header_fields(&text, number, "DATA PERIODS, records per hour");
+            let first_weekday = fields.get(4).and_then(|field| weekday(field.text));
+            return Ok(Header { station, interval: interval(&fields, number)?, first_weekday });
         }
         if word.starts_with("HOLIDAYS") {
             say_summer_time(&text, findings);
@@ -159,9 +170,8 @@ fn say_summer_time(text: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// `DATA PERIODS,number,records per hour,…`
-fn interval(text: &str, line: usize) -> Result<u16, FormatError> {
-    let fields = header_fields(text, line, "DATA PERIODS, records per hour");
+/// `DATA PERIODS,number,records per hour,name,first weekday,…`
+fn interval(fields: &[Field<'_>], line: usize) -> Result<u16, FormatError> {
     let Some(field) = fields.get(2) else {
         let expected = "DATA PERIODS, number of periods, records per hour, …";
         return Err(FormatError::new(Location::line(line), "DATA PERIODS without records per hour", expected));

@@ -17,6 +17,15 @@ pub fn text_of(line: &[u8]) -> String {
     any_text(line).0
 }
 
+/// Days of the week as files name them, Monday first.
+pub const WEEKDAYS: [&str; 7] = ["Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"];
+
+/// Place of a name in [`WEEKDAYS`].
+pub fn weekday(text: &str) -> Option<u8> {
+    let named = |name: &&str| text.trim().eq_ignore_ascii_case(name);
+    WEEKDAYS.iter().position(named).map(|place| place as u8)
+}
+
 /// A field in its line.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {

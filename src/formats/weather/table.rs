@@ -12,13 +12,14 @@
 //! elevation = 40
 //! clock = -30                minutes by which all intervals lie later than their hours say
 //! closure = 26.7 1.8         W/m², of the source's own irradiances, without and with that clock
+//! first_weekday = Sunday     of the first day: weekdays of a year that is spliced of several
 //!
 //! 1958-01-01                 a day of 24 hours, each row's own year
 //! 8,12,41,6.7                interval that ends at hour 8: direct normal, diffuse horizontal W/m², dew point °C
 //! ```
 //! Hours that are not listed are dark: nothing else is left out of a day. An empty dew point is not known.
 
-use super::fields::{Changed, Field, check_count, day, diffuse, direct, lines, place};
+use super::fields::{Changed, Field, WEEKDAYS, check_count, day, diffuse, direct, lines, place, weekday};
 use crate::compute::limits;
 use crate::compute::weather::{Closure, Day, Quantity, Record, Station, Weather};
 use crate::formats::location::excerpt;
@@ -30,8 +31,19 @@ pub const MAGIC: &str = "cfs-weather 1";
 /// End of its name.
 pub const EXTENSION: &str = ".weather.txt";
 
-const KEYS: [&str; 10] =
-    ["name", "region", "country", "source", "latitude", "longitude", "utc_offset", "elevation", "clock", "closure"];
+const KEYS: [&str; 11] = [
+    "name",
+    "region",
+    "country",
+    "source",
+    "latitude",
+    "longitude",
+    "utc_offset",
+    "elevation",
+    "clock",
+    "closure",
+    "first_weekday",
+];
 const DIRECT: &str = "value 2 (direct normal irradiance)";
 const DIFFUSE: &str = "value 3 (diffuse horizontal irradiance)";
 
@@ -72,6 +84,13 @@ pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
     place(&mut station, [needed(4)?, needed(5)?, needed(6)?, needed(7)?], 1.0, 1.0)?;
     let clock = if values[8].is_some() { needed(8)?.within(-180.0, 180.0, "min")? } else { 0.0 };
     let tested = if values[9].is_some() { Some(closure(needed(9)?, clock)?) } else { None };
+    let first_weekday = match values[10] {
+        Some(_) => {
+            let field = needed(10)?;
+            Some(weekday(field.text).ok_or_else(|| field.wrong(format!("one of {}", WEEKDAYS.join(", "))))?)
+        }
+        None => None,
+    };
     let mut records: Vec<Record> = Vec::new();
     let mut changed = Changed::default();
     let mut last = 0;
@@ -97,6 +116,7 @@ pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
         interval: 60,
         clock,
         tested,
+        first_weekday,
         records,
         findings: Vec::new(),
         field_names: [DIRECT, DIFFUSE],
@@ -178,6 +198,7 @@ pub fn write(weather: &Weather) -> Result<String, FormatError> {
         station.elevation.to_string(),
         if weather.clock == 0.0 { String::new() } else { weather.clock.to_string() },
         closure,
+        weather.first_weekday.map_or(String::new(), |day| WEEKDAYS[usize::from(day)].to_owned()),
     ];
     for (key, value) in KEYS.iter().zip(values).filter(|(_, value)| !value.is_empty()) {
         let _ = write!(text, "\n{key} = {value}");

@@ -71,7 +71,18 @@ pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
         let message = format!("{} values between −1 and 0 were read as 0", changed.negative);
         findings.push(Finding::info("negative-light", message));
     }
-    Ok(Weather { format: "WEA", station, quantity, interval, clock: 0.0, tested: None, records, findings, field_names })
+    Ok(Weather {
+        format: "WEA",
+        station,
+        quantity,
+        interval,
+        clock: 0.0,
+        tested: None,
+        first_weekday: None,
+        records,
+        findings,
+        field_names,
+    })
 }
 
 /// Station and index of the unit.

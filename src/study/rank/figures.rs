@@ -145,7 +145,7 @@ fn dark(climate: &Climate) -> Year {
     let eyes = climate.settings.eyes.len();
     let dgp = || Dgp { eyes, values: vec![Some(Estimate::exact(0.0)); eyes * steps], unproven: 0 };
     Year {
-        settings: Settings { unoccupied: true, ..climate.settings.clone() },
+        settings: Settings { unoccupied: true, direct_sun: true, ..climate.settings.clone() },
         steps: climate.steps.clone(),
         moving: Vec::new(),
         states: vec![Vec::new(); steps],
@@ -161,6 +161,7 @@ fn dark(climate: &Climate) -> Year {
             sets: 0,
             dark: steps,
         },
+        retracted_sun: None,
         lm83: None,
         solar: None,
         dgp: (climate.settings.keys.dgp && eyes > 0).then(dgp),
@@ -191,7 +192,9 @@ fn nought(year: &Year, key: &str) -> Option<Estimate> {
     let still = year.moving.is_empty();
     let nought = match key {
         "movements" => still,
-        "ASE1000_250" | "sun_hours_1000" => still && year.steps.whole && year.light.sun.is_none(),
+        "ASE1000_250" | "ASE_hours_1000" | "sun_hours_1000" => {
+            year.steps.whole && year.light.sun.is_none() && year.retracted_sun.is_none()
+        }
         _ => false,
     };
     nought.then(|| Estimate::exact(0.0))

@@ -11,7 +11,10 @@ use crate::study::goniophotometer::Withdrawn;
 use crate::study::scene_file::{Interpolation, SceneFile};
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, climate, metrics::counts_unoccupied};
+use crate::study::year::{
+    Climate, climate,
+    metrics::{counts_direct_sun, counts_unoccupied},
+};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -72,6 +75,7 @@ pub fn run(
             climate.settings.keys.solar = asks("solar.");
             climate.settings.keys.lm83 = asks("LM83") || asks("blinds_closed");
             climate.settings.keys.dgp &= asks("DGP_");
+            climate.settings.direct_sun = group.figures.iter().any(|figure| counts_direct_sun(figure));
             climate.settings.unoccupied = group.figures.iter().any(|figure| counts_unoccupied(figure));
             let grouping = Grouping::of(&group.file, &climate)?;
             let mut by_cells = climate.clone();

@@ -10,7 +10,6 @@ use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::beams_past::{beams_past, lit, lit_by_rim};
 use crate::compute::room::direct::{Sensor, beams_through};
-use crate::compute::sky::{Distribution, Outside, Sun};
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use glam::DVec3;
@@ -73,14 +72,6 @@ impl Session {
             if shines { self.emission_under(scene, index, &facing) } else { Emission::dark() }
         };
         Shining::of(scene, (0..scene.apertures.len()).map(emission).collect())
-    }
-
-    /// What one aperture makes of the sun alone, frame and dirt counted. Nothing stands before it but a flat skyline.
-    pub(in crate::study) fn sunlight_alone(&self, scene: &Scene, index: usize, sun: &Sun) -> Option<Emission> {
-        let black = Outside::new(Distribution::uniform(), 0.0).ok()?;
-        let dark = black.with_skyline(scene.outside.skyline_altitude(), 0.0).ok()?;
-        let facing = Facing { outside: &dark, sun: Some(sun), ..scene.facing(index) };
-        (facing.sun_illuminance() > 0.0).then(|| self.emission_under(scene, index, &facing))
     }
 }
 

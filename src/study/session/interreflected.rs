@@ -28,7 +28,7 @@ pub(in crate::study) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 const DIFFERENCE: f64 = 0.6;
 
 /// Number of fine patches times the relative error that both densities share: sampling of the first light.
-pub(in crate::study) const REST: f64 = 3.5;
+pub(in crate::study) const REST: f64 = 3.0;
 
 /// Of what the slopes of near patches give to a sensor, what may be wrong.
 const NEAR: f64 = 0.8;

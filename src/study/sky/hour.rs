@@ -2,7 +2,7 @@
 
 use super::keys::{SkyKeyError, wrong};
 use crate::compute::sky::{Distribution, Outside, SkyError};
-use crate::compute::weather::{Closure, Hour, LightSource, Reading, SunOffset, Weather};
+use crate::compute::weather::{Closure, Hour, LightSource, Reading, Station, SunOffset, Weather};
 use crate::study::scene_file::{IlluminanceKey, SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::parse_local_time;
 use crate::study::weather::kept;
@@ -23,6 +23,8 @@ pub struct HourOfWeather {
     pub interval: String,
     /// The weather's name as the scene has it.
     pub name: String,
+    /// Where the weather is from, which is the place that counts.
+    pub station: Station,
     /// Minutes by which the interval was moved.
     pub offset: f64,
     /// What a person should know.
@@ -65,14 +67,7 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     };
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
     let kept = kept(name, base).map_err(|error| wrong("sky.weather", error.to_string()))?;
-    let (weather, closure) = (&kept.weather, kept.closure.as_ref());
-    // People read the hour off their clock; records are in the standard time of the weather's own place.
-    let time = site.dst.standard(time, weather.station.utc_offset);
-    let minute = 60 * time.hour() as u16 + time.minute() as u16;
-    let index = weather.find(time.month() as u8, time.day() as u8, minute).ok_or_else(|| {
-        let found = format!("{} has no interval that holds {}", name.display(), time.strftime("%-d %B, %H:%M"));
-        wrong("sky.time", format!("{found}; expected one of its {} rows", weather.records.len()))
-    })?;
+    let (weather, closure) = (&kept.weather, kept.summary.closure.as_ref());
     let asked = reading(sky.light, sky.sun_offset_minutes);
     let reading = match (asked.offset, closure) {
         (SunOffset::Auto, Some(closure)) if weather.tested.is_none() => {
@@ -83,14 +78,24 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     let failed =
         |error: crate::compute::weather::HourError| wrong("sky.weather", format!("{}: {error}", name.display()));
     let mut hours = weather.hours(reading).map_err(failed)?;
+    // People read the hour off their clock; records are in the standard time of the weather's own place.
+    let time = site.dst.standard(time, weather.station.utc_offset);
+    let row = time.saturating_sub(jiff::Span::new().minutes(hours.moved_clock()));
+    let minute = 60 * row.hour() as u16 + row.minute() as u16;
+    let index = weather.find(row.month() as u8, row.day() as u8, minute).ok_or_else(|| {
+        let found = format!("{} has no interval that holds {}", name.display(), time.strftime("%-d %B, %H:%M"));
+        wrong("sky.time", format!("{found}; expected one of its {} rows", weather.records.len()))
+    })?;
     let hour = hours.at(index).map_err(failed)?;
     let record = &weather.records[index];
-    let mut warnings = places_apart(weather, site);
+    let mut warnings = places_apart(&weather.station, site);
+    warnings.extend(kept.warnings().map(|one| format!("{}: {}", name.display(), one.message)));
     warnings.extend(clock_warning(weather, name, asked, closure, "sun_offset_minutes"));
     Ok(Some(HourOfWeather {
         hour,
         interval: format!("{} {}", record.day, record.clock_words(weather.interval)),
         name: name.display().to_string(),
+        station: weather.station.clone(),
         offset: hours.offset(),
         warnings,
     }))
@@ -148,9 +153,13 @@ pub fn clock_warning(
     })
 }
 
+/// Does a scene state another place or clock than its weather has, which are those that count?
+pub fn is_elsewhere(station: &Station, site: &SiteKeys) -> bool {
+    !places_apart(station, site).is_empty()
+}
+
 /// The weather's own place and clock count; a scene that states others is told.
-pub fn places_apart(weather: &Weather, site: &SiteKeys) -> Vec<String> {
-    let station = &weather.station;
+pub fn places_apart(station: &Station, site: &SiteKeys) -> Vec<String> {
     [
         ("site.latitude", site.latitude, station.latitude, SAME_PLACE, "°"),
         ("site.longitude", site.longitude, station.longitude, SAME_PLACE, "°"),

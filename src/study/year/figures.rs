@@ -23,7 +23,7 @@ pub struct Figures {
     pub autonomy: Autonomy,
     /// With blinds by IES LM-83-12's own rule, where they are asked for.
     pub blinds: Option<Blinds>,
-    /// Sun on the sensors; `None` where nothing lets it through unscattered, or where a control moves what does.
+    /// Sun on the sensors; `None` where nothing lets it through unscattered, or for less than a year.
     pub exposure: Option<Exposure>,
     /// EN 17037; `None` for less than a year, or for its occupied hours alone.
     pub provision: Option<Provision>,
@@ -100,16 +100,27 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         lit: steps.iter().filter(|step| step.diffuse_horizontal > 0.0).count(),
         autonomy: light.map(|light| Autonomy::of(&steps, light)).unwrap_or_default(),
         blinds: blinds(year, &steps, sign),
-        exposure: sun
-            .filter(|_| whole && year.moving.is_empty())
-            .and_then(desks)
-            .map(|sun| Exposure::of(&steps, sun, length)),
+        exposure: if whole { exposure(year, &steps) } else { None },
         provision: light.filter(|_| daylit).map(|light| Provision::of(&steps, light)),
         glare: eyes(values).map(|light| glare(&steps, light, sun.and_then(eyes))).unwrap_or_default(),
         solar: transmitted(year, sign),
         probability: probability(year, sign),
         lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
     }
+}
+
+/// What lets the sun through in no state in use, or retracted, lets none through.
+fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
+    let (sensors, places) = (year.settings.sensors, year.light.places);
+    let (in_use, retracted) = (year.light.sun.as_deref(), year.retracted_sun.as_deref());
+    let none = if year.moving.is_empty() { Vec::new() } else { vec![0.0; places * steps.len()] };
+    let desks = |values| Light::of_columns(places, 0..sensors, values);
+    let [in_use, retracted] = match (in_use, retracted) {
+        (None, None) => return None,
+        (Some(sun), None) if year.moving.is_empty() => [sun, sun],
+        (in_use, retracted) => [in_use, retracted].map(|sun| sun.unwrap_or(&none)),
+    };
+    Some(Exposure::of(steps, desks(in_use)?, desks(retracted)?, year.steps.length))
 }
 
 /// With `sign` times the errors of the light, and of the sun that works the blinds.

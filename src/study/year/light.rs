@@ -4,14 +4,14 @@
 //! Where all that comes through is known by cells or in closed form, that is coefficients for sky and sun; else every
 //! step is a room of its own, with geometry and room kept by the session.
 
+use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, with_states};
 use super::settings::Settings;
-use super::steps::Steps;
+use super::steps::{Step, Steps};
 use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
-use crate::compute::lid::{BeamLight, Facing};
-use crate::compute::room::direct::beams_through;
 use crate::compute::sky::{Outside, Sun};
 use crate::study::coefficients::{Coefficients, TOGETHER};
+use crate::study::control::settings;
 use crate::study::control::year::Moving;
 use crate::study::error::StudyError;
 use crate::study::outside::Before;
@@ -22,6 +22,7 @@ use crate::study::system::SystemLibrary;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How the light of the steps was found.
@@ -42,7 +43,7 @@ pub struct Light {
     pub values: Vec<f64>,
     /// How far that may be off.
     pub errors: Vec<f64>,
-    /// Of it the sun that comes through unscattered and unreflected; `None` where nothing lets it.
+    /// Of it the sun that comes through unscattered and unreflected; `None` where nothing lets it, or nobody asks.
     pub sun: Option<Vec<f64>>,
     /// How it was found.
     pub way: Way,
@@ -98,7 +99,7 @@ pub(super) fn light(
     for (set, rows) in groups {
         let scene = prepared(question, set)?;
         let engine = Engine::new(question, scene, rows.len(), progress)?;
-        if let Engine::Rooms(..) = engine {
+        if let All::Rooms(..) = engine.all {
             light.way = Way::Rooms;
         }
         let block = |rows: &[usize]| {
@@ -112,9 +113,9 @@ pub(super) fn light(
             Ok(rows.iter().copied().zip(found).collect::<Vec<_>>())
         };
         // A room takes long enough to be told, and ended, by itself.
-        let together = match engine {
-            Engine::Coefficients(..) => rows.len().div_ceil(PIECES).min(TOGETHER),
-            Engine::Rooms(..) => 1,
+        let together = match engine.all {
+            All::Coefficients(..) => rows.len().div_ceil(PIECES).min(TOGETHER),
+            All::Rooms(..) => 1,
         };
         let found: Vec<Vec<(usize, Found)>> =
             rows.par_chunks(together).map(block).collect::<Result<_, StudyError>>()?;
@@ -141,6 +142,33 @@ pub(super) fn tell(light: &Light, notes: &mut Vec<String>) {
     }
 }
 
+/// The sun alone straight at the places in all steps, with every moving aperture in the open state of its control: rows of
+/// steps, columns of places. `None` where nothing moves, nothing lets it through, or nobody asks. \[lx\]
+///
+/// # Errors
+/// Of the scene; cancelled.
+pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) -> Result<Option<Vec<f64>>, StudyError> {
+    if question.moving.is_empty() || !question.settings.direct_sun {
+        return Ok(None);
+    }
+    let open = |one: &Moving| Ok::<_, StudyError>(settings(&one.keys, &one.device, question.base)?.open);
+    let set: Vec<usize> = question.moving.iter().map(open).collect::<Result<_, _>>()?;
+    let all = DirectSun::new(Arc::new(prepared(question, &set)?), &question.file.outside)?;
+    if !all.passes() {
+        return Ok(None);
+    }
+    let row = |(k, step): (usize, &Step)| {
+        if progress.cancelled() {
+            return Err(StudyError::from(Cancelled));
+        }
+        // Only occupied steps are counted.
+        let sun = if step.occupied && step.hour.is_lit() { question.steps.even_outside(k)?.1 } else { None };
+        Ok(sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(&sun)))
+    };
+    let rows: Vec<Vec<f64>> = question.steps.list.par_iter().enumerate().map(row).collect::<Result<_, _>>()?;
+    Ok(Some(rows.concat()))
+}
+
 /// The scene with the states of a set, eyes behind its sensors, under a sky that only says that there is light.
 pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError> {
     let mut file = with_states(question.file, question.moving, set);
@@ -164,9 +192,16 @@ pub(super) struct Found {
 type Hour = (usize, (Outside, Option<Sun>));
 
 /// Ready for any sky and sun.
-pub(super) enum Engine {
-    Coefficients(Box<Scene>, Box<Coefficients>),
-    Rooms(Box<Scene>, Before),
+pub(super) struct Engine {
+    all: All,
+    /// Beside it the sun alone, where that is asked for and comes through.
+    sun: Option<DirectSun>,
+}
+
+/// How all light is found.
+enum All {
+    Coefficients(Box<Coefficients>),
+    Rooms(Arc<Scene>, Before),
 }
 
 impl Engine {
@@ -177,6 +212,9 @@ impl Engine {
         steps: usize,
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
+        let scene = Arc::new(scene);
+        let sun = DirectSun::new(Arc::clone(&scene), &question.file.outside)?;
+        let sun = Some(sun).filter(|sun| question.settings.direct_sun && sun.passes());
         let before = Before::of(
             &question.file.outside,
             &scene.room,
@@ -186,9 +224,9 @@ impl Engine {
             let mut coefficients = Coefficients::new(question.session, &scene, progress)?;
             let year = (question.steps.number(), question.steps.list.len());
             coefficients.keep_year(question.session, year, steps);
-            return Ok(Self::Coefficients(Box::new(scene), Box::new(coefficients)));
+            return Ok(Self { all: All::Coefficients(Box::new(coefficients)), sun });
         }
-        Ok(Self::Rooms(Box::new(scene), before))
+        Ok(Self { all: All::Rooms(scene, before), sun })
     }
 
     /// Of one hour of the year.
@@ -198,50 +236,32 @@ impl Engine {
 
     /// Of many.
     fn all(&self, session: &Session, hours: &[Hour]) -> Result<Vec<Found>, StudyError> {
-        match self {
-            Self::Coefficients(scene, coefficients) => {
+        let direct = |sun: Option<&Sun>| {
+            let dark = || self.sun.as_ref().map(|all| vec![0.0; all.places()]);
+            sun.map_or_else(dark, |sun| self.sun.as_ref().map(|all| all.at(sun)))
+        };
+        match &self.all {
+            All::Coefficients(coefficients) => {
                 let skies: Vec<_> = hours.iter().map(|(hour, (outside, _))| (*hour, outside)).collect();
-                let whole = |(mut light, (_, (outside, sun))): (Vec<Estimate>, &Hour)| {
+                let whole = |(mut light, (_, (_, sun))): (Vec<Estimate>, &Hour)| {
                     if let Some(sun) = sun {
                         light.iter_mut().zip(coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
                     }
-                    Found { light, sun: straight(scene, outside, sun.as_ref()) }
+                    Found { light, sun: direct(sun.as_ref()) }
                 };
                 Ok(coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect())
             }
-            Self::Rooms(scene, before) => {
+            All::Rooms(scene, before) => {
                 let hour = |(_, (outside, sun)): &Hour| {
                     let outside =
                         before.stand(outside.clone(), sun.as_ref(), &scene.room, scene.orientation, &Silent)?;
                     let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
                     let result = session.room(&scene, &Silent)?;
                     let light = result.sensors.iter().map(|one| one.total()).collect();
-                    // What boxes hide of the sun differs from place to place.
-                    let seen = before.is_empty().then(|| straight(&scene, &scene.outside, scene.sun.as_ref()));
-                    Ok(Found { light, sun: seen.flatten() })
+                    Ok(Found { light, sun: direct(sun.as_ref()) })
                 };
                 hours.iter().map(hour).collect()
             }
         }
     }
-}
-
-/// The sun straight at the places through what lets it pass unscattered; `None` where nothing does.
-fn straight(scene: &Scene, outside: &Outside, sun: Option<&Sun>) -> Option<Vec<f64>> {
-    let regular = |index: usize| scene.apertures[index].transmission().and_then(|btdf| btdf.regular.as_ref());
-    let through: Vec<usize> = (0..scene.apertures.len()).filter(|&index| regular(index).is_some()).collect();
-    if through.is_empty() {
-        return None;
-    }
-    let mut sums = vec![0.0; scene.sensors.len()];
-    for index in through {
-        let one = &scene.apertures[index];
-        let facing = Facing { outside, sun, orientation: scene.orientation, surface: one.aperture.surface };
-        let Some(beam) = BeamLight::regular(regular(index), &facing) else { continue };
-        let beam = beam.scaled(one.clear);
-        for (sum, sensor) in sums.iter_mut().zip(&scene.sensors) {
-            *sum += beams_through(sensor, &one.aperture, &[beam], &facing).beam;
-        }
-    }
-    Some(sums)
 }

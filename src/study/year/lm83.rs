@@ -8,31 +8,26 @@
 //!
 //! Only the occupied lit steps that the year does not hold in the very same states are computed.
 
+use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, put_state};
 use super::light::{self, Light};
 use super::settings::Settings;
 use super::steps::Steps;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
-use crate::compute::lid::{BeamLight, Facing};
-use crate::compute::room::beams_past::beams_past;
-use crate::compute::room::direct::{Sensor, beams_through};
 use crate::compute::sky::Sun;
-use crate::compute::surroundings::Surroundings;
-use crate::compute::surroundings::solid::Solid;
 use crate::compute::year::blinds::{GroupSun, Worked, worked};
 use crate::study::control::settings as control_settings;
 use crate::study::control::year::Moving;
 use crate::study::error::StudyError;
-use crate::study::outside::boxes;
 use crate::study::scene::Scene;
 use crate::study::scene_file::{IdealKind, SceneFile, SystemKeys};
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use crate::study::year_keys::{DaysKey, HoursKeys};
-use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Transmittance of the shade where nothing moves.
 pub const SHADE: f64 = 0.05;
@@ -98,7 +93,7 @@ pub(super) fn lm83(
                 return Err(StudyError::from(Cancelled));
             }
             let (_, sun) = steps.even_outside(question.chosen[row])?;
-            Ok(sun.map_or_else(|| Worked::open(groups.len()), |sun| worked(&suns.at(question.session, &sun))))
+            Ok(sun.map_or_else(|| Worked::open(groups.len()), |sun| worked(&suns.at(&sun))))
         })
         .collect::<Result<_, _>>()?;
     let mut all = vec![Worked::open(groups.len()); question.chosen.len()];
@@ -221,9 +216,7 @@ fn is_held(question: &Question<'_>, groups: &[Group], closed: &[bool], step: usi
 /// The scene with all open, and with all closed: for the sun straight at the sensors.
 struct Suns<'a> {
     groups: &'a [Group],
-    scenes: [Scene; 2],
-    /// Boxes that hide the sun; `None` where there are none.
-    around: Option<Surroundings>,
+    scenes: [DirectSun; 2],
 }
 
 impl<'a> Suns<'a> {
@@ -232,28 +225,17 @@ impl<'a> Suns<'a> {
             let mut file = with_groups(question.file, groups, &vec![closed; groups.len()]);
             put_ordinary(&mut file);
             file.outside = Vec::new();
-            Scene::resolve(&file, question.base, question.library)
+            let scene = Scene::resolve(&file, question.base, question.library)?;
+            DirectSun::new(Arc::new(scene), &question.file.outside)
         };
-        let scenes = [scene(false)?, scene(true)?];
-        let turn = scenes[0].orientation.turn();
-        let boxes = boxes(&question.file.outside, &scenes[0].room)?;
-        let solids: Vec<Solid> = boxes.iter().map(|(solid, _)| solid.turned(turn)).collect();
-        let around = (!solids.is_empty()).then(|| Surroundings {
-            solids,
-            room: Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0),
-            faces: Vec::new(),
-            sun: None,
-            lines: Vec::new(),
-            skyline: None,
-        });
-        Ok(Self { groups, scenes, around })
+        Ok(Self { groups, scenes: [scene(false)?, scene(true)?] })
     }
 
     /// Through every group at all sensors.
-    fn at(&self, session: &Session, sun: &Sun) -> Vec<GroupSun> {
-        let [open, closed] = self.scenes.each_ref().map(|scene| through(session, scene, self.around.as_ref(), sun));
+    fn at(&self, sun: &Sun) -> Vec<GroupSun> {
+        let [open, closed] = self.scenes.each_ref().map(|scene| scene.by_aperture(sun));
         let sum = |apertures: &[usize], list: &[Vec<Estimate>]| {
-            let mut sums = vec![Estimate::default(); self.scenes[0].sensors.len()];
+            let mut sums = vec![Estimate::default(); self.scenes[0].places()];
             for number in apertures {
                 sums.iter_mut().zip(&list[number - 1]).for_each(|(sum, e)| *sum += *e);
             }
@@ -263,24 +245,4 @@ impl<'a> Suns<'a> {
             |group: &Group| GroupSun { open: sum(&group.apertures, &open), closed: sum(&group.apertures, &closed) };
         self.groups.iter().map(of).collect()
     }
-}
-
-/// Of every aperture at every sensor: what goes straight on of the sun, frame and dirt counted.
-fn through(session: &Session, scene: &Scene, around: Option<&Surroundings>, sun: &Sun) -> Vec<Vec<Estimate>> {
-    let of = |index: usize| {
-        let one = &scene.apertures[index];
-        let emission = session.sunlight_alone(scene, index, sun);
-        let beams: Vec<BeamLight> =
-            emission.map(|all| all.beams.into_iter().filter(|beam| beam.straight).collect()).unwrap_or_default();
-        let facing = Facing { sun: Some(sun), ..scene.facing(index) };
-        let at = |sensor: &Sensor| {
-            let seen = match around {
-                Some(around) => beams_past(sensor, &one.aperture, &[], &[], &beams, &facing, around),
-                None => beams_through(sensor, &one.aperture, &beams, &facing),
-            };
-            seen.all + Estimate::new(0.0, seen.data_error)
-        };
-        scene.sensors.iter().map(at).collect()
-    };
-    (0..scene.apertures.len()).map(of).collect()
 }

@@ -8,7 +8,9 @@ use crate::compute::weather::{Quantity, Reading, Weather};
 use crate::drawing::colours::{ColourMap, ColourScale};
 use crate::drawing::hour_map::{Colours, HourMap, Interval};
 use crate::study::control::Device;
+use crate::study::weather::moment;
 use crate::texts::year as say;
+use jiff::civil::DateTime;
 
 /// Lowest and highest DGPs of the scale: no light, and what nobody bears.
 const DGPS: [f64; 2] = [0.184, 0.6];
@@ -88,11 +90,10 @@ pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     }
 }
 
-fn interval(step: &Step, value: f64) -> Interval {
-    let (time, month) = (step.time, step.month);
-    // A nominal middle: whole minutes but for intervals of a minute.
+/// Of a nominal middle: whole minutes but for intervals of a minute.
+fn interval(time: DateTime, value: f64) -> Interval {
     let minute = 60 * u16::from(time.hour().unsigned_abs()) + u16::from(time.minute().unsigned_abs());
-    Interval { month, day: time.day().unsigned_abs(), minute, value }
+    Interval { month: time.month().unsigned_abs(), day: time.day().unsigned_abs(), minute, value }
 }
 
 /// The scale of a map's values.
@@ -119,7 +120,7 @@ pub fn map(year: &Year, look: &Look) -> HourMap {
         _ => f64::NAN,
     };
     let list: Vec<Interval> =
-        year.steps.list.iter().enumerate().map(|(k, step)| interval(step, shown(k, step))).collect();
+        year.steps.list.iter().enumerate().map(|(k, step)| interval(step.time, shown(k, step))).collect();
     let values = || list.iter().map(|one| one.value);
     let colours = match shows {
         Shows::State(moving) => Colours::Names(states(&year.moving[moving].device).1),
@@ -138,6 +139,7 @@ pub fn map(year: &Year, look: &Look) -> HourMap {
 pub fn weather_map(weather: &Weather, reading: Reading, direct: bool) -> HourMap {
     let lux = weather.quantity == Quantity::NormalIlluminance;
     let mut hours = weather.hours(reading).ok();
+    let moved = hours.as_ref().map_or(0.0, |hours| 60.0 * f64::from(hours.moved_clock()));
     let list: Vec<Interval> = weather
         .records
         .iter()
@@ -150,8 +152,7 @@ pub fn weather_map(weather: &Weather, reading: Reading, direct: bool) -> HourMap
                 (false, true) => hour.diffuse_horizontal,
                 (false, false) => hour.diffuse_horizontal_irradiance,
             });
-            let minute = record.middle_minutes(weather.interval, 0.0) as u16;
-            Interval { month: record.day.month, day: record.day.day, minute, value }
+            interval(moment(record, record.middle_seconds(weather.interval, 0, 1) + moved), value)
         })
         .collect();
     let scale = scale(list.iter().map(|one| one.value), false);

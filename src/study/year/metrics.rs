@@ -31,6 +31,7 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
     }
     if let Some(exposure) = &figures.exposure {
         all["sun_hours_1000"] = json!(exposure.hours_1000);
+        all["ASE_hours_1000"] = json!(exposure.ase_hours_1000);
         all["ASE1000_250"] = json!(exposure.ase_1000_250);
     }
     if let Some(provision) = &figures.provision {
@@ -82,6 +83,11 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
         all["solar"] = solar_json(solar, figures);
     }
     all
+}
+
+/// Does a figure count the sun that comes straight through?
+pub fn counts_direct_sun(key: &str) -> bool {
+    ["sun_hours_1000", "ASE", "glare"].iter().any(|start| key.starts_with(start))
 }
 
 /// Does a figure hang on the light while nobody is in? All others count occupied hours, or what does not come of the light at

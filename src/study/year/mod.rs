@@ -8,6 +8,7 @@
 //! | `states` | the state of every aperture in every step |
 //! | `indoor` | what the room's sensors read, for controls that ask |
 //! | `fixed` | the scene with fixed states, at a step |
+//! | `direct_sun` | the sun alone, straight at the sensors |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
 //! | `resume` | hours kept while they are computed, for a run that is ended and goes on |
 //! | `lm83` | the same with blinds by IES LM-83-12's own rule |
@@ -29,6 +30,7 @@
 
 mod annual;
 mod dgp;
+mod direct_sun;
 mod eye_light;
 mod figures;
 mod fixed;
@@ -94,6 +96,9 @@ pub struct Year {
     pub chosen: Vec<usize>,
     /// Light of the chosen steps.
     pub light: Light,
+    /// The sun alone straight at sensors and eyes with what moves drawn up or in its open state, over all steps of a whole
+    /// year; `None` where nothing moves, nothing lets it through, or nobody asks. \[lx\]
+    pub retracted_sun: Option<Vec<f64>>,
     /// The chosen steps with blinds by IES LM-83-12's own rule, where they are asked for.
     pub lm83: Option<Lm83>,
     /// Solar energy through the apertures, where it is asked for.
@@ -221,6 +226,8 @@ fn computed(
         None => light::light(&question, &states, &chosen, &mut notes, progress)?,
     };
     lap("light");
+    let whole = steps.whole && chosen.len() == steps.list.len();
+    let retracted_sun = if whole { light::retracted_sun(&question, progress)? } else { None };
     let asked = lm83::Question {
         file,
         base,
@@ -247,7 +254,22 @@ fn computed(
     if dgp.is_some() {
         lap("glare");
     }
-    Ok(Year { settings, steps, moving, states, movements, indoor, chosen, light, lm83, solar, dgp, notes, spent })
+    Ok(Year {
+        settings,
+        steps,
+        moving,
+        states,
+        movements,
+        indoor,
+        chosen,
+        light,
+        retracted_sun,
+        lm83,
+        solar,
+        dgp,
+        notes,
+        spent,
+    })
 }
 
 /// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of

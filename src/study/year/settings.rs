@@ -20,6 +20,8 @@ pub struct Settings {
     pub lamps: Option<Lamps>,
     /// Does anyone ask what light there is while nobody is in? Else those hours are left out.
     pub unoccupied: bool,
+    /// Does anyone ask for the sun alone, straight at the sensors?
+    pub direct_sun: bool,
 }
 
 fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, StudyError> {
@@ -85,7 +87,7 @@ pub fn settings(file: &SceneFile) -> Result<Settings, StudyError> {
         eyes.push(Sensor { position, normal });
     }
     let lamps = keys.lighting.as_ref().map(|lighting| lamps(lighting, sensors)).transpose()?;
-    Ok(Settings { keys: keys.clone(), sensors, eyes, lamps, unoccupied: true })
+    Ok(Settings { keys: keys.clone(), sensors, eyes, lamps, unoccupied: true, direct_sun: true })
 }
 
 fn lamps(keys: &LightingKeys, sensors: usize) -> Result<Lamps, StudyError> {

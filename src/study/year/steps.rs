@@ -2,18 +2,20 @@
 
 use super::settings::Settings;
 use crate::compute::sky::{Outside, Sun};
-use crate::compute::weather::{Closure, Hour, Record, Station, Weather};
+use crate::compute::weather::{Closure, Hour, Station};
 use crate::study::error::StudyError;
 use crate::study::scene_file::{SceneFile, SiteKeys, SkyKeys};
 use crate::study::sky::{SkyKeyError, clock_warning, even_outside_of_hour, outside_of_hour, places_apart};
-use crate::study::weather::load;
+use crate::study::weather::{kept, moment};
 use crate::study::weather_keys::reading;
 use crate::study::year_keys::{DaysKey, YearKeys};
-use jiff::civil::{Date, DateTime};
+use jiff::civil::DateTime;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
+/// Number of the first weekday on which nobody works, from Monday on.
+const SATURDAY: f64 = 5.0;
 /// Hours of a common year.
 const HOURS_OF_A_YEAR: f64 = 8760.0;
 
@@ -22,9 +24,9 @@ const HOURS_OF_A_YEAR: f64 = 8760.0;
 pub struct Step {
     /// Sun and light.
     pub hour: Hour,
-    /// Nominal middle, local standard time, the row's own year.
+    /// Nominal middle, local standard time, the row's own year; moved by the whole hours of `sun_offset_minutes`.
     pub time: DateTime,
-    /// The row's month, 1 … 12.
+    /// Month of that, 1 … 12.
     pub month: u8,
     /// By the clock on the wall. \[h\]
     pub clock: f64,
@@ -49,6 +51,8 @@ pub struct Steps {
     pub whole: bool,
     /// What a person should know.
     pub warnings: Vec<String>,
+    /// Codes of those that are the weather file's.
+    pub weather_warnings: Vec<&'static str>,
     /// Light, ground and skyline of the scene.
     sky: SkyKeys,
     site: SiteKeys,
@@ -86,7 +90,8 @@ impl PartialEq for Found {
 /// A file that cannot be read, a missing figure by day.
 pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps, StudyError> {
     let keys = &settings.keys;
-    let weather = load(&keys.weather, base).map_err(|error| StudyError::key("year.weather", error.to_string()))?;
+    let kept = kept(&keys.weather, base).map_err(|error| StudyError::key("year.weather", error.to_string()))?;
+    let weather = &kept.weather;
     let reading = reading(keys.light, keys.sun_offset_minutes);
     let wrong = |message: String| StudyError::key("year.weather", format!("{}: {message}", keys.weather.display()));
     let mut hours = weather.hours(reading).map_err(|error| wrong(error.to_string()))?;
@@ -94,47 +99,50 @@ pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps
     let parts = keys.steps_per_hour * u32::from(weather.interval) / 60;
     // Intervals shorter than an hour are steps as they are.
     let parts = parts.max(1);
+    let moved = 60.0 * f64::from(hours.moved_clock());
     let mut list = Vec::with_capacity(weather.records.len() * parts as usize);
-    for (index, record) in weather.records.iter().enumerate() {
+    for ((index, record), weekday) in weather.records.iter().enumerate().zip(weather.weekdays()) {
         for part in 0..parts {
             let hour = hours.part(index, part, parts).map_err(|error| wrong(error.to_string()))?;
-            list.push(step(hour, record, record.middle_seconds(weather.interval, part, parts), file, &weather, keys));
+            let seconds = record.middle_seconds(weather.interval, part, parts) + moved;
+            let weekday = (f64::from(weekday) + (seconds / 86_400.0).floor()).rem_euclid(7.0);
+            let clock = file.site.dst.clock(moment(record, seconds), weather.station.utc_offset);
+            list.push(step(hour, moment(record, seconds), clock, weekday < SATURDAY, keys));
         }
     }
-    let closure = match weather.tested {
-        Some(tested) => Some(tested),
-        None => weather.closure().map_err(|error| wrong(error.to_string()))?,
-    };
-    let mut warnings = places_apart(&weather, &file.site);
-    warnings.extend(clock_warning(&weather, &keys.weather, reading, closure.as_ref(), "year.sun_offset_minutes"));
+    let closure = kept.summary.closure;
+    let mut warnings = places_apart(&weather.station, &file.site);
+    warnings.extend(kept.warnings().map(|one| format!("{}: {}", keys.weather.display(), one.message)));
+    warnings.extend(clock_warning(weather, &keys.weather, reading, closure.as_ref(), "year.sun_offset_minutes"));
+    if keys.hours.days == DaysKey::Weekdays && weather.first_weekday.is_none() && weather.is_spliced() {
+        warnings.push(format!(
+            "{} is spliced of several years and states no first weekday: working days are those of a calendar that \
+             begins as in {}",
+            keys.weather.display(),
+            weather.records[0].day.year
+        ));
+    }
     let length = f64::from(weather.interval) / 60.0 / f64::from(parts);
     Ok(Steps {
         whole: list.len() as f64 * length >= HOURS_OF_A_YEAR - 1e-6,
         found: Found::nothing(list.len()),
         list,
         length,
-        station: weather.station,
+        station: weather.station.clone(),
         closure,
         offset,
         warnings,
+        weather_warnings: kept.warnings().map(|one| one.code).collect(),
         sky: SkyKeys { ..file.sky.clone() },
         site: SiteKeys { ..file.site },
         ground: keys.ground.clone(),
     })
 }
 
-fn step(hour: Hour, record: &Record, seconds: f64, file: &SceneFile, weather: &Weather, keys: &YearKeys) -> Step {
-    let day = record.day;
-    // A 29th of February in a common year is believed as a row, but no calendar has it.
-    let of = |number: u8| Date::new(day.year, day.month.cast_signed(), number.cast_signed());
-    let date = of(day.day).or_else(|_| of(28)).unwrap_or(Date::MIN);
-    let time = date.at(0, 0, 0, 0).saturating_add(jiff::Span::new().seconds(seconds.round() as i64));
-    let clock = file.site.dst.clock(time, weather.station.utc_offset);
+fn step(hour: Hour, time: DateTime, clock: DateTime, working_day: bool, keys: &YearKeys) -> Step {
     let clock = f64::from(clock.hour()) + f64::from(clock.minute()) / 60.0 + f64::from(clock.second()) / 3600.0;
-    let hours = &keys.hours;
-    let day_counts = hours.days == DaysKey::All || !day.is_weekend();
-    let occupied = day_counts && hours.hold(clock);
-    Step { hour, time, month: day.month, clock, occupied }
+    let day_counts = keys.hours.days == DaysKey::All || working_day;
+    Step { hour, time, month: time.month().unsigned_abs(), clock, occupied: day_counts && keys.hours.hold(clock) }
 }
 
 impl Steps {
@@ -218,5 +226,39 @@ impl Settings {
     /// Is the light of a step to be computed?
     pub(super) fn asks(&self, step: &Step) -> bool {
         step.hour.is_lit() && (self.unoccupied || step.occupied)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::example::first_scene;
+    use crate::study::year::settings;
+
+    fn steps_with(offset: f64, days: &str) -> Steps {
+        let text = format!(
+            "weather = \"builtin:renton\"\nsun_offset_minutes = {offset:?}\nhours = {{ from = 8.0, to = 18.0, days = \"{days}\" }}"
+        );
+        let file = SceneFile { year: Some(toml::from_str(&text).unwrap()), ..first_scene() };
+        steps(&file, &settings(&file).unwrap(), Path::new("")).unwrap()
+    }
+
+    #[test]
+    fn whole_hours_of_an_offset_move_people_and_the_rest_the_sun_alone() {
+        let [plain, sun_alone, clock] = [0.0, 30.0, 150.0].map(|offset| steps_with(offset, "all"));
+        let occupied = |steps: &Steps| steps.list.iter().filter(|step| step.occupied).count();
+        assert!([&plain, &sun_alone, &clock].into_iter().all(|steps| occupied(steps) == 3650));
+        for ((plain, sun_alone), clock) in plain.list.iter().zip(&sun_alone.list).zip(&clock.list) {
+            assert_eq!((plain.time, plain.occupied), (sun_alone.time, sun_alone.occupied));
+            assert_eq!(clock.time, plain.time.saturating_add(jiff::Span::new().hours(2)));
+        }
+        // The row of 6 to 7 h is that of 8 to 9 h, with the sun of half past eight and half an hour.
+        assert!(!plain.list[6].occupied && clock.list[6].occupied);
+    }
+
+    #[test]
+    fn a_typical_year_has_the_working_days_of_one_calendar() {
+        let hours = steps_with(0.0, "weekdays").list.iter().filter(|step| step.occupied).count();
+        assert!((2600..=2620).contains(&hours), "{hours}");
     }
 }

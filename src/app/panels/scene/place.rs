@@ -3,10 +3,10 @@
 use super::summer_time;
 use crate::app::panels::fields::{number, optional, select_all};
 use crate::app::theme;
-use crate::app::title::{coordinates, place};
+use crate::app::title::{coordinates, site};
 use crate::app::typing::read_coordinates;
-use crate::study::places::{City, city_at, nearest, search};
-use crate::study::scene_file::SceneFile;
+use crate::study::places::{City, city_at, nearest, search, summer_time as rule};
+use crate::study::scene_file::{DstKey, SceneFile};
 use crate::study::sky::{HIGHEST, LOWEST};
 use crate::texts::{decimal, fixed, scene as texts};
 use egui::accesskit::Role;
@@ -30,6 +30,7 @@ struct Choice {
     latitude: f64,
     longitude: f64,
     utc_offset: f64,
+    dst: DstKey,
     elevation: Option<f64>,
 }
 
@@ -54,6 +55,7 @@ fn of_city(city: &City) -> Choice {
         latitude: city.latitude,
         longitude: city.longitude,
         utc_offset: city.utc_offset,
+        dst: rule(city),
         elevation: city.elevation,
     }
 }
@@ -73,6 +75,7 @@ fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
         latitude,
         longitude,
         utc_offset: city.utc_offset,
+        dst: rule(city),
         elevation,
     })
 }
@@ -95,11 +98,12 @@ fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
 
 /// Draws the section.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
-    ui.label(place(scene));
+    ui.label(site(scene));
     if let Some(choice) = find(ui) {
         scene.site.latitude = Some(choice.latitude);
         scene.site.longitude = Some(choice.longitude);
         scene.site.utc_offset = Some(choice.utc_offset);
+        scene.site.dst = choice.dst;
         // The old place's elevation would be wrong without a sign of it.
         scene.site.elevation = choice.elevation.unwrap_or(0.0);
     }

@@ -6,11 +6,13 @@ use crate::app::state::Shown;
 use crate::app::theme;
 use crate::app::views::calendar;
 use crate::app::year::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
+use crate::compute::weather::Station;
 use crate::study::moment;
 use crate::study::scene_file::SceneFile;
-use crate::study::weather::{YEARS, words};
+use crate::study::sky::{HIGHEST, LOWEST, is_elsewhere};
+use crate::study::weather::{YEARS, short_name, warning_words, words};
 use crate::study::year_keys::{DaysKey, LampControlKey, YearKeys};
-use crate::texts::{Text, fixed, year as texts};
+use crate::texts::{Text, fixed, one_line, year as texts};
 use egui::{ComboBox, Label, RichText, Ui};
 use std::path::PathBuf;
 
@@ -24,11 +26,7 @@ pub struct Weather<'a> {
 
 /// The section's essence while it is folded.
 pub fn essence(scene: &SceneFile) -> String {
-    let Some(name) = weather_of(scene) else { return texts::NO_WEATHER.into() };
-    let built_in = YEARS.iter().find(|year| *name == *year.name());
-    // The place stands before the first comma.
-    let place = built_in.map(|year| words(year).split(',').next().unwrap_or_default().to_owned());
-    place.unwrap_or_else(|| name.file_name().unwrap_or(name.as_os_str()).to_string_lossy().into_owned())
+    weather_of(scene).map_or_else(|| texts::NO_WEATHER.into(), short_name)
 }
 
 /// What is wrong with the weather; of a sky's own weather the sky's section says it.
@@ -80,7 +78,7 @@ fn choice(ui: &mut Ui, scene: &SceneFile, commands: &mut Vec<Command>) {
     }
 }
 
-fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &mut Vec<Command>) {
+fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let Weather { calendar: shown, view } = weather;
     let Some(calendar) = shown.value.as_deref().filter(|calendar| weather_of(scene) == Some(&*calendar.key.0)) else {
@@ -93,6 +91,12 @@ fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &
         return;
     };
     lines(ui, &station_words(&calendar.station), palette.weak, 2);
+    if is_elsewhere(&calendar.station, &scene.site) {
+        elsewhere(ui, scene, &calendar.station);
+    }
+    for code in &calendar.warnings {
+        lines(ui, warning_words(code).get(), palette.warning, 3);
+    }
     if let Some(closure) = calendar.closure.filter(|closure| closure.is_off()) {
         lines(ui, &texts::clock_off(fixed(closure.best_offset, 0)), palette.warning, 2);
     }
@@ -107,6 +111,18 @@ fn calendar_ui(ui: &mut Ui, scene: &SceneFile, weather: Weather<'_>, commands: &
     {
         let clock = scene.site.dst.clock(*time, calendar.station.utc_offset);
         commands.push(Command::Year(YearAct::Pick(clock, walking)));
+    }
+}
+
+/// A scene that states another place than its weather has: what counts, and a way to agree.
+fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
+    lines(ui, &texts::weather_elsewhere(one_line(&station.name)), theme::palette(ui).warning, 3);
+    if ui.button(texts::TAKE_PLACE).on_hover_text(texts::TAKE_PLACE_TIP).clicked() {
+        let site = &mut scene.site;
+        site.latitude = Some(station.latitude);
+        site.longitude = Some(station.longitude);
+        site.utc_offset = Some(station.utc_offset);
+        site.elevation = station.elevation.clamp(LOWEST, HIGHEST);
     }
 }
 

@@ -5,7 +5,7 @@ use crate::app::moment;
 use crate::app::panels::fields::{lines, number, typed};
 use crate::app::theme;
 use crate::app::typing::{read_clock, read_date};
-use crate::study::scene_file::SceneFile;
+use crate::study::scene_file::{DstKey, SceneFile};
 use crate::study::sun_position::RiseSet;
 use crate::texts::scene as texts;
 use egui::cache::{ComputerMut, FrameCache};
@@ -33,7 +33,8 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     if day != before {
         moment::step(scene, day - before, 0);
     }
-    let clock = typed(ui, texts::TIME, &time.strftime("%H:%M").to_string(), texts::TIME_TIP, read_clock);
+    let label = if scene.site.dst == DstKey::None { texts::STANDARD_TIME } else { texts::TIME };
+    let clock = typed(ui, label, &time.strftime("%H:%M").to_string(), texts::TIME_TIP, read_clock);
     if let Some((hour, minute)) = clock {
         moment::set_clock(scene, hour, minute);
     }

@@ -1,0 +1,30 @@
+//! Days of the week of a weather file. A typical year is spliced of months of several years, each with weekdays of its
+//! own: one running calendar keeps five working days in every seven.
+
+use super::record::Weather;
+
+impl Weather {
+    /// Day of the week of every record, 0 (Monday) … 6 (Sunday): of its own date where all dates belong to one calendar;
+    /// in a spliced year of a running calendar, which begins with the weekday that the file states, else with that of the
+    /// first record's date.
+    pub fn weekdays(&self) -> Vec<u8> {
+        let Some(first) = self.records.first() else { return Vec::new() };
+        let stated = self.first_weekday.filter(|_| self.is_spliced());
+        let mut minutes = 1440 * i64::from(stated.unwrap_or_else(|| first.day.weekday())) + i64::from(first.start);
+        let mut weekdays = Vec::with_capacity(self.records.len());
+        let mut before = first;
+        for record in &self.records {
+            minutes += before.minutes_to(record);
+            weekdays.push(minutes.div_euclid(1440).rem_euclid(7) as u8);
+            before = record;
+        }
+        weekdays
+    }
+
+    /// Do the dates of successive records belong to different calendars, as in typical years?
+    pub fn is_spliced(&self) -> bool {
+        let own = |a: &super::Record, b: &super::Record| b.day.number() - a.day.number();
+        let on_day = |a: &super::Record, b: &super::Record| (i64::from(a.start) + a.minutes_to(b)).div_euclid(1440);
+        self.records.windows(2).any(|pair| own(&pair[0], &pair[1]) != on_day(&pair[0], &pair[1]))
+    }
+}
