@@ -23,7 +23,7 @@ mod tests {
         let (altitude, bearing) = sun(&first_scene(), Path::new("")).unwrap();
         assert!((altitude.to_degrees() - (90.0 - 48.78)).abs() < 0.8, "{}", altitude.to_degrees());
         assert!((bearing - 180.0).abs() < 12.0, "{bearing}");
-        let hours = sun_hours(&first_scene()).unwrap();
+        let hours = sun_hours(&first_scene(), Path::new("")).unwrap();
         assert!((hours.set.unwrap() - hours.rise.unwrap() - 12.15).abs() < 0.15);
     }
 

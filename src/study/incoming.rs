@@ -3,7 +3,7 @@
 use super::facing::incident;
 use super::moment;
 use super::scene_file::SceneFile;
-use super::sun_position::sun_path;
+use super::sun_position::{Place, sun_path};
 use crate::compute::btdf::{Btdf, zone_shares};
 use crate::compute::direction::{Incident, Surface};
 use crate::drawing::flux_split::FluxSplit;
@@ -15,8 +15,8 @@ const LIMITS: [f64; 3] = [10.0, -10.0, -45.0];
 /// Hours of a day and where the sun is.
 pub type SunPath = Vec<(f64, Incident)>;
 /// The sun on the 21st of each month while it is up, by hours; places behind the façade part a path in two.
-pub fn sun_paths(scene: &SceneFile) -> Vec<SunPath> {
-    let Some(place) = moment::place(scene) else { return Vec::new() };
+pub fn sun_paths(scene: &SceneFile, place: Option<Place>) -> Vec<SunPath> {
+    let Some(place) = place else { return Vec::new() };
     let year = moment::of(scene).map_or(2026, |time| time.year());
     (1..=12)
         .map(|month| {

@@ -3,8 +3,10 @@
 use super::scene_file::{SceneFile, TimeKey};
 use super::sky::hour_of_weather;
 use super::sun_position::{Place, RiseSet, parse_local_time, rise_set, sun_position};
+use super::weather::kept;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
+use crate::compute::weather::Station;
 use crate::texts::{Text, fixed, words as texts};
 use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
@@ -30,8 +32,20 @@ pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
     true
 }
 
-/// The scene's place, if it is whole.
-pub fn place(scene: &SceneFile) -> Option<Place> {
+/// The place whose sun shines: of an hour of a weather that of the weather, else the scene's, if it is whole. `base`: what
+/// relative paths start from.
+pub fn place(scene: &SceneFile, base: &Path) -> Option<Place> {
+    let Some(name) = &scene.sky.weather else { return place_of_site(scene) };
+    place_of_station(&kept(name, base).ok()?.weather.station)
+}
+
+/// That of a weather.
+pub fn place_of_station(station: &Station) -> Option<Place> {
+    Place::new(station.latitude, station.longitude, station.utc_offset).ok()
+}
+
+/// The scene's own, whatever the weather, if it is whole.
+pub fn place_of_site(scene: &SceneFile) -> Option<Place> {
     let site = &scene.site;
     Place::new(site.latitude?, site.longitude?, site.utc_offset?).ok()
 }
@@ -41,10 +55,10 @@ fn standard(scene: &SceneFile, clock: DateTime) -> DateTime {
     scene.site.dst.standard(clock, scene.site.utc_offset.unwrap_or(0.0))
 }
 
-/// Sunrise and sunset of the scene's day, by the clock.
-pub fn sun_hours(scene: &SceneFile) -> Option<RiseSet> {
+/// Sunrise and sunset of the scene's day at [`place`], by the clock.
+pub fn sun_hours(scene: &SceneFile, base: &Path) -> Option<RiseSet> {
     let time = of(scene)?;
-    let hours = rise_set(&place(scene)?, time.year(), time.month(), time.day()).ok()?;
+    let hours = rise_set(&place(scene, base)?, time.year(), time.month(), time.day()).ok()?;
     // By the clock that the day is read by; it changes at night.
     let noon = time.date().at(12, 0, 0, 0);
     let ahead = if standard(scene, noon) == noon { 0.0 } else { 1.0 };
@@ -67,7 +81,7 @@ pub fn sun_of_site(scene: &SceneFile) -> Option<(f64, f64)> {
     if let (Some(altitude), Some(azimuth)) = (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
         return Some((altitude.to_radians(), azimuth));
     }
-    let (altitude, bearing) = sun_position(&place(scene)?, standard(scene, of(scene)?)).ok()?;
+    let (altitude, bearing) = sun_position(&place_of_site(scene)?, standard(scene, of(scene)?)).ok()?;
     Some((altitude, bearing.degrees()))
 }
 
@@ -89,7 +103,7 @@ pub fn set_clock(scene: &mut SceneFile, hour: i8, minute: i8) -> bool {
 /// of 5 minutes; false without a place and a date to start from. The day stays else: on its path the sun above the
 /// horizon is looked for, where it rises. Of two days that fit, the one nearer to the present one.
 pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -> bool {
-    let (Some(place), Some(now)) = (place(scene), of(scene)) else { return false };
+    let (Some(place), Some(now)) = (place_of_site(scene), of(scene)) else { return false };
     let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
     let (dst, offset) = (scene.site.dst, scene.site.utc_offset.unwrap_or(0.0));
     let miss = |time: DateTime| {

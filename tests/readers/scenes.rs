@@ -182,9 +182,9 @@ pub fn read_scene(bytes: &[u8]) -> bool {
     let mut stepped = file.clone();
     let _ = (
         moment::of(&file),
-        moment::place(&file),
+        moment::place(&file, std::path::Path::new("")),
         moment::sun(&file, std::path::Path::new("")),
-        moment::sun_hours(&file),
+        moment::sun_hours(&file, std::path::Path::new("")),
     );
     moment::step(&mut stepped, 1, 30);
     if file.outside.len() > FEW || file.aperture.len() > 2 * FEW {

@@ -14,13 +14,14 @@ use crate::study::incoming::{SunPath, flux_split, sun_paths};
 use crate::study::scene_file::SceneFile;
 use crate::texts::tiles as say;
 use egui::Ui;
+use std::path::PathBuf;
 
 /// The tile.
 pub const TILE: Tile =
     Tile { title: say::TRANSMITTANCE.english(), name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
 
-/// Place and bearing that sun paths hang on.
-type PathKey = (i16, [u64; 4]);
+/// Place, bearing and weather that sun paths hang on.
+type PathKey = (i16, [u64; 4], Option<PathBuf>);
 /// Dataset, direction and surface that the flux split hangs on.
 type SplitKey = (u64, Incident, bool);
 
@@ -36,7 +37,7 @@ fn path_key(scene: &SceneFile) -> PathKey {
     let site = &scene.site;
     let numbers = [site.latitude, site.longitude, site.utc_offset, Some(site.azimuth)];
     let year = moment::of(scene).map_or(2026, |time| time.year());
-    (year, numbers.map(|number| number.unwrap_or(f64::NAN).to_bits()))
+    (year, numbers.map(|number| number.unwrap_or(f64::NAN).to_bits()), scene.sky.weather.clone())
 }
 
 impl Drawn for Drawing {
@@ -59,15 +60,16 @@ impl Drawn for Drawing {
         });
         let name = title::selection(state);
         let key = path_key(scene);
+        let facing = key.1[3];
         let input = transmittance::Input {
             btdf,
             name: &name,
-            sun_paths: self.paths.get(key, || sun_paths(scene)),
+            sun_paths: self.paths.get(key, || sun_paths(scene, moment::place(scene, &state.base()))),
             moment: sun_incident(scene, &state.base()),
             incidence,
             split,
             range: seen.scale,
-            revision: revision.wrapping_add(key.1[3]),
+            revision: revision.wrapping_add(facing),
             status: seen.status_of(dataset, Lane::Scene),
         };
         for action in transmittance::show(ui, &input, &mut self.view) {

@@ -15,6 +15,7 @@ use crate::study::comparison::scales::Range;
 use crate::study::facing::surface;
 use crate::study::incidence::{Incidence, Source};
 use crate::study::incoming::{flux_split, sun_paths};
+use crate::study::moment::{place_of_site, place_of_station};
 use crate::study::subject::Subject;
 use crate::texts::words::MONTHS;
 use crate::texts::{fixed, hand_on as texts};
@@ -195,7 +196,11 @@ fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
             names.push((place, at, text));
         }
     };
-    for (month, path) in sun_paths(&subject.file).iter().enumerate() {
+    let place = match &subject.scene.weather {
+        Some(hour) => place_of_station(&hour.station),
+        None => place_of_site(&subject.file),
+    };
+    for (month, path) in sun_paths(&subject.file, place).iter().enumerate() {
         // The second half of the year repeats the first: thinner.
         let thick = if month <= 5 || month == 11 { 1.6 } else { 0.8 };
         let mut runs = vec![Vec::new()];

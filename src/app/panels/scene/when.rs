@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     let mut minutes = before;
     let slider = ui.add(Slider::new(&mut minutes, 0..=1440 - STEP).show_value(false).smart_aim(false));
     slider.widget_info(|| WidgetInfo::slider(true, f64::from(minutes) / 60.0, texts::TIME_OF_DAY.get()));
-    sun_marks(ui, scene, slider.rect);
+    sun_marks(ui, scene, base, slider.rect);
     // A time that was typed to the minute stays until the slider is moved. The slider ends before midnight does.
     if minutes != before && before <= 1440 - STEP || slider.dragged() {
         let pointed = slider.is_pointer_button_down_on() || slider.dragged() || slider.clicked();
@@ -61,12 +61,13 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
 
 /// The day of a scene, as what sunrise and sunset hang on.
 #[derive(Clone, Copy)]
-struct Day<'a>(&'a SceneFile);
+struct Day<'a>(&'a SceneFile, &'a Path);
 
 impl Hash for Day<'_> {
     fn hash<H: Hasher>(&self, hasher: &mut H) {
         let site = &self.0.site;
         [site.latitude, site.longitude, site.utc_offset].map(|number| number.map(f64::to_bits)).hash(hasher);
+        (&self.0.sky.weather, self.1).hash(hasher);
         moment::of(self.0).map(|time| time.date()).hash(hasher);
     }
 }
@@ -77,17 +78,17 @@ struct SunHours;
 
 impl ComputerMut<Day<'_>, Option<RiseSet>> for SunHours {
     fn compute(&mut self, day: Day<'_>) -> Option<RiseSet> {
-        moment::sun_hours(day.0)
+        moment::sun_hours(day.0, day.1)
     }
 }
 
-fn sun_hours(ui: &Ui, scene: &SceneFile) -> Option<RiseSet> {
-    ui.memory_mut(|memory| *memory.caches.cache::<FrameCache<Option<RiseSet>, SunHours>>().get(Day(scene)))
+fn sun_hours(ui: &Ui, scene: &SceneFile, base: &Path) -> Option<RiseSet> {
+    ui.memory_mut(|memory| *memory.caches.cache::<FrameCache<Option<RiseSet>, SunHours>>().get(Day(scene, base)))
 }
 
 /// When the sun rises and sets, and where it stands.
 fn sun(ui: &mut Ui, scene: &SceneFile, base: &Path) {
-    let day = match sun_hours(ui, scene).map(|hours| (hours.rise, hours.set)) {
+    let day = match sun_hours(ui, scene, base).map(|hours| (hours.rise, hours.set)) {
         Some((Some(rise), Some(set))) => texts::rise_and_set(moment::clock(rise), moment::clock(set)),
         Some((Some(rise), None)) => texts::no_set(moment::clock(rise)),
         Some((None, Some(set))) => texts::no_rise(moment::clock(set)),
@@ -134,8 +135,8 @@ fn angles(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
 }
 
 /// Sunrise and sunset as ticks under the time's slider.
-fn sun_marks(ui: &Ui, scene: &SceneFile, rect: egui::Rect) {
-    let Some(hours) = sun_hours(ui, scene) else { return };
+fn sun_marks(ui: &Ui, scene: &SceneFile, base: &Path, rect: egui::Rect) {
+    let Some(hours) = sun_hours(ui, scene, base) else { return };
     let colour = theme::palette(ui).sun;
     // The handle's radius is kept free at both ends of a slider.
     let margin = rect.height() / 2.5;
