@@ -94,12 +94,12 @@ fn a_scene_without_a_year_is_given_one_computed_and_asked_back() {
 fn a_click_on_an_hour_shows_it_everywhere_and_keys_go_on_from_there() {
     let mut harness = computed();
     let before = harness.state().state.document.scene.clone();
-    // 21 June, 12 to 13 h.
+    // 21 June, 12 to 13 h of standard time, by the clock of Stuttgart an hour later.
     let at = place(&harness, MAP, 171.0, 12.0);
     click(&mut harness, at);
     let scene = harness.state().state.document.scene.clone();
     assert_eq!((scene.sky.model, scene.sky.weather.clone()), (SkyModelKey::Weather, Some(YEARS[1].name())));
-    assert_eq!(moment::words(moment::of(&scene).unwrap()), "21 Jun 12:30");
+    assert_eq!(moment::words(moment::of(&scene).unwrap()), "21 Jun 13:30");
     assert_eq!(scene.year, before.year, "the year stays what it is");
     // The room of that moment is the year's row.
     apply(&mut harness, Command::Maximise(None));
@@ -124,7 +124,7 @@ fn a_click_on_an_hour_shows_it_everywhere_and_keys_go_on_from_there() {
     }
     settle(&mut harness);
     let now = moment::of(&harness.state().state.document.scene).unwrap();
-    assert_eq!(moment::words(now), "22 Jun 13:30");
+    assert_eq!(moment::words(now), "22 Jun 14:30");
     // What keys walked over is no step each: back to where was clicked, and to before.
     apply(&mut harness, Command::Undo);
     assert_eq!(harness.state().state.document.scene, scene);

@@ -32,7 +32,10 @@ impl Annual {
         let keys = &self.year.settings.keys;
         let split = keys.steps_per_hour > 1;
         let own = file.sky.weather.as_ref() == Some(&keys.weather);
-        (own || split).then(|| moment::of(file).and_then(|time| self.year.steps.at(time))).flatten()
+        let steps = &self.year.steps;
+        // People read their clock; steps are in the standard time of the weather's place.
+        let standard = |clock| file.site.dst.standard(clock, steps.station.utc_offset);
+        (own || split).then(|| moment::of(file).and_then(|clock| steps.at(standard(clock)))).flatten()
     }
 }
 
