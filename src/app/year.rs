@@ -193,7 +193,8 @@ mod tests {
         let map = &calendar.maps[0];
         let cell = map.cell(7, 1, 12 * 60).unwrap();
         let time = calendar.starts[map.from[cell].unwrap() as usize];
-        put_record(&mut scene, &name, time);
+        let clock = scene.site.dst.clock(time, calendar.station.utc_offset);
+        put_record(&mut scene, &name, clock);
         let text = toml::to_string(&scene).unwrap();
         let back = SceneFile::parse(&text).unwrap();
         assert_eq!(back.sky, scene.sky);

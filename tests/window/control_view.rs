@@ -241,3 +241,16 @@ fn a_curve_of_a_file_becomes_the_rule_and_a_wrong_one_is_told() {
     apply(&mut h, Command::OpenPaths(vec![path]));
     assert_eq!(h.state().state.control_keys().curve.len(), 3);
 }
+
+#[test]
+fn a_reset_scene_keeps_the_rule_of_what_stays_in_it() {
+    let mut h = window();
+    apply(&mut h, Command::Select("venetian-80-72".into()));
+    apply(&mut h, Command::Control(ControlMode::CutOff));
+    apply(&mut h, Command::ResetScene);
+    settle(&mut h);
+    let app = h.state();
+    let control = app.state.document.scene.control.as_ref();
+    assert_eq!(control.map(|keys| keys.mode), Some(ControlMode::CutOff));
+    assert!(app.results.room.value.is_some() && !app.results.room.stale, "{:?}", app.results.room.error);
+}

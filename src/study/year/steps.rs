@@ -233,13 +233,16 @@ impl Settings {
 mod tests {
     use super::*;
     use crate::study::example::first_scene;
+    use crate::study::scene_file::DstKey;
     use crate::study::year::settings;
 
     fn steps_with(offset: f64, days: &str) -> Steps {
         let text = format!(
             "weather = \"builtin:renton\"\nsun_offset_minutes = {offset:?}\nhours = {{ from = 8.0, to = 18.0, days = \"{days}\" }}"
         );
-        let file = SceneFile { year: Some(toml::from_str(&text).unwrap()), ..first_scene() };
+        let mut file = SceneFile { year: Some(toml::from_str(&text).unwrap()), ..first_scene() };
+        // In standard time: the days on which Europe's clocks change are not those of the place.
+        file.site.dst = DstKey::None;
         steps(&file, &settings(&file).unwrap(), Path::new("")).unwrap()
     }
 

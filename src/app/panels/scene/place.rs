@@ -194,10 +194,12 @@ mod tests {
         let (list, count, wrong) = choices("stuttgart");
         assert!(count >= 1 && wrong.is_none());
         assert_eq!(list[0].words, "Stuttgart, Germany");
+        assert_eq!(list[0].dst, DstKey::Eu);
         assert!(list[0].tip.contains("48.78°N 9.18°E") && list[0].tip.contains("UTC+1"), "{}", list[0].tip);
         let (list, _, _) = choices("48.5 9.1");
         assert_eq!((&*list[0].words, &*list[0].where_), ("48.50°N 9.10°E", "UTC+1"));
-        assert!(list[0].tip.contains("Tübingen"), "{}", list[0].tip);
+        assert!(list[0].tip.contains("Tübingen") && list[0].dst == DstKey::Eu, "{}", list[0].tip);
+        assert_eq!(choices("sydney, au").0[0].dst, DstKey::Australia);
         // Far from every city the elevation is not known.
         let (list, _, _) = choices("-45 90");
         assert_eq!(list[0].elevation, None);
