@@ -261,7 +261,7 @@ fn sun_of_a_year(folder: &Path, system: &str, rest: &str) -> serde_json::Value {
 fn sunlight_exposure_has_shading_retracted_and_boxes_in_the_way() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    for (name, absorption) in [("clear", 8.0), ("dark", 800.0)] {
+    for (name, absorption) in [("clear", 8.0), ("dark", 2000.0)] {
         let text = format!(
             "name = \"{name}\"\nkind = \"pane\"\n[pane]\nindex = 1.52\nthickness = 0.004\nabsorption = {absorption:?}\n"
         );
@@ -280,9 +280,19 @@ fn sunlight_exposure_has_shading_retracted_and_boxes_in_the_way() {
     let moved = sun_of_a_year(folder, family, "[control]\nmode = \"din-5034\"\n");
     assert_eq!((hours(&moved, "ASE_hours_1000"), &moved["ASE1000_250"]), (open.clone(), &clear["ASE1000_250"]));
     assert!(hours(&moved, "sun_hours_1000").iter().all(|hours| *hours == 0.0));
-    // An overhang hides high suns and leaves low ones.
+    // An overhang hides the sun before it comes round to the side and sinks, and hides nothing of it later.
+    let sun_of = |rest: &str| -> [f64; 2] {
+        let year = "[year]\nweather = \"builtin:renton\"\ndgp = false\n";
+        scene(folder, "{ file = \"clear.system.toml\" }", &format!("{rest}{year}"));
+        let rows = table(&done(folder, &["year", "scene.toml", "--day", "02-15"]));
+        ["11:30", "13:30"].map(|time| {
+            let row = rows.iter().find(|row| row["time"].contains(time)).unwrap();
+            (1..=4).map(|i| number(row, &format!("S_{i}"))).sum()
+        })
+    };
+    let [noon, later] = sun_of("");
+    assert!(noon > 1000.0 && later > 1000.0, "{noon} {later}");
     let overhang = "[[outside]]\nbox = { from = [-3.0, -2.0, 3.0], to = [7.0, 0.0, 3.1] }\nreflectance = 0.0\n";
-    let shaded = hours(&sun_of_a_year(folder, "{ file = \"clear.system.toml\" }", overhang), "sun_hours_1000");
-    assert!(shaded.iter().zip(&open).all(|(shaded, open)| shaded < open), "{shaded:?} {open:?}");
-    assert!(shaded.iter().any(|hours| *hours > 0.0), "{shaded:?}");
+    let [hidden, seen] = sun_of(overhang);
+    assert!(hidden == 0.0 && (seen / later - 1.0).abs() < 1e-6, "{hidden} {seen} {later}");
 }
