@@ -240,7 +240,8 @@ fn years_that_come_with_the_program_are_their_sources() {
         let builtin = load(Path::new(&name), Path::new("/nowhere")).unwrap();
         assert_eq!((builtin.records.len(), builtin.clock), (8760, offset));
         assert!(codes(&builtin).iter().all(|code| {
-            ["clock-stated", "clock-untested", "sun-down-light", "dark-sky", "illuminance-missing"].contains(code)
+            ["clock-stated", "clock-untested", "sun-down-light", "dark-sky", "black-sky", "illuminance-missing"]
+                .contains(code)
         }));
         let Some(path) = data(&format!("data/weather/{source}")) else { return };
         let epw = load(&path, Path::new("")).unwrap();
