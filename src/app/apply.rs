@@ -90,10 +90,10 @@ impl App {
             Command::Tour(act) => self.tour(act),
             Command::ResetScene => {
                 // The first scene names no product: the one that is chosen stays, with its rule.
-                let SceneFile { aperture, control, compare, .. } =
-                    std::mem::replace(&mut state.document.scene, first_scene());
-                let control = control.or_else(|| aperture.into_iter().find_map(|one| one.control));
-                state.document.scene = SceneFile { compare, control, ..first_scene() };
+                let scene = &mut state.document.scene;
+                let of_aperture = || scene.aperture.iter_mut().find_map(|one| one.control.take());
+                let control = scene.control.take().or_else(of_aperture);
+                *scene = SceneFile { compare: std::mem::take(&mut scene.compare), control, ..first_scene() };
                 fill(&mut state.document.scene, &state.document.selection);
             }
             Command::Sheet(sheet) => {

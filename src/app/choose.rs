@@ -38,7 +38,7 @@ impl ChooseAct {
 }
 
 /// What the figures of a ranking hang on, beside the products' own data.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Asked {
     /// The scene without its moment, the ranked apertures open.
     pub scene: SceneFile,
@@ -105,6 +105,17 @@ fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> Scene
     open
 }
 
+impl PartialEq for Asked {
+    /// A scene without files asks the same wherever it is saved.
+    fn eq(&self, other: &Self) -> bool {
+        self.scene == other.scene
+            && self.query == other.query
+            && self.control == other.control
+            && self.catalogue == other.catalogue
+            && (self.base == other.base || !names_files(&self.scene))
+    }
+}
+
 impl Asked {
     /// Of a scene, with what its relative paths start from; `None` for a room without an aperture.
     pub fn of(scene: &SceneFile, base: PathBuf, asking: &Asking<'_>) -> Option<Self> {
@@ -123,8 +134,6 @@ impl Asked {
         } else {
             Query { text: rank.map(|rank| rank.products.clone()).unwrap_or_default(), ..Query::default() }
         };
-        // A scene without files is the same wherever it is saved.
-        let base = if names_files(&open) { base } else { PathBuf::new() };
         let [additions, changes] = asking.catalogue.map(<[usize]>::to_vec);
         let catalogue = (additions, changes);
         (!places.is_empty()).then_some(Self { scene: open, base, control, query, catalogue })
@@ -346,6 +355,7 @@ mod tests {
         assert_eq!(of(&scene, ""), of(&scene, "/data/office"));
         scene.year = Some(YearKeys { weather: "own.epw".into(), ..usual_year(&scene) });
         assert_ne!(of(&scene, ""), of(&scene, "/data/office"));
+        assert_eq!(of(&scene, "/data/office").base, PathBuf::from("/data/office"), "what paths start from is kept");
     }
 
     #[test]

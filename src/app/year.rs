@@ -66,8 +66,8 @@ impl Calendar {
         let kept = kept(&key.0, &key.1)?;
         let weather = &kept.weather;
         let reading = reading(key.2, key.3);
-        let told = |message: String| StudyError::File { path: key.0.clone(), message };
-        let moved = 60 * weather.hours(reading).map_err(|error| told(error.to_string()))?.moved_clock();
+        let failed = |message: String| StudyError::File { path: key.0.clone(), message };
+        let moved = 60 * weather.hours(reading).map_err(|error| failed(error.to_string()))?.moved_clock();
         let maps = [true, false].map(|direct| weather_map(weather, reading, direct));
         let start = |record: &Record| moment(record, f64::from(60 * i32::from(record.start) + moved));
         let starts = weather.records.iter().map(start).collect();

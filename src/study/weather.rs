@@ -6,7 +6,7 @@ use crate::compute::btdf::{Finding, Severity};
 use crate::compute::limits;
 use crate::compute::weather::{Record, Summary, Weather};
 use crate::formats::weather;
-use crate::texts::{Text, year as say};
+use crate::texts::year as say;
 use jiff::civil::{Date, DateTime};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -140,16 +140,18 @@ impl KeptWeather {
     }
 }
 
-/// A warning of a weather file in the window's language, by its code.
-pub fn warning_words(code: &str) -> Text {
-    match code {
+/// A warning of a weather file in the window's language, by its code; the code itself where there are no words for it.
+pub fn warning_words(code: &'static str) -> &'static str {
+    let words = match code {
         "gaps" => say::WEATHER_GAPS,
         "order" => say::WEATHER_ORDER,
         "light-missing" => say::WEATHER_MISSING,
         "sun-down-light" => say::WEATHER_SUN_DOWN,
         "black-sky" => say::WEATHER_BLACK_SKY,
-        _ => say::WEATHER_SUMMER_TIME,
-    }
+        "summer-time" => say::WEATHER_SUMMER_TIME,
+        _ => return code,
+    };
+    words.get()
 }
 
 /// A moment in local standard time: seconds from the midnight of a record's day. A 29th of February in a common year is

@@ -29,7 +29,7 @@ pub struct Drawing {
 
 /// What stands beside the year's figures: faults of its weather file, and a state that is another than the year's.
 fn remarks(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
-    let warnings = annual.year.steps.weather_warnings.iter().map(|code| warning_words(code).to_string());
+    let warnings = annual.year.steps.weather_warnings.iter().map(|code| warning_words(code).to_owned());
     let all = warnings.chain(Some(other_state(seen, annual, now)).filter(|words| !words.is_empty()));
     all.collect::<Vec<_>>().join(". ")
 }

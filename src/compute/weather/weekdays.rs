@@ -1,7 +1,7 @@
 //! Days of the week of a weather file. A typical year is spliced of months of several years, each with weekdays of its
 //! own: one running calendar keeps five working days in every seven.
 
-use super::record::Weather;
+use super::record::{Record, Weather};
 
 impl Weather {
     /// Day of the week of every record, 0 (Monday) … 6 (Sunday): of its own date where all dates belong to one calendar;
@@ -23,8 +23,8 @@ impl Weather {
 
     /// Do the dates of successive records belong to different calendars, as in typical years?
     pub fn is_spliced(&self) -> bool {
-        let own = |a: &super::Record, b: &super::Record| b.day.number() - a.day.number();
-        let on_day = |a: &super::Record, b: &super::Record| (i64::from(a.start) + a.minutes_to(b)).div_euclid(1440);
+        let own = |a: &Record, b: &Record| b.day.number() - a.day.number();
+        let on_day = |a: &Record, b: &Record| (i64::from(a.start) + a.minutes_to(b)).div_euclid(1440);
         self.records.windows(2).any(|pair| own(&pair[0], &pair[1]) != on_day(&pair[0], &pair[1]))
     }
 }

@@ -85,9 +85,9 @@ fn one_if(yes: bool) -> f64 {
 pub struct Exposure {
     /// Occupied hours with 1000 lx or more in use, by place.
     pub hours_1000: Vec<f64>,
-    /// The same with shading retracted.
+    /// Occupied hours with 1000 lx or more with shading retracted, by place.
     pub ase_hours_1000: Vec<f64>,
-    /// ASE1000,250: share of the places with more than 250 of these.
+    /// ASE1000,250: share of the places with more than 250 occupied hours of 1000 lx or more, shading retracted.
     pub ase_1000_250: f64,
 }
 

@@ -112,15 +112,13 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
 /// What lets the sun through in no state in use, or retracted, lets none through.
 fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
     let (sensors, places) = (year.settings.sensors, year.light.places);
-    let (in_use, retracted) = (year.light.sun.as_deref(), year.retracted_sun.as_deref());
-    let none = if year.moving.is_empty() { Vec::new() } else { vec![0.0; places * steps.len()] };
+    let in_use = year.light.sun.as_deref();
+    let retracted = if year.moving.is_empty() { in_use } else { year.retracted_sun.as_deref() };
+    in_use.or(retracted)?;
+    let dark = vec![0.0; places * steps.len()];
     let desks = |values| Light::of_columns(places, 0..sensors, values);
-    let [in_use, retracted] = match (in_use, retracted) {
-        (None, None) => return None,
-        (Some(sun), None) if year.moving.is_empty() => [sun, sun],
-        (in_use, retracted) => [in_use, retracted].map(|sun| sun.unwrap_or(&none)),
-    };
-    Some(Exposure::of(steps, desks(in_use)?, desks(retracted)?, year.steps.length))
+    let [in_use, retracted] = [in_use, retracted].map(|sun| desks(sun.unwrap_or(&dark)));
+    Some(Exposure::of(steps, in_use?, retracted?, year.steps.length))
 }
 
 /// With `sign` times the errors of the light, and of the sun that works the blinds.

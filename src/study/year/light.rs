@@ -237,8 +237,7 @@ impl Engine {
     /// Of many.
     fn all(&self, session: &Session, hours: &[Hour]) -> Result<Vec<Found>, StudyError> {
         let direct = |sun: Option<&Sun>| {
-            let dark = || self.sun.as_ref().map(|all| vec![0.0; all.places()]);
-            sun.map_or_else(dark, |sun| self.sun.as_ref().map(|all| all.at(sun)))
+            self.sun.as_ref().map(|all| sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(sun)))
         };
         match &self.all {
             All::Coefficients(coefficients) => {

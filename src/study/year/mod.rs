@@ -96,8 +96,8 @@ pub struct Year {
     pub chosen: Vec<usize>,
     /// Light of the chosen steps.
     pub light: Light,
-    /// The sun alone straight at sensors and eyes with what moves drawn up or in its open state, over all steps of a whole
-    /// year; `None` where nothing moves, nothing lets it through, or nobody asks. \[lx\]
+    /// The sun alone straight at sensors and eyes with what moves in the open state of its control, over all steps of a
+    /// whole year; `None` where nothing moves, nothing lets it through, or nobody asks. \[lx\]
     pub retracted_sun: Option<Vec<f64>>,
     /// The chosen steps with blinds by IES LM-83-12's own rule, where they are asked for.
     pub lm83: Option<Lm83>,

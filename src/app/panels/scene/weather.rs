@@ -4,11 +4,13 @@ use crate::app::command::Command;
 use crate::app::panels::fields::{lines, number, typed};
 use crate::app::state::Shown;
 use crate::app::theme;
+use crate::app::title::coordinates;
 use crate::app::views::calendar;
 use crate::app::year::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
 use crate::compute::weather::Station;
 use crate::study::moment;
-use crate::study::scene_file::SceneFile;
+use crate::study::places::{nearest, summer_time};
+use crate::study::scene_file::{DstKey, SceneFile};
 use crate::study::sky::{HIGHEST, LOWEST, is_elsewhere};
 use crate::study::weather::{YEARS, short_name, warning_words, words};
 use crate::study::year_keys::{DaysKey, LampControlKey, YearKeys};
@@ -95,7 +97,7 @@ fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, command
         elsewhere(ui, scene, &calendar.station);
     }
     for code in &calendar.warnings {
-        lines(ui, warning_words(code).get(), palette.warning, 3);
+        lines(ui, warning_words(code), palette.warning, 3);
     }
     if let Some(closure) = calendar.closure.filter(|closure| closure.is_off()) {
         lines(ui, &texts::clock_off(fixed(closure.best_offset, 0)), palette.warning, 2);
@@ -116,12 +118,15 @@ fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, command
 
 /// A scene that states another place than its weather has: what counts, and a way to agree.
 fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
-    lines(ui, &texts::weather_elsewhere(one_line(&station.name)), theme::palette(ui).warning, 3);
+    let place = coordinates(station.latitude, station.longitude);
+    let name = if station.name.is_empty() { place } else { one_line(&station.name).into() };
+    lines(ui, &texts::weather_elsewhere(name), theme::palette(ui).warning, 3);
     if ui.button(texts::TAKE_PLACE).on_hover_text(texts::TAKE_PLACE_TIP).clicked() {
         let site = &mut scene.site;
         site.latitude = Some(station.latitude);
         site.longitude = Some(station.longitude);
         site.utc_offset = Some(station.utc_offset);
+        site.dst = nearest(station.latitude, station.longitude).map_or(DstKey::None, |(city, _)| summer_time(city));
         site.elevation = station.elevation.clamp(LOWEST, HIGHEST);
     }
 }
