@@ -25,7 +25,12 @@ pub(super) fn tables(averaged: &Averaged, tiling: Tiling, place: Place, narrow: 
     let tiles = tiling.tiles(place.surface, place.corner, place.size);
     let share = 1.0 / tiles.len() as f64;
     let of = |tile: &Tile| {
-        let panel = Panel { centre: tile.centre, size: tile.size, surface: place.surface, room: place.room };
+        let middle = place.surface.facade_from_room(tile.centre - place.corner);
+        let rim = [0, 1].map(|axis| {
+            let half = 0.501 * tile.size[axis];
+            [middle[axis] < half, place.size[axis] - middle[axis] < half]
+        });
+        let panel = Panel { centre: tile.centre, size: tile.size, surface: place.surface, room: place.room, rim };
         Arc::new(averaged.tile(&panel, share, narrow))
     };
     if averaged.same_for_all(narrow) {

@@ -8,6 +8,11 @@ use glam::DVec3;
 /// The sun's disc: no beam lights less. \[rad\]
 const DISC: f64 = 9.3e-3;
 
+/// Of a side's length, how far on both sides of it a beam fades where another tile or part goes on. Readers interpolate
+/// between nodes and cannot follow a sharp edge: two of them side by side leave gaps and ridges that a host's grid of
+/// points may meet again and again; two slopes that add up to one leave none. Slopes so long meet three nodes or more.
+const FADE: f64 = 1.0 / 6.0;
+
 /// A rectangle of the aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Panel {
@@ -19,6 +24,8 @@ pub struct Panel {
     pub surface: Surface,
     /// Width, depth and height of the room. \[m\]
     pub room: DVec3,
+    /// Its sides, from and to along x_F and y_F: where does the aperture end?
+    pub rim: [[bool; 2]; 2],
 }
 
 impl Panel {
@@ -34,8 +41,15 @@ impl Panel {
 
     /// One of the parts, about the same middle, into which a host cuts it from a distance. \[m\]
     pub(super) fn part(&self, distance: f64) -> Self {
-        let count = parts(self.size, distance) as f64;
-        Self { size: self.size.map(|side| side / count), ..*self }
+        let count = parts(self.size, distance);
+        // All parts share a distribution: none of its sides ends the aperture for all of them.
+        let rim = if count > 1 { [[false; 2]; 2] } else { self.rim };
+        Self { size: self.size.map(|side| side / count as f64), rim, ..*self }
+    }
+
+    /// How far beyond each of its sides its beams reach. \[m\]
+    pub(super) fn beyond(&self) -> [[f64; 2]; 2] {
+        [0, 1].map(|axis| self.rim[axis].map(|ends| if ends { 0.0 } else { FADE * self.size[axis] }))
     }
 
     /// The same, but with sides no narrower than the sun's disc makes what a beam through it lights.
@@ -47,7 +61,8 @@ impl Panel {
     }
 
     /// Luminous intensity that, sent from the middle, lights the room's surfaces as a beam through the rectangle does:
-    /// evenly inside its outline. \[cd\] The direction is in façade axes.
+    /// alike all over its outline, and fading across sides beyond which the aperture goes on, so that what neighbours do
+    /// there adds up. \[cd\] The direction is in façade axes.
     pub(super) fn of_beam(&self, beam: &SunBeam, direction: DVec3) -> f64 {
         if direction.z >= 0.0 {
             return 0.0;
@@ -57,12 +72,21 @@ impl Panel {
         let way = beam.direction.0.vector();
         let beside = away * direction - (away * direction.z / way.z) * way;
         let [w, h] = self.size;
-        if beside.x.abs() > 0.5 * w || beside.y.abs() > 0.5 * h {
+        let beyond = self.beyond();
+        let share = |axis: usize| {
+            let half = 0.5 * self.size[axis];
+            let of = |inside: f64, fade: f64| {
+                if fade > 0.0 { (0.5 + 0.5 * inside / fade).clamp(0.0, 1.0) } else { f64::from(inside >= 0.0) }
+            };
+            of(half + beside[axis], beyond[axis][0]) * of(half - beside[axis], beyond[axis][1])
+        };
+        let share = share(0) * share(1);
+        if share <= 0.0 {
             return 0.0;
         }
         // E = Φ |b·n|/(w h |b_z|) there, and I = E r²/|d·n|.
         let across = |direction: DVec3| self.surface.room_from_facade(direction)[axis].abs();
-        beam.flux * away * away * across(way) / (w * h * -way.z * across(direction))
+        share * beam.flux * away * away * across(way) / (w * h * -way.z * across(direction))
     }
 
     /// The same for scattered light that leaves one point of the rectangle, `x` and `y` beside its middle \[m\], as if all

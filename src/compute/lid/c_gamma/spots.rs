@@ -1,10 +1,11 @@
 //! Beams in a table, as wide as what they light: seen from one point, a beam as narrow as the sun lights a spot where the
 //! area that it leaves lights its own outline.
 //!
-//! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, each of them evenly.
-//! From the rectangle's middle that is a spot of directions with sharp edges, whose intensity is what makes it even there;
-//! nodes of C and γ lie so close round it that what a reader interpolates between them is the spot, its edges blurred by
-//! an eighth of its width at most.
+//! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, alike on each of them.
+//! From the rectangle's middle that is a spot of directions whose intensity is what makes it so there. Where the aperture
+//! ends, its edges are sharp; where another tile goes on, it fades across them ([`Panel`]). Nodes of C and γ lie so close
+//! round it that what a reader interpolates between them is the spot, its sharp edges blurred by an eighth of its width at
+//! most.
 
 use super::cells::Cells;
 use super::{Aim, CGammaTable, Panel, Widened};
@@ -40,13 +41,14 @@ impl Spot {
     /// Limits in C (from … to, from below 0 where it lies across C0; a whole turn where the pole is inside) and γ, its
     /// narrower side as it is seen, and the largest sine of γ.
     fn limits(&self, aim: Aim) -> ([f64; 2], [f64; 2], f64, f64) {
-        let [w, h] = self.panel.size;
+        let beyond = self.panel.beyond();
+        let reach = |axis: usize, at: f64| at * (0.5 * self.panel.size[axis] + beyond[axis][usize::from(at > 0.0)]);
         let (c0, gamma0) = aim.angles(self.beam.direction);
         let (mut c, mut gamma) = ([0.0_f64; 2], [gamma0; 2]);
         for k in 0..4 * ALONG {
             let (side, at) = (k / ALONG, 2.0 * (k % ALONG) as f64 / ALONG as f64 - 1.0);
             let (x, y) = [(at, -1.0), (1.0, at), (-at, 1.0), (-1.0, -at)][side];
-            let (own_c, own_gamma) = aim.angles(self.panel.landing_of(&self.beam, [0.5 * x * w, 0.5 * y * h]));
+            let (own_c, own_gamma) = aim.angles(self.panel.landing_of(&self.beam, [reach(0, x), reach(1, y)]));
             let turned = (own_c - c0 + PI).rem_euclid(2.0 * PI) - PI;
             c = [c[0].min(turned), c[1].max(turned)];
             gamma = [gamma[0].min(own_gamma), gamma[1].max(own_gamma)];

@@ -14,7 +14,7 @@ fn lid(panel: &Panel, parts: Vec<EmergentLuminance>, beams: Vec<SunBeam>) -> Lid
 }
 
 fn panel(surface: Surface, centre: [f64; 3], size: [f64; 2]) -> Panel {
-    Panel { centre: DVec3::from_array(centre), size, surface, room: ROOM }
+    Panel { centre: DVec3::from_array(centre), size, surface, room: ROOM, rim: [[true; 2]; 2] }
 }
 
 /// Horizontal illuminance that a reader of the table finds on the work plane. [lx]
@@ -65,6 +65,36 @@ fn a_beam_through_a_tile_lights_its_outline_evenly_and_nothing_beside() {
             assert!((e - 0.5).abs() < 0.3, "{surface:?} {u} {v}: {e}");
         }
     }
+}
+
+#[test]
+fn beams_of_tiles_side_by_side_leave_no_ridge_between_them() {
+    // From so near to the work plane that their edges are bent in C and γ, and no host cuts them further.
+    let way = DVec3::new(0.1, 0.75, -0.6).normalize();
+    let beam = SunBeam {
+        direction: Emergent(Dir::new(Surface::Facade.facade_from_room(way)).unwrap()),
+        flux: 600.0,
+        straight: true,
+    };
+    let tile = |column: usize, row: usize| {
+        let centre = [1.9 + 0.2 * column as f64, 0.0, 1.5 + 0.2 * row as f64];
+        let rim = [[column == 0, column == 1], [row == 0, row == 1]];
+        let panel = Panel { rim, ..panel(Surface::Facade, centre, [0.2, 0.2]) };
+        let lid = lid(&panel, Vec::new(), vec![beam]);
+        (Averaged::new(&lid, Aim::Mounted, Step::FINE).tile(&panel, 1.0, true), panel)
+    };
+    let tiles: Vec<_> = (0..4).map(|k| tile(k % 2, k / 2)).collect();
+    let alike = 600.0 * -way.z / (0.04 * way.y);
+    let corner = DVec3::new(2.0, 0.0, 1.6);
+    let mut sum = 0.0;
+    for (i, k) in (-16..=16).flat_map(|i| (-16..=16).map(move |k| (i, k))) {
+        let from = corner + DVec3::new(0.01 * f64::from(i), 0.0, 0.01 * f64::from(k));
+        let at = from + (from.z - WORK_PLANE) / -way.z * way;
+        let e: f64 = tiles.iter().map(|(table, panel)| on_work_plane(table, panel, at.x, at.y)).sum();
+        assert!((e / alike - 1.0).abs() < 0.04, "{i} {k}: {}", e / alike);
+        sum += e / alike / 1089.0;
+    }
+    assert!((sum - 1.0).abs() < 4e-3, "{sum}");
 }
 
 #[test]
