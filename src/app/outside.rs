@@ -2,7 +2,9 @@
 //! with the first aperture.
 
 use crate::study::outside::MOST_BOXES;
-use crate::study::scene_file::{ApertureKeys, BoxKeys, OutsideKeys, SceneFile, SurfaceKey, USUAL_REFLECTANCE};
+use crate::study::scene_file::{
+    ApertureKeys, BoxKeys, BuildingKeys, OutsideKeys, SceneFile, SurfaceKey, USUAL_REFLECTANCE,
+};
 use crate::texts::{Text, scene as texts};
 
 /// What may be put outside.
@@ -149,6 +151,20 @@ fn beside(kind: Kind, solid: &BoxKeys, scene: &SceneFile) -> BoxKeys {
     }
 }
 
+/// A building round the room: flush with the façade or the roof that has apertures, down to the ground.
+pub fn building(scene: &SceneFile) -> BuildingKeys {
+    /// How far it goes on beside, behind and above the room. \[m\]
+    const ON: f64 = 6.0;
+    let room = &scene.room;
+    let on_roof = scene.aperture.iter().any(|one| one.surface == SurfaceKey::Roof);
+    let above = if on_roof { 0.0 } else { 0.5 * ON };
+    BuildingKeys {
+        from: [-ON, 0.0, scene.site.ground_height.min(0.0)],
+        to: [room.width + ON, room.depth + ON, room.height + above].map(exact),
+        reflectance: USUAL_REFLECTANCE,
+    }
+}
+
 /// A box, moved along an axis. \[m\]
 pub fn moved(solid: &BoxKeys, axis: usize, way: f64) -> BoxKeys {
     let mut new = *solid;
@@ -231,7 +247,7 @@ mod tests {
                 }
             }
             assert_eq!(scene.outside.len(), 4 * (1 + 1 + 4 + 2 + 1));
-            outside::boxes(&scene.outside, &room(&scene)).unwrap();
+            outside::boxes(&scene, &room(&scene)).unwrap();
             for (number, one) in scene.outside.iter().enumerate() {
                 assert!(!scene.outside[..number].iter().any(|other| other.solid == one.solid), "{one:?}");
             }

@@ -87,6 +87,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
         tell!("note: {note}");
     }
     weather_notes(scene.weather.as_ref());
+    scene.outside_notes.iter().for_each(|note| tell!("note: {note}"));
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
             tell!(

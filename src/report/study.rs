@@ -78,6 +78,10 @@ fn situation(subject: &Subject) -> Vec<(String, String)> {
     }
     add(texts::FACADE_FACES, texts::from_north(tick(site.azimuth)));
     add(texts::GROUND, tick(site.ground_reflectance));
+    if file.has_outside() {
+        let named = if file.building.is_some() { texts::BUILDING_NAMED } else { texts::BUILDING_NOT_NAMED };
+        add(texts::OUTSIDE, texts::boxes_and_ground(file.outside.len(), tick(site.ground_height), named.get()));
+    }
     let room = &file.room;
     add(texts::ROOM, format!("{} × {} × {} m", tick(room.width), tick(room.depth), tick(room.height)));
     let rho = &room.reflectance;

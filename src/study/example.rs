@@ -9,6 +9,7 @@ use super::scene_file::{
 /// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
 pub fn first_scene() -> SceneFile {
     SceneFile {
+        building: None,
         room: RoomKeys {
             width: 4.0,
             depth: 6.0,
@@ -35,6 +36,7 @@ pub fn first_scene() -> SceneFile {
             dst: DstKey::Eu,
             elevation: 252.0,
             ground_reflectance: 0.2,
+            ground_height: 0.0,
         },
         sky: SkyKeys {
             model: SkyModelKey::Cie,

@@ -199,6 +199,11 @@ fn sky_remark(scene: &SceneFile) -> String {
     add("sun azimuth", sky.sun.azimuth, "deg");
     add("facade azimuth", Some(scene.site.azimuth), "deg");
     parts.push(format!("ground reflectance {}", scene.site.ground_reflectance));
+    if scene.has_outside() {
+        let building = if scene.building.is_some() { " and the building" } else { "" };
+        let (boxes, height) = (scene.outside.len(), scene.site.ground_height);
+        parts.push(format!("{boxes} boxes{building} outside, ground at {height} m"));
+    }
     if let Some(light) = followed {
         parts.push(format!("illuminances of a {}", light.origin()));
     }

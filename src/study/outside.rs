@@ -1,15 +1,16 @@
 //! From `[[outside]]` to what stands before sky and ground.
 
 use super::error::StudyError;
-use super::scene_file::{OutsideKeys, USUAL_REFLECTANCE};
-use crate::compute::direction::Orientation;
+use super::scene_file::{BuildingKeys, OutsideKeys, SceneFile, USUAL_REFLECTANCE};
+use crate::compute::direction::{Orientation, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::mesh::BoxRoom;
-use crate::compute::sky::faces::{Finish, surroundings};
+use crate::compute::sky::faces::{Finish, Setting, surroundings};
 use crate::compute::sky::{Outside, Sun};
 use crate::compute::surroundings::solid::Solid;
+use crate::texts::words as texts;
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -19,13 +20,84 @@ pub const MOST_BOXES: usize = limits::BOXES;
 const FARTHEST: f64 = 1e6;
 /// Shortest side of a box: what is thinner is typed by mistake, and rays could pass it unseen. \[m\]
 const THINNEST: f64 = 1e-6;
+/// What rises less than this above the ground is not there. \[m\]
+const LOWEST: f64 = 1e-6;
+/// A box is left out where its height above the ground is less than this share of its distance from all apertures, so that
+/// it hides the sun for minutes at the horizon only ...
+const LOW: f64 = 0.01;
+/// ... and where all of them together are seen no larger than this, a ten-thousandth of what a façade sees. \[sr\]
+const UNSEEN: f64 = 3e-4;
+/// Lengths typed as decimals do not meet exactly. \[m\]
+const TOUCHING: f64 = 1e-6;
 
 /// Judges the boxes; in room axes.
-pub fn boxes(keys: &[OutsideKeys], room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, StudyError> {
+pub fn boxes(file: &SceneFile, room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, StudyError> {
+    let keys = &file.outside;
     if keys.len() > MOST_BOXES {
         return Err(StudyError::key("outside", format!("{} boxes (allowed: up to {MOST_BOXES})", keys.len())));
     }
-    keys.iter().enumerate().map(|(index, keys)| one_box(index, keys, room)).collect()
+    let rises = |(solid, _): &(Solid, Finish)| solid.heights()[1] > file.site.ground_height + LOWEST;
+    let all = keys.iter().enumerate().map(|(index, keys)| one_box(index, keys, room));
+    // What lies below the ground is not there.
+    all.filter(|one| one.as_ref().map_or(true, rises)).collect()
+}
+
+/// Judges the ground's height.
+fn ground_height(file: &SceneFile, apertures: &[Aperture]) -> Result<f64, StudyError> {
+    let height = file.site.ground_height;
+    let wrong = |message: String| Err(StudyError::key("site.ground_height", message));
+    if height.is_nan() || height.abs() > FARTHEST {
+        return wrong(format!("{height} m (allowed: within ±{FARTHEST} m)"));
+    }
+    let lowest = apertures.iter().flat_map(Aperture::corners).map(|corner| corner.z).fold(f64::INFINITY, f64::min);
+    if height > lowest + TOUCHING {
+        return wrong(format!("{height} m lies above the lowest edge of an aperture, at {lowest} m"));
+    }
+    Ok(height)
+}
+
+/// Judges the building; with its reflectance.
+fn building(
+    keys: &BuildingKeys,
+    room: &BoxRoom,
+    apertures: &[Aperture],
+    ground: f64,
+) -> Result<(Solid, f64), StudyError> {
+    let wrong = |key: &str, message: String| Err(StudyError::key(format!("building.{key}"), message));
+    let size = room.size.to_array();
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let [from, to] = [keys.from[axis], keys.to[axis]];
+        if !(from.abs() <= FARTHEST && to.abs() <= FARTHEST) {
+            return wrong("from", format!("{name} from {from} m to {to} m (allowed: within ±{FARTHEST} m)"));
+        }
+        let message = |wanted: String| format!("{wanted}: the building has to hold the room's own box");
+        if from > TOUCHING {
+            return wrong("from", message(format!("{name} {from} m (allowed: 0 m and less)")));
+        }
+        if to < size[axis] - TOUCHING {
+            return wrong("to", message(format!("{name} {to} m (allowed: {} m and more)", size[axis])));
+        }
+    }
+    for aperture in apertures {
+        match aperture.surface {
+            Surface::Facade if keys.from[1] < -TOUCHING => {
+                let message = format!("y {} m: the façade with its apertures lies at y = 0 m", keys.from[1]);
+                return wrong("from", message);
+            }
+            Surface::Roof if keys.to[2] > size[2] + TOUCHING => {
+                let message = format!("z {} m: the roof with its apertures lies at z = {} m", keys.to[2], size[2]);
+                return wrong("to", message);
+            }
+            Surface::Facade | Surface::Roof => {}
+        }
+    }
+    if keys.to[2] <= ground + LOWEST {
+        return wrong("to", format!("z {} m does not rise above the ground, at {ground} m", keys.to[2]));
+    }
+    if !(0.0..=1.0).contains(&keys.reflectance) {
+        return wrong("reflectance", format!("{} is out of range (allowed: 0 to 1)", keys.reflectance));
+    }
+    Ok((Solid::new(DVec3::from_array(keys.from), DVec3::from_array(keys.to), 0.0), keys.reflectance))
 }
 
 fn one_box(index: usize, keys: &OutsideKeys, room: &BoxRoom) -> Result<(Solid, Finish), StudyError> {
@@ -81,53 +153,72 @@ fn own_box(room: &BoxRoom) -> Solid {
     Solid::new(DVec3::ZERO, room.size, 0.0)
 }
 
-/// The outside behind boxes, lit; its skyline stays. Without boxes as it was. `viewpoints`: corners of the apertures, or
-/// what else it is seen from, in room axes.
-///
-/// # Errors
-/// [`Cancelled`] when `progress` says so.
-pub fn behind_boxes(
-    outside: Outside,
-    sun: Option<&Sun>,
-    boxes: &[(Solid, Finish)],
-    room: &BoxRoom,
-    orientation: Orientation,
-    viewpoints: &[DVec3],
-    progress: &dyn Progress,
-) -> Result<Outside, Cancelled> {
-    if boxes.is_empty() {
-        return Ok(outside);
-    }
-    let turned: Vec<(Solid, Finish)> =
-        boxes.iter().map(|(solid, finish)| (solid.turned(orientation.turn()), *finish)).collect();
-    let viewpoints: Vec<DVec3> = viewpoints.iter().map(|p| orientation.to_world(*p)).collect();
-    let skyline = outside.surroundings().and_then(|known| known.skyline.clone());
-    let open = outside.open();
-    let room = own_box(room).turned(orientation.turn());
-    let around = surroundings(&open, sun, &turned, room, skyline, &viewpoints, progress)?;
-    Ok(open.behind(Arc::new(around)))
+/// Takes those boxes away that are too far and too low to matter.
+fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], ground: f64) {
+    let far = |solid: &Solid| {
+        let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
+        let [width, height] = [2.0 * solid.outline_radius(), solid.heights()[1] - ground];
+        let low = height <= LOW * distance && solid.heights()[1] - solid.heights()[0] <= LOW * distance;
+        low.then(|| width * height / (distance * distance))
+    };
+    let mut left_out = 0.0;
+    boxes.retain(|(solid, _)| {
+        let Some(angle) = far(solid).filter(|angle| left_out + angle <= UNSEEN) else { return true };
+        left_out += angle;
+        false
+    });
 }
-/// The boxes of a scene, for many skies.
+
+/// What stands outside of a scene, for many skies.
 pub struct Before {
-    boxes: Vec<(Solid, Finish)>,
-    corners: Vec<DVec3>,
+    /// In room axes; `None` where nothing stands there.
+    setting: Option<Setting>,
+    /// Corners of the apertures, or what else it is seen from, in room axes.
+    viewpoints: Vec<DVec3>,
+    /// What was taken for granted or left out, in words.
+    pub notes: Vec<String>,
 }
 
 impl Before {
     /// Before some apertures.
     ///
     /// # Errors
-    /// Boxes that cannot be.
-    pub fn of(keys: &[OutsideKeys], room: &BoxRoom, apertures: &[Aperture]) -> Result<Self, StudyError> {
-        Ok(Self { boxes: boxes(keys, room)?, corners: apertures.iter().flat_map(Aperture::corners).collect() })
+    /// Boxes, a building or a height of the ground that cannot be.
+    pub fn of(file: &SceneFile, room: &BoxRoom, apertures: &[Aperture]) -> Result<Self, StudyError> {
+        let mut boxes = boxes(file, room)?;
+        let ground = ground_height(file, apertures)?;
+        let rising = boxes.len();
+        leave_out_far(&mut boxes, apertures, ground);
+        let mut notes = Vec::new();
+        if rising < file.outside.len() {
+            notes.push(texts::boxes_below_ground(file.outside.len() - rising, ground));
+        }
+        if boxes.len() < rising {
+            notes.push(texts::boxes_left_out(rising - boxes.len()));
+        }
+        if !boxes.is_empty() && file.building.is_none() {
+            notes.push(texts::BUILDING_UNNAMED.into());
+        }
+        let building = file.building.as_ref().map(|keys| building(keys, room, apertures, ground)).transpose()?;
+        let any = !boxes.is_empty() || building.is_some();
+        Ok(Self {
+            setting: any.then(|| Setting { boxes, room: own_box(room), building, ground }),
+            viewpoints: apertures.iter().flat_map(Aperture::corners).collect(),
+            notes,
+        })
     }
 
-    /// Are there none?
+    /// The same as it is seen from one point, in room axes.
+    pub fn seen_from(self, eye: DVec3) -> Self {
+        Self { viewpoints: vec![eye], ..self }
+    }
+
+    /// Does nothing stand there?
     pub fn is_empty(&self) -> bool {
-        self.boxes.is_empty()
+        self.setting.is_none()
     }
 
-    /// A sky behind them.
+    /// A sky behind it, which lights it; its skyline stays. Where nothing stands there, as it was.
     ///
     /// # Errors
     /// Cancelled.
@@ -135,10 +226,15 @@ impl Before {
         &self,
         outside: Outside,
         sun: Option<&Sun>,
-        room: &BoxRoom,
         orientation: Orientation,
         progress: &dyn Progress,
     ) -> Result<Outside, Cancelled> {
-        behind_boxes(outside, sun, &self.boxes, room, orientation, &self.corners, progress)
+        let Some(setting) = &self.setting else { return Ok(outside) };
+        let viewpoints: Vec<DVec3> = self.viewpoints.iter().map(|p| orientation.to_world(*p)).collect();
+        let skyline = outside.surroundings().and_then(|known| known.skyline.clone());
+        let open = outside.open();
+        let turned = setting.turned(orientation.turn());
+        let around = surroundings(&open, sun, &turned, orientation.turn(), skyline, &viewpoints, progress)?;
+        Ok(open.behind(Arc::new(around)))
     }
 }

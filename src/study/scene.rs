@@ -6,7 +6,7 @@ use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::luminaires;
 use super::near_field::near_field;
-use super::outside::{behind_boxes, boxes};
+use super::outside::Before;
 use super::scene_file::units::unit_of;
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, BackReflectionMode, BeamMode, Interpolation, SceneFile, SystemKeys,
@@ -30,7 +30,6 @@ use crate::compute::sky::{Outside, Sun};
 use crate::formats::encoding::{TooLong, not_too_long};
 use crate::formats::system_toml::is_system_file;
 use crate::formats::toml_place::{TomlPlace, place};
-use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -116,6 +115,8 @@ pub struct Scene {
     pub diffuse_interpolation: DiffuseScheme,
     /// How an aperture's light is integrated at a sensor.
     pub near_field: NearField,
+    /// What was left out of what stands outside, and what was taken for granted, in words.
+    pub outside_notes: Vec<String>,
     /// The hour of weather that sky and sun are; `None` for skies of a model.
     pub weather: Option<HourOfWeather>,
 }
@@ -160,9 +161,8 @@ impl Scene {
         let facade = Bearing::from_degrees(file.site.azimuth);
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
-        let solids = boxes(&file.outside, &room)?;
-        let corners: Vec<DVec3> = geometry.iter().flat_map(Aperture::corners).collect();
-        let outside = behind_boxes(outside, sun.as_ref(), &solids, &room, orientation, &corners, progress)?;
+        let before = Before::of(file, &room, &geometry)?;
+        let outside = before.stand(outside, sun.as_ref(), orientation, progress)?;
         let (sensors, grid) = sensors(&file.sensors, &room)?;
         let (hour, of_year) = (hour(file)?, of_scene(file));
         let mut list = Vec::with_capacity(geometry.len());
@@ -256,6 +256,7 @@ impl Scene {
             beams,
             sun_interpolation: file.compute.sun_interpolation,
             diffuse_interpolation: file.compute.diffuse_interpolation,
+            outside_notes: before.notes,
             near_field: near_field(file.compute.near_field, file.compute.near_field_samples)?,
             weather,
         })
@@ -293,17 +294,17 @@ pub fn seen_by_first_aperture(
     sun: Option<&Sun>,
     progress: &dyn Progress,
 ) -> Result<Option<Outside>, StudyError> {
-    if file.outside.is_empty() && outside.surroundings().is_none() {
+    if !file.has_outside() && outside.surroundings().is_none() {
         return Ok(None);
     }
     let room = room(&file.room)?;
     let geometry = apertures(&file.aperture, &room)?;
-    let solids = boxes(&file.outside, &room)?;
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
     let Some([low, _, high, _]) = geometry.first().map(Aperture::corners) else { return Ok(None) };
     // From there alone: faces that only others see stay dark.
     let eye = 0.5 * (low + high);
-    let behind = behind_boxes(outside.clone(), sun, &solids, &room, orientation, &[eye], progress)?;
+    let before = Before::of(file, &room, &geometry)?.seen_from(eye);
+    let behind = before.stand(outside.clone(), sun, orientation, progress)?;
     Ok(Some(behind.seen_from(orientation.to_world(eye))))
 }
 

@@ -18,7 +18,7 @@ pub use super::rank_keys::{BetterKey, ObjectiveKeys, RankControlKey, RankKeys};
 pub use super::weather_keys::{LightKey, OffsetKey};
 pub use super::year_keys::YearKeys;
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
-pub use outside::{BoxKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
+pub use outside::{BoxKeys, BuildingKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
 use serde::{Deserialize, Serialize};
 
 /// A whole scene file.
@@ -32,6 +32,9 @@ pub struct SceneFile {
     /// Boxes before the façade and above the roof.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<OutsideKeys>,
+    /// The building that the room belongs to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub building: Option<BuildingKeys>,
     /// Place and ground.
     #[serde(default)]
     pub site: SiteKeys,
@@ -54,6 +57,18 @@ pub struct SceneFile {
     /// What is set beside each other: the tray of the window, the columns of `cfs compare`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<CompareKeys>,
+}
+
+impl SceneFile {
+    /// Do boxes or a building stand outside?
+    pub fn has_outside(&self) -> bool {
+        !self.outside.is_empty() || self.building.is_some()
+    }
+
+    /// The same where nothing stands outside.
+    pub fn without_outside(&self) -> Self {
+        Self { outside: Vec::new(), building: None, ..self.clone() }
+    }
 }
 
 /// `[[compare]]`: one of the things that are compared. What it does not say is as in the rest of the scene.
@@ -221,6 +236,8 @@ pub struct SiteKeys {
     pub elevation: f64,
     /// Uniform ground, 0 … 1.
     pub ground_reflectance: f64,
+    /// Height of the ground, room axes. \[m\]
+    pub ground_height: f64,
 }
 
 impl Default for SiteKeys {
@@ -233,6 +250,7 @@ impl Default for SiteKeys {
             dst: DstKey::None,
             elevation: 0.0,
             ground_reflectance: 0.0,
+            ground_height: 0.0,
         }
     }
 }

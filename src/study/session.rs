@@ -176,7 +176,7 @@ impl Session {
         let (emissions, splits) = (&lights.emissions, &lights.splits);
         let flux = lights.flux(scene);
         let outside: Vec<OutsideSeen> = splits.iter().map(|split| split.seen).collect();
-        for word in outside.iter().flat_map(OutsideSeen::sentences) {
+        for word in scene.outside_notes.iter().cloned().chain(outside.iter().flat_map(OutsideSeen::sentences)) {
             plan.note("outside", true, &word);
         }
         plan.spend("emission", clock.elapsed());

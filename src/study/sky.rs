@@ -15,7 +15,7 @@ use super::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use super::skyline::{behind_skyline, skyline};
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::perez::{Air, PerezState, eccentricity};
-use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Scan, Sun, cie};
+use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Scan, Sun, cie, with_ground_behind_skyline};
 use crate::compute::weather::Hour;
 use crate::formats::scan::read_scan;
 use std::path::Path;
@@ -104,6 +104,21 @@ fn finished(
         }
         Some(keys) => behind_skyline(outside, skyline(keys).map_err(|(key, message)| wrong(key, message))?),
         None => outside,
+    };
+    // Below a skyline the ground gets less of the sky, and the sun only where it stands above.
+    let outside = match (outside.skyline_altitude(), outside.surroundings().and_then(|around| around.skyline.as_ref()))
+    {
+        (altitude, None) if altitude <= 0.0 => outside,
+        (altitude, shape) => {
+            let free = beam.map_or(0.0, |sun| {
+                let share = match shape {
+                    Some(shape) => shape.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
+                    None => sun.share_above(altitude),
+                };
+                share * sun.horizontal()
+            });
+            with_ground_behind_skyline(outside, free)
+        }
     };
     Ok((outside, beam))
 }

@@ -5,8 +5,6 @@ use crate::compute::limits;
 use crate::compute::sky::Outside;
 use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::skyline::Skyline;
-use crate::compute::surroundings::solid::Solid;
-use glam::DVec3;
 use std::sync::Arc;
 
 /// A key that is wrong, and what is wrong and would be right.
@@ -47,13 +45,5 @@ pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
 
 /// An outside behind a skyline that has no boxes before it.
 pub fn behind_skyline(outside: Outside, skyline: Skyline) -> Outside {
-    let nowhere = Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0);
-    outside.behind(Arc::new(Surroundings {
-        solids: Vec::new(),
-        room: nowhere,
-        faces: Vec::new(),
-        sun: None,
-        lines: Vec::new(),
-        skyline: Some(skyline),
-    }))
+    outside.behind(Arc::new(Surroundings::dark(Vec::new(), Some(skyline))))
 }

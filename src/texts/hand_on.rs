@@ -133,6 +133,9 @@ texts! {
     const WEATHER = "weather" | "Wetter";
     const FACADE_FACES = "façade faces" | "Fassade nach";
     fn from_north(degrees) = "{degrees}° from north" | "{degrees}° von Nord";
+    fn boxes_and_ground(count, height, building) = "boxes: {count}; ground at {height} m; {building}" | "Quader: {count}; Boden auf {height} m; {building}";
+    const BUILDING_NAMED = "building named" | "Gebäude benannt";
+    const BUILDING_NOT_NAMED = "building not named" | "Gebäude nicht benannt";
     const GROUND = "ground reflectance" | "Bodenreflexionsgrad";
     const ROOM = "room" | "Raum";
     const RHO_ROOM = "ρ floor, walls, ceiling" | "ρ Boden, Wände, Decke";

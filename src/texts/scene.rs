@@ -89,6 +89,12 @@ texts! {
     const BOX_GAP = "Gap to the façade" | "Abstand zur Fassade";
     const BOX_UP = "From z" | "Ab z";
     const BOX_DEPTH = "Extent along y" | "Ausdehnung in y";
+    const BUILDING = "Building around the room" | "Gebäude um den Raum";
+    const BUILDING_TIP = "A box from the façade backwards that holds the room: it shades the ground and reflects. Without it nothing is assumed" | "Ein Quader ab der Fassade, der den Raum enthält: Er beschattet den Boden und reflektiert. Ohne ihn wird nichts angenommen";
+    const TO_X = "To x" | "Bis x";
+    const TO_Y = "To y" | "Bis y";
+    const TO_Z = "To z" | "Bis z";
+    const GROUND_HEIGHT = "Height of the ground" | "Höhe des Bodens";
     const BOX_TURN = "Turned" | "Gedreht";
     const SELF_LUMINOUS = "Luminance stated" | "Leuchtdichte angegeben";
     const SELF_LUMINOUS_TIP = "The same on all faces whatever falls on them; off: lit by sky, sun and ground" | "Auf allen Flächen dieselbe, was auch darauf fällt; aus: von Himmel, Sonne und Boden beleuchtet";

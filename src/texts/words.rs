@@ -151,6 +151,9 @@ texts! {
     const BOXES_UNSEEN = "The control goes by where the sun is: it does not see the boxes outside." | "Die Regelung geht nach dem Sonnenstand: Die Quader draußen sieht sie nicht.";
 
     // What stands outside.
+    fn boxes_below_ground(count, height) = "{count} of the boxes outside: not above the ground at {height} m (site.ground_height), so not there" | "{count} der Körper draußen: nicht über dem Boden auf {height} m (site.ground_height), also nicht da";
+    fn boxes_left_out(count) = "{count} of the boxes outside: left out, too low and too far away to matter" | "{count} der Körper draußen: weggelassen, zu niedrig und zu fern, um etwas zu ändern";
+    const BUILDING_UNNAMED = "no [building] named: of the building only the boxes shade the ground" | "kein [building] benannt: Vom Gebäude beschatten nur die Körper den Boden";
     fn past_outside(number) = "aperture {number}: every sensor looks straight through and past what stands outside" | "Öffnung {number}: Jeder Messpunkt blickt gerade hindurch und an dem vorbei, was draußen steht";
     fn outside_alike(number, change) = "aperture {number}: not split, its points see the outside alike (light changes by {change} %)" | "Öffnung {number}: nicht geteilt, ihre Punkte sehen dasselbe Außen (das Licht ändert sich um {change} %)";
     fn outside_one_part(number, change) = "aperture {number}: split into one part, each with its own outside; over a part light still changes, smoothly, by up to {change} %" | "Öffnung {number}: ein Teil mit eigenem Außen; über den Teil ändert sich das Licht noch stetig, um bis zu {change} %";

@@ -8,6 +8,7 @@ mod common;
 mod control;
 mod exactness;
 mod glare;
+mod ground;
 mod luminaire_daylight;
 mod luminaire_tiles;
 mod method;

@@ -4,8 +4,8 @@ use cfs::compute::basis::RingBasis;
 use cfs::compute::direction::{Dir, Emergent};
 use cfs::compute::estimate::{Progress, Silent};
 use cfs::compute::quadrature::Tolerance;
-use cfs::compute::sky::faces::{Finish, surroundings};
-use cfs::compute::sky::{Distribution, Outside, irradiance, irradiance_through};
+use cfs::compute::sky::faces::{Finish, Setting, surroundings};
+use cfs::compute::sky::{Distribution, Outside, Sun, irradiance, irradiance_through};
 use cfs::compute::surroundings::face_light::FaceLight;
 use cfs::compute::surroundings::solid::Solid;
 use cfs::study::scene_file::SceneFile;
@@ -14,12 +14,12 @@ use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
 
-const DIFFUSE: &str = "system = { ideal = \"diffuse\", transmittance = 0.5 }";
-const CLEAR: &str = "system = { ideal = \"transparent\", transmittance = 0.8 }";
+pub(crate) const DIFFUSE: &str = "system = { ideal = \"diffuse\", transmittance = 0.5 }";
+pub(crate) const CLEAR: &str = "system = { ideal = \"transparent\", transmittance = 0.8 }";
 const OVERCAST: &str = "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0";
 const BLACK: &str = "model = \"uniform\"\ndiffuse_horizontal = 0.0";
 
-fn text(aperture: &str, sky: &str, outside: &str) -> String {
+pub(crate) fn text(aperture: &str, sky: &str, outside: &str) -> String {
     format!(
         "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\nreflectance = {{ floor = 0.0, walls = 0.0, ceiling = 0.0 }}\n\
          [[aperture]]\nsurface = \"facade\"\norigin = [0.5, 0.9]\nsize = [3.0, 1.8]\n{aperture}\n{outside}\n\
@@ -29,11 +29,11 @@ fn text(aperture: &str, sky: &str, outside: &str) -> String {
     )
 }
 
-fn a_box(from: [f64; 3], to: [f64; 3], more: &str) -> String {
+pub(crate) fn a_box(from: [f64; 3], to: [f64; 3], more: &str) -> String {
     format!("[[outside]]\nbox = {{ from = {from:?}, to = {to:?} }}\n{more}\n")
 }
 
-fn resolve(text: &str) -> Result<Scene, String> {
+pub(crate) fn resolve(text: &str) -> Result<Scene, String> {
     let file = SceneFile::parse(text).map_err(|error| error.to_string())?;
     Scene::resolve(&file, Path::new("."), &Library::default()).map_err(|error| error.to_string())
 }
@@ -42,13 +42,17 @@ fn room(text: &str) -> RoomResult {
     Session::new().room(&resolve(text).unwrap(), &Silent).unwrap()
 }
 
-fn totals(text: &str) -> Vec<f64> {
+pub(crate) fn totals(text: &str) -> Vec<f64> {
     room(text).sensors.iter().map(|sensor| sensor.total().value).collect()
 }
 
 fn words(text: &str) -> String {
     let stages = room(text).plan.stages;
     stages.iter().filter(|stage| stage.name == "outside").map(|stage| stage.reason.clone()).collect()
+}
+
+fn building(from: &str, to: &str) -> String {
+    format!("[building]\nfrom = [{from}]\nto = [{to}]\n")
 }
 
 #[test]
@@ -86,10 +90,21 @@ fn wrong_keys_name_their_place() {
             String::new(),
             "sky.skyline.luminance",
         ),
+        (CLEAR.to_owned(), OVERCAST.to_owned(), building("-1.0, 0.5, -3.0", "9.0, 9.0, 9.0"), "building.from"),
+        (CLEAR.to_owned(), OVERCAST.to_owned(), building("-1.0, -0.5, -3.0", "9.0, 9.0, 9.0"), "building.from"),
+        (CLEAR.to_owned(), OVERCAST.to_owned(), building("-1.0, 0.0, -3.0", "9.0, 9.0, 2.0"), "building.to"),
+        (
+            CLEAR.to_owned(),
+            OVERCAST.to_owned(),
+            building("-1.0, 0.0, -3.0", "9.0, 9.0, 9.0") + "reflectance = 1.5\n",
+            "building.reflectance",
+        ),
     ] {
         let error = resolve(&text(&aperture, &sky, &outside)).unwrap_err();
         assert!(error.contains(place), "{place}: {error}");
     }
+    let high = text(CLEAR, OVERCAST, "").replace("[site]", "[site]\nground_height = 0.95");
+    assert!(resolve(&high).unwrap_err().contains("site.ground_height"));
 }
 
 #[test]
@@ -134,12 +149,21 @@ fn the_plan_says_what_was_split() {
     assert!(words(&text(DIFFUSE, OVERCAST, "")).is_empty());
 }
 
+/// Boxes above the ground, with a room that hides next to nothing.
+pub(crate) fn setting(boxes: Vec<(Solid, Finish)>, ground: f64) -> Setting {
+    let room = Solid::new(DVec3::new(-1e-3, 1e-3, -1e-3), DVec3::new(1e-3, 2e-3, 1e-3), 0.0);
+    Setting { boxes, room, building: None, ground }
+}
+
+/// An outside behind boxes, as it is seen from a point; axes as the room's.
+pub(crate) fn seen(outside: &Outside, sun: Option<&Sun>, setting: Setting, eye: DVec3) -> Outside {
+    let around = surroundings(outside, sun, &setting, [1.0, 0.0], None, &[eye], &Silent).unwrap();
+    outside.clone().behind(Arc::new(around)).seen_from(eye)
+}
+
 /// Illuminance of a wall that looks to −y from a point at the origin, past one black box. \[lx\]
 fn past(solid: Solid, outside: Outside) -> f64 {
-    let room = Solid::new(DVec3::new(-1e-3, 1e-3, -1e-3), DVec3::new(1e-3, 2e-3, 1e-3), 0.0);
-    let around =
-        surroundings(&outside, None, &[(solid, Finish::Luminance(0.0))], room, None, &[DVec3::ZERO], &Silent).unwrap();
-    let seen = outside.behind(Arc::new(around)).seen_from(DVec3::ZERO);
+    let seen = seen(&outside, None, setting(vec![(solid, Finish::Luminance(0.0))], -1.0), DVec3::ZERO);
     irradiance(&seen, Dir::from_unit(DVec3::NEG_Y)).value
 }
 
@@ -152,10 +176,10 @@ fn endless_overhangs_and_fins_hide_what_their_profile_angle_says() {
         let overhang = Solid::new(DVec3::new(-5e3, -depth, away), DVec3::new(5e3, 0.0, away + 0.1), 0.0);
         let found = past(overhang, sky());
         assert!((found / (5000.0 * sine) - 1.0).abs() < 1e-3, "overhang {depth} {away}: {found}");
-        // Sky and ground of one luminance: one half is whole, the other ends at the fin.
+        // Above black ground one half is whole, the other ends at the fin.
         let fin = Solid::new(DVec3::new(away, -depth, -5e3), DVec3::new(away + 0.1, 0.0, 5e3), 0.0);
-        let found = past(fin, sky().with_ground(1.0, 0.0).unwrap());
-        assert!((found / (5000.0 * (1.0 + sine)) - 1.0).abs() < 1e-3, "fin {depth} {away}: {found}");
+        let found = past(fin, sky());
+        assert!((found / (2500.0 * (1.0 + sine)) - 1.0).abs() < 1e-3, "fin {depth} {away}: {found}");
     }
 }
 
@@ -163,10 +187,11 @@ fn endless_overhangs_and_fins_hide_what_their_profile_angle_says() {
 fn what_enters_under_an_endless_overhang_is_its_mean() {
     let uniform = "model = \"uniform\"\ndiffuse_horizontal = 10000.0";
     let overhang = a_box([-5e3, -1.2, 2.7], [5e3, 0.0, 2.8], "luminance = 0.0");
-    let found = room(&text(DIFFUSE, uniform, &overhang)).flux.value;
-    // Mean of h / √(h² + d²) over the height of the window; the ground gives half of 0.2 · 10 klx all over.
+    let black = text(DIFFUSE, uniform, &overhang).replace("ground_reflectance = 0.2", "ground_reflectance = 0.0");
+    let found = room(&black).flux.value;
+    // Mean of h / √(h² + d²) over the height of the window.
     let mean = (1.8_f64.hypot(1.2) - 1.2) / 1.8;
-    let exact = 0.5 * 3.0 * 1.8 * (5000.0 * mean + 1000.0);
+    let exact = 0.5 * 3.0 * 1.8 * 5000.0 * mean;
     assert!((found / exact - 1.0).abs() < 3e-3, "{found} {exact}");
 }
 
@@ -333,11 +358,9 @@ fn boxes_that_cross_are_seen_as_rays_see_them() {
         (solid([-0.5, -5.0, 0.0], [1.0, -4.0, 9.0], 20.0), Finish::Luminance(100.0)),
         (solid([-4.0, -4.8, 2.0], [5.0, -4.1, 3.5], 0.0), Finish::Luminance(20_000.0)),
     ];
-    let room = Solid::new(DVec3::new(-1.0, 1.0, 0.0), DVec3::new(1.0, 2.0, 1.0), 0.0);
     let eye = DVec3::new(0.3, 0.0, 1.0);
-    let around = surroundings(&sky(), None, &boxes, room, None, &[eye], &Silent).unwrap();
-    assert!(!around.lines.is_empty());
-    let seen = sky().behind(Arc::new(around)).seen_from(eye);
+    let seen = seen(&sky(), None, setting(boxes.to_vec(), 0.0), eye);
+    assert!(!seen.surroundings().unwrap().lines.is_empty());
     let n = 1000;
     let at = |k: u32| 2.0 * (f64::from(k) + 0.5) / f64::from(n) - 1.0;
     // Through an opening 1 m before the eye, by a grid on it.
@@ -367,8 +390,8 @@ fn light_on_many_boxes_ends_when_it_is_not_wanted() {
         (Solid::new(DVec3::new(x, -9.0, 0.0), DVec3::new(x + 0.8, -8.0, 4.0), 0.0), Finish::Reflectance(0.3))
     };
     let boxes: Vec<_> = (6..14).map(one).collect();
-    let room = Solid::new(DVec3::ZERO, DVec3::new(4.0, 6.0, 3.0), 0.0);
-    let lit = |progress: &dyn Progress| surroundings(&sky, None, &boxes, room, None, &[DVec3::Z], progress);
+    let setting = setting(boxes, 0.0);
+    let lit = |progress: &dyn Progress| surroundings(&sky, None, &setting, [1.0, 0.0], None, &[DVec3::Z], progress);
     assert!(lit(&Withdrawn).is_err());
     let panels = |boxes: &[[FaceLight; 6]]| boxes.iter().flatten().map(FaceLight::panels).sum::<usize>();
     let around = lit(&Silent).unwrap();

@@ -168,7 +168,7 @@ fn extreme_openings() {
 /// Boxes before façade and roof, a skyline by bearing, frame and dirt.
 #[test]
 fn what_stands_outside() {
-    every_sensor("outside", |_| Some(Bar { relative: 5e-3, absolute: 0.05 }));
+    every_sensor("obstructions", |_| Some(Bar { relative: 5e-3, absolute: 0.05 }));
 }
 
 #[test]

@@ -59,6 +59,8 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather
     let ground = format!("ρ {}", fixed(scene.site.ground_reflectance, 2));
     section(ui, texts::GROUND_AND_SKYLINE, &ground, wrong(texts::GROUND_AND_SKYLINE), false, |ui| {
         number(ui, texts::GROUND_REFLECTANCE, "", &mut scene.site.ground_reflectance, 0.0..=1.0, 2);
+        let height = &mut scene.site.ground_height;
+        number(ui, texts::GROUND_HEIGHT, " m", height, -1000.0..=1000.0, 2);
         skyline::show(ui, scene);
     });
     section(ui, texts::OUTSIDE, &outside::essence(scene), outside::problem(scene), false, |ui| {
@@ -94,7 +96,7 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather
 fn section_of(key: &str, perez: bool) -> Text {
     match key {
         "site.azimuth" => texts::FACADE,
-        "site.ground_reflectance" => texts::GROUND_AND_SKYLINE,
+        "site.ground_reflectance" | "site.ground_height" => texts::GROUND_AND_SKYLINE,
         "sky.time" => texts::DATE_AND_TIME,
         _ if key.starts_with("site.") => texts::PLACE,
         // A Perez sky's figures are wrong for a low sun, not the sun.

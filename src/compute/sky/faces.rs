@@ -1,20 +1,20 @@
-//! Light on the faces of what stands around: what [`Surroundings`] is made of.
+//! Light on what stands outside and on the ground: what [`Surroundings`] is made of.
 //!
-//! The smooth part, E from sky, skyline and ground past other boxes and the room (both black), is found at the nodes of
-//! panels that are small where it is steep; the sun's is exact at every point by a ray, with sharp shadows. One
-//! reflection: the face sends ρE/π evenly in all directions.
+//! Every place sends ρE/π alike in all directions, E from all that it sees: sky, skyline, sun, and the light of the others.
+//! The sun's own light is exact at every point, by a ray, with sharp shadows. The rest is smooth: it is first found on few
+//! panels for all surfaces at once, as the solution of a system of linear equations, so that it does not matter how often
+//! light goes to and fro; what is seen from the apertures then gathers it again, on panels that are small where it is steep.
 
-use super::hidden::Hidden;
-use super::integral::irradiance;
+use super::equations::coarse;
+use super::open_ground::OpenGround;
 use super::outside::Outside;
 use super::sun::{SUN_HALF_ANGLE, Sun};
-use crate::compute::direction::Dir;
+use super::vista::{Scenery, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::surroundings::face_light::FaceLight;
-use crate::compute::surroundings::shading::shadow_edges;
+use crate::compute::surroundings::shading::{shadow, shadow_edges};
 use crate::compute::surroundings::skyline::Skyline;
 use crate::compute::surroundings::solid::{Face, Solid};
-use crate::compute::surroundings::{Line, Surroundings};
+use crate::compute::surroundings::{Ground, Line, Surroundings};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -29,78 +29,136 @@ pub enum Finish {
     Luminance(f64),
 }
 
-/// Relative accuracy asked of the light at a node.
-const AT_NODES: f64 = 8e-3;
+/// What stands outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// Overhangs, fins, neighbours: what rises above the ground.
+    pub boxes: Vec<(Solid, Finish)>,
+    /// The room's own box.
+    pub room: Solid,
+    /// The building that holds it, and its reflectance.
+    pub building: Option<(Solid, f64)>,
+    /// Height of the ground. \[m\]
+    pub ground: f64,
+}
+
+impl Setting {
+    /// The whole turned about the vertical through the origin; cosine and sine of the angle.
+    pub fn turned(&self, turn: [f64; 2]) -> Self {
+        Self {
+            boxes: self.boxes.iter().map(|(solid, finish)| (solid.turned(turn), *finish)).collect(),
+            room: self.room.turned(turn),
+            building: self.building.as_ref().map(|(solid, reflectance)| (solid.turned(turn), *reflectance)),
+            ground: self.ground,
+        }
+    }
+}
+
 /// What the light between the nodes may be off, relative to its mean, before panels are halved.
-const BETWEEN: f64 = 5e-4;
-/// A body nearer to a face than this share of its size casts a steep gradient of light on it: its outline is a border of
-/// panels.
-const CLOSE: f64 = 0.2;
-/// Panels narrower than this share of a side are not made at the outset.
-const NARROW: f64 = 0.03;
+const BETWEEN: f64 = 1e-3;
 /// Panels of a face at most, and of all faces together as far as each has its [`FEWEST`].
 const MOST: usize = 48;
-const MOST_OF_ALL: usize = 1000;
+const MOST_OF_ALL: usize = 300;
 const FEWEST: usize = 1;
+/// Panels of the ground that is seen are no longer than this times the size of what stands near, or its distance.
+const FINE_GROUND: f64 = 1.0;
+/// Apertures count as so high above the ground at least. \[m\]
+const LOWEST_EYE: f64 = 0.5;
+/// Gathering is repeated until the light of every surface changes by less, relative, but no more often than this.
+const SETTLED: f64 = 2e-3;
+const MOST_OFTEN: usize = 4;
 /// What remains of the light on a face beside what is seen at places between the nodes, relative.
-const REST: f64 = 1e-3;
+const REST: f64 = 2e-4;
 
-/// Boxes with the light on them. `outside`: the open sky and ground, with a flat skyline if there is one. `viewpoints`:
-/// faces that none of them has before itself stay dark.
+/// Boxes and ground with the light on them, everything in the world's axes. `outside`: the open sky and ground, with a flat
+/// skyline if there is one. `turn`: of the room's x axis, cosine and sine. `viewpoints`: from where all of it is seen.
 ///
 /// # Errors
 /// [`Cancelled`] when `progress` says so.
 pub fn surroundings(
     outside: &Outside,
     sun: Option<&Sun>,
-    boxes: &[(Solid, Finish)],
-    room: Solid,
+    setting: &Setting,
+    turn: [f64; 2],
     skyline: Option<Skyline>,
     viewpoints: &[DVec3],
     progress: &dyn Progress,
 ) -> Result<Surroundings, Cancelled> {
-    let solids: Vec<Solid> = boxes.iter().map(|(solid, _)| *solid).collect();
     let shining = sun.map(|sun| (sun.direction.vector(), sun.direct_normal * above(outside, skyline.as_ref(), sun)));
     let shining = shining.filter(|(_, normal)| *normal > 0.0);
+    let scenery = scenery(outside, skyline.as_ref(), shining, setting, turn);
+    let ground = OpenGround::of(&scenery, viewpoints);
+    let mut lights = coarse(&scenery, &ground, progress)?;
     let seen = |face: &Face| viewpoints.iter().any(|point| face.normal.dot(*point - face.origin) > 1e-9);
-    let dark = |finish: &Finish| match finish {
-        Finish::Luminance(luminance) => FaceLight::even(*luminance),
-        Finish::Reflectance(_) => FaceLight::even(0.0),
+    let boxes = 6 * setting.boxes.len();
+    let wanted: Vec<usize> = (0..scenery.surfaces.len())
+        .filter(|index| *index < boxes || *index == scenery.ground())
+        .filter(|index| {
+            let surface = &scenery.surfaces[*index];
+            surface.reflectance > 0.0 && surface.stated.is_none() && seen(&surface.face)
+        })
+        .collect();
+    // Of the ground what is near counts most: a place by the solid angle that it is seen in.
+    let weight = |index: usize| {
+        let face = scenery.surfaces[index].face;
+        let ground = index == scenery.ground();
+        move |[u, v]: [f64; 2]| {
+            let seen = |eye: &DVec3| {
+                let to = face.point(u, v) - *eye;
+                let height = to.z.abs().max(LOWEST_EYE);
+                height / (to.truncate().length_squared() + height * height).powf(1.5)
+            };
+            if ground { viewpoints.iter().map(seen).sum() } else { 1.0 }
+        }
     };
-    let mut faces: Vec<[FaceLight; 6]> =
-        boxes.iter().map(|(_, finish)| std::array::from_fn(|_| dark(finish))).collect();
-    let reflects = |(index, (solid, finish)): (usize, &(Solid, Finish))| {
-        let rho = if let Finish::Reflectance(rho) = finish { *rho } else { 0.0 };
-        let own = (0..6).map(move |number| (index, number, solid.face(number), rho));
-        own.filter(|(_, _, face, rho)| *rho > 0.0 && seen(face)).collect::<Vec<_>>()
-    };
-    let asked: Vec<(usize, usize, Face, f64)> = boxes.iter().enumerate().flat_map(reflects).collect();
-    let most = (MOST_OF_ALL / asked.len().max(1)).clamp(FEWEST, MOST);
-    let done = AtomicUsize::new(0);
-    let lit = asked.par_iter().map(|(index, number, face, rho)| {
-        let others = solids.iter().enumerate().filter(|(other, _)| other != index).map(|(_, solid)| solid);
-        let others: Vec<&Solid> = others.chain([&room]).collect();
-        let mut light = smooth(outside, skyline.as_ref(), face, &others, most, progress)?;
-        light.sun = shining.map_or(0.0, |(direction, normal)| normal * face.normal.dot(direction).max(0.0)) / PI;
-        light.scale(*rho);
-        progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, asked.len());
-        Ok((*index, *number, light))
-    });
-    for (index, number, light) in lit.collect::<Result<Vec<_>, Cancelled>>()? {
-        faces[index][number] = light;
-    }
-    let mut lines = seams(&solids);
-    if let Some((direction, _)) = shining {
-        for (index, own) in faces.iter().enumerate() {
-            for (number, _) in own.iter().enumerate().filter(|(_, light)| light.sun > 0.0) {
-                let others = solids.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, solid)| solid);
-                let face = solids[index].face(number);
-                let edges = shadow_edges(&face, others.chain([&room]), direction);
-                lines.extend(edges.into_iter().map(|ends| Line { ends, faces: [face; 2] }));
-            }
+    let most = (MOST_OF_ALL / wanted.len().max(1)).clamp(FEWEST, MOST);
+    for _ in 0..MOST_OFTEN {
+        let done = AtomicUsize::new(0);
+        let gathered = wanted.par_iter().map(|&index| {
+            let start = ground.panels(&scenery, index, most, FINE_GROUND, false);
+            let most = if index == scenery.ground() { start.panels().max(most) + MOST } else { most };
+            let light = start.fitted(BETWEEN, most, &weight(index), |places| {
+                places.par_iter().map(|place| ground.light_at(&scenery, &lights, index, *place, progress)).collect()
+            })?;
+            progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, wanted.len());
+            Ok((index, light))
+        });
+        let gathered = gathered.collect::<Result<Vec<_>, Cancelled>>()?;
+        let mut changed: f64 = 0.0;
+        for (index, mut light) in gathered {
+            let weight = weight(index);
+            let (before, after) = (lights[index].mean(&weight), light.mean(&weight));
+            let change = if after > 0.0 { ((after - before) / after).abs() } else { 0.0 };
+            changed = changed.max(change);
+            light.error = REST + 0.1 * change;
+            lights[index] = light;
+        }
+        if changed < SETTLED {
+            break;
         }
     }
-    Ok(Surroundings { solids, room, faces, sun: shining.map(|(direction, _)| direction), lines, skyline })
+    for (light, surface) in lights.iter_mut().zip(&scenery.surfaces) {
+        light.sun = surface.sun;
+    }
+    let lines = lines(&scenery, &wanted, shining.map(|(direction, _)| direction));
+    let of_ground = lights.pop().filter(|light| light.is_lit());
+    let ground = of_ground.map(|light| Ground {
+        face: scenery.surfaces[scenery.ground()].face,
+        light,
+        limits: ground.limits,
+        open: ground.luminance,
+    });
+    let faces = lights.chunks_exact(6).take(setting.boxes.len());
+    Ok(Surroundings {
+        faces: faces.map(|six| std::array::from_fn(|k| six[k].clone())).collect(),
+        solids: scenery.bodies[..setting.boxes.len()].to_vec(),
+        building: scenery.bodies[setting.boxes.len()],
+        shades_ground: setting.building.is_some(),
+        ground,
+        sun: shining.map(|(direction, _)| direction),
+        lines,
+        skyline,
+    })
 }
 
 /// Share of the disc above horizon and skyline.
@@ -111,71 +169,75 @@ fn above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
     }
 }
 
-/// The smooth light that falls on a face, over π: what a white one shines with.
-fn smooth(
-    outside: &Outside,
-    skyline: Option<&Skyline>,
-    face: &Face,
-    others: &[&Solid],
-    most: usize,
-    progress: &dyn Progress,
-) -> Result<FaceLight, Cancelled> {
-    if !outside.is_lit() && skyline.is_none_or(|skyline| skyline.luminance == 0.0) {
-        return Ok(FaceLight::even(0.0));
-    }
-    let free = irradiance(outside, Dir::from_unit(face.normal)).value;
-    let at = |[u, v]: [f64; 2]| {
-        let hidden = Hidden::new(outside, skyline, others, (face.point(u, v), face.normal), free);
-        hidden.map_or(0.0, |hidden| (free + hidden.change(AT_NODES * free)).max(0.0) / PI)
-    };
-    let measure = |places: &[[f64; 2]]| {
-        let at = |place: &[f64; 2]| if progress.cancelled() { Err(Cancelled) } else { Ok(at(*place)) };
-        places.par_iter().map(at).collect()
-    };
-    let mut light = FaceLight::fitted(&borders(face, others, most), BETWEEN, most, measure)?;
-    light.error += REST;
-    Ok(light)
-}
-
-/// Borders of a face's first panels along both axes: the outlines of bodies that stand close, as far as they make no more
-/// than `most`.
-fn borders(face: &Face, others: &[&Solid], most: usize) -> [Vec<f64>; 2] {
-    let corners = face.corners();
-    let size = face.limits.map(|[low, high]| high - low);
-    let near: Vec<&&Solid> =
-        others.iter().filter(|solid| solid.gap_to(&corners) < CLOSE * size[0].min(size[1])).collect();
-    let mut borders = std::array::from_fn(|axis| {
-        let [low, high] = face.limits[axis];
-        let mut lines: Vec<f64> = near
-            .iter()
-            .filter(|solid| solid.corners().iter().any(|corner| face.normal.dot(*corner - face.origin) > 1e-9))
-            .flat_map(|solid| solid.corners())
-            .map(|corner| face.coordinates(corner)[axis])
-            .collect();
-        lines.sort_unstable_by(f64::total_cmp);
-        let mut kept: Vec<f64> = vec![low];
-        for line in lines {
-            if line - kept[kept.len() - 1] > NARROW * size[axis] && high - line > NARROW * size[axis] {
-                kept.push(line);
-            }
+/// Bodies and surfaces. `shining`: towards the sun, and its normal illuminance.
+fn scenery<'a>(
+    outside: &'a Outside,
+    skyline: Option<&'a Skyline>,
+    shining: Option<(DVec3, f64)>,
+    setting: &Setting,
+    [cos, sin]: [f64; 2],
+) -> Scenery<'a> {
+    let height = setting.ground;
+    let above = |solid: &Solid| solid.above(height);
+    let mut bodies: Vec<Solid> = setting.boxes.iter().map(|(solid, _)| above(solid)).collect();
+    // What a room above the ground stands on hides from faces what is behind it, whatever it is.
+    bodies.push(setting.building.as_ref().map_or(setting.room.down_to(height), |(solid, _)| above(solid)));
+    let finishes = setting.boxes.iter().map(|(_, finish)| *finish);
+    let last = setting.building.as_ref().map_or(0.0, |(_, reflectance)| *reflectance);
+    let mut surfaces = Vec::with_capacity(6 * bodies.len() + 1);
+    for (solid, finish) in bodies.iter().zip(finishes.chain([Finish::Reflectance(last)])) {
+        for number in 0..6 {
+            // What stands on the ground shows nothing of its underside.
+            let hidden = number == 4 && solid.heights()[0] <= height + 1e-9;
+            let (reflectance, stated) = match finish {
+                Finish::Reflectance(rho) => (if hidden { 0.0 } else { rho }, None),
+                Finish::Luminance(luminance) => (0.0, Some(luminance)),
+            };
+            surfaces.push(Surface { face: solid.face(number), reflectance, stated, sun: 0.0, shadows: Vec::new() });
         }
-        kept.push(high);
-        kept
-    });
-    while (borders[0].len() - 1) * (borders[1].len() - 1) > most {
-        let longer = usize::from(borders[1].len() > borders[0].len());
-        // Every other one, but both ends.
-        let last = borders[longer].len() - 1;
-        let mut index = 0;
-        borders[longer].retain(|_| {
-            index += 1;
-            (index - 1) % 2 == 0 || index - 1 == last
-        });
     }
-    borders
+    let far = [-1e6, 1e6];
+    let (u, v) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
+    let face = Face { origin: height * DVec3::Z, normal: DVec3::Z, u, v, limits: [far; 2] };
+    surfaces.push(Surface {
+        face,
+        reflectance: outside.ground_reflectance(),
+        stated: None,
+        sun: 0.0,
+        shadows: Vec::new(),
+    });
+    let from_ground = setting.boxes.len() + usize::from(setting.building.is_some());
+    let mut scenery = Scenery { open: outside, skyline, bodies, from_ground, surfaces };
+    if let Some((sun, normal)) = shining {
+        for index in 0..scenery.surfaces.len() {
+            let Surface { face, reflectance, stated, .. } = &scenery.surfaces[index];
+            let towards = face.normal.dot(sun);
+            if stated.is_some() || *reflectance <= 0.0 || towards <= 1e-6 {
+                continue;
+            }
+            let light = reflectance * normal * towards / PI;
+            let thrown = scenery.others(index).map(|(_, solid)| shadow(solid, face, sun));
+            let shadows = thrown.filter(|outline| outline.len() >= 3).collect();
+            (scenery.surfaces[index].sun, scenery.surfaces[index].shadows) = (light, shadows);
+        }
+    }
+    scenery
 }
 
-/// Where faces of boxes that overlap meet: no edge of either box, and yet a border of what is seen.
+/// Where the luminance of what is seen jumps beside the bodies' own edges: at shadows' edges, and where faces of boxes that
+/// overlap meet.
+fn lines(scenery: &Scenery<'_>, seen: &[usize], sun: Option<DVec3>) -> Vec<Line> {
+    let mut lines = seams(&scenery.bodies[..scenery.bodies.len() - 1]);
+    let Some(sun) = sun else { return lines };
+    for &index in seen.iter().filter(|index| scenery.surfaces[**index].sun > 0.0) {
+        let face = scenery.surfaces[index].face;
+        let edges = shadow_edges(&face, scenery.others(index).map(|(_, solid)| solid), sun);
+        lines.extend(edges.into_iter().map(|ends| Line { ends, faces: [face; 2] }));
+    }
+    lines
+}
+
+/// No edge of either box, and yet a border of what is seen.
 fn seams(solids: &[Solid]) -> Vec<Line> {
     let mut seams = Vec::new();
     for (index, one) in solids.iter().enumerate() {

@@ -12,7 +12,7 @@
 //! | `integral`, `scan_region` | integrals over regions, smooth and measured skies |
 //! | `prospect`, `opening` | what stands before sky and ground: seen from a point, through an opening |
 //! | `on_dome` | regions swept by the bearing: skylines and measured skies behind what stands before them |
-//! | `faces`, `hidden` | the light on what stands there |
+//! | `faces`, `vista`, `open_ground`, `equations` | the light on what stands there and on the ground |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |
@@ -23,14 +23,15 @@ pub mod availability;
 pub mod cie;
 pub mod clear_sky;
 mod distribution;
+mod equations;
 pub mod faces;
 mod gradated;
-mod hidden;
 mod horizontal;
 mod incident;
 mod integral;
 mod on_dome;
 mod open_cells;
+mod open_ground;
 mod opening;
 mod outside;
 pub mod patches;
@@ -42,10 +43,11 @@ mod scan;
 mod scan_region;
 mod sun;
 pub mod sun_disc;
+mod vista;
 
 pub use distribution::Distribution;
 pub use incident::{incident_illuminances, incident_illuminances_within};
-pub use integral::{irradiance, mean_luminance};
+pub use integral::{irradiance, mean_luminance, with_ground_behind_skyline};
 pub use opening::irradiance_through;
 pub use outside::{Outside, SkyError};
 pub use region::Frame;

@@ -160,15 +160,13 @@ mod tests {
     use crate::compute::basis::{AzimuthMap, RingBasis};
     use crate::compute::direction::{Dir, Orientation, Surface};
     use crate::compute::quadrature::Tolerance;
+    use crate::compute::surroundings::Surroundings;
     use crate::compute::surroundings::skyline::Skyline;
     use crate::compute::surroundings::solid::Solid;
-    use crate::compute::surroundings::{Surroundings, face_light::FaceLight};
     use std::sync::Arc;
 
     fn behind(outside: Outside, solids: Vec<Solid>, skyline: Option<Skyline>) -> Outside {
-        let faces = solids.iter().map(|_| std::array::from_fn(|_| FaceLight::even(0.0))).collect();
-        let room = Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0);
-        outside.behind(Arc::new(Surroundings { solids, room, faces, sun: None, lines: Vec::new(), skyline }))
+        outside.behind(Arc::new(Surroundings::dark(solids, skyline)))
     }
 
     /// By the closed form and by cells.

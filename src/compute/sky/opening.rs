@@ -86,18 +86,17 @@ pub fn irradiance_through(
                 continue;
             }
             let met = prospect.met(&near, middle);
-            let mut part = 0.0;
             for &(x, share) in rule(4 + (width / 0.12) as usize) {
                 let theta = from + width * x;
                 let d = frame.direction(theta, phi);
-                let luminance = match met {
+                let [luminance, error] = match met {
                     Some(met) => prospect.luminance(met, d),
-                    None => prospect.open_luminance(d),
+                    None => [prospect.open_luminance(d), 0.0],
                 };
-                part += share * width * theta.sin() * normal.dot(d).max(0.0) * tau(d) * luminance;
+                let counts = share * width * theta.sin() * normal.dot(d).max(0.0) * tau(d);
+                sum[0] += counts * luminance;
+                sum[1] += counts * error;
             }
-            sum[0] += part;
-            sum[1] += met.map_or(0.0, |met| prospect.doubt(met)) * part;
         }
         sum
     };

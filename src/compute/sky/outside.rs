@@ -41,6 +41,7 @@ pub struct Outside {
     pub(super) scale: f64,
     pub(super) diffuse_horizontal: f64,
     pub(super) ground_luminance: f64,
+    ground_reflectance: f64,
     pub(super) skyline_altitude: f64,
     pub(super) skyline_sine: f64,
     pub(super) skyline_luminance: f64,
@@ -98,6 +99,7 @@ impl Outside {
             scale,
             diffuse_horizontal,
             ground_luminance: 0.0,
+            ground_reflectance: 0.0,
             skyline_altitude: 0.0,
             skyline_sine: 0.0,
             skyline_luminance: 0.0,
@@ -114,6 +116,7 @@ impl Outside {
             scale: 1.0,
             diffuse_horizontal,
             ground_luminance: 0.0,
+            ground_reflectance: 0.0,
             skyline_altitude: 0.0,
             skyline_sine: 0.0,
             skyline_luminance: 0.0,
@@ -130,8 +133,15 @@ impl Outside {
         if !(direct_horizontal >= 0.0 && direct_horizontal.is_finite()) {
             return Err(SkyError::Illuminance(direct_horizontal));
         }
-        self.ground_luminance = reflectance * (self.diffuse_horizontal + direct_horizontal) / PI;
-        Ok(self)
+        self.ground_reflectance = reflectance;
+        let all = self.diffuse_horizontal + direct_horizontal;
+        Ok(self.on_ground(all))
+    }
+
+    /// The same with so much light on open ground. \[lx\]
+    pub(super) fn on_ground(mut self, illuminance: f64) -> Self {
+        self.ground_luminance = self.ground_reflectance * illuminance / PI;
+        self
     }
 
     /// A skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a luminance of its own \[cd/m²\].
@@ -161,6 +171,11 @@ impl Outside {
             outside.before = Some(Before { surroundings, eye: before.eye, kept: Arc::default() });
         }
         outside
+    }
+
+    /// Diffuse reflectance of the ground.
+    pub fn ground_reflectance(&self) -> f64 {
+        self.ground_reflectance
     }
 
     /// The same behind boxes and a skyline; boxes show once there is a point to see them from.
@@ -197,7 +212,7 @@ impl Outside {
         if let Some((surroundings, eye)) = self.foreground()
             && let Some(seen) = surroundings.seen(eye, v)
         {
-            return surroundings.luminance(seen, eye, v);
+            return surroundings.luminance(seen, eye, v)[0];
         }
         if v.z < 0.0 {
             self.ground_luminance

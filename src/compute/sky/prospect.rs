@@ -84,7 +84,10 @@ impl<'a> Prospect<'a> {
             altitude + part.reach > 0.0 && altitude - part.reach < skyline.highest()
         });
         let solids: Vec<usize> = (0..self.bounds.len()).filter(|index| self.bounds[*index].touches(part)).collect();
-        if solids.is_empty() && !rises {
+        let below = self.eye.is_some()
+            && self.surroundings.ground.is_some()
+            && part.middle.z.clamp(-1.0, 1.0).asin() - part.reach < 0.0;
+        if solids.is_empty() && !rises && !below {
             return None;
         }
         let edges = self.edges.iter().filter(|edge| edge.bound.touches(part)).map(|edge| edge.ends).collect();
@@ -96,14 +99,9 @@ impl<'a> Prospect<'a> {
         self.surroundings.seen_among(near.solids.iter().copied(), self.eye, direction)
     }
 
-    /// Luminance of what is met. \[cd/m²\]
-    pub fn luminance(&self, met: Seen, direction: DVec3) -> f64 {
+    /// Luminance of what is met, and how far it may be off. \[cd/m²\]
+    pub fn luminance(&self, met: Seen, direction: DVec3) -> [f64; 2] {
         self.surroundings.luminance(met, self.eye, direction)
-    }
-
-    /// How far that may be off, relative.
-    pub fn doubt(&self, met: Seen) -> f64 {
-        self.surroundings.doubt(met)
     }
 
     /// Luminance of sky and ground. \[cd/m²\]
@@ -195,20 +193,22 @@ impl<'a> Prospect<'a> {
     ) {
         let width = to - from;
         let met = self.met(near, at(from + 0.5 * width));
-        let (mut before, mut open) = (0.0, 0.0);
+        let (mut before, mut doubt, mut open) = (0.0, 0.0, 0.0);
         for &(x, share) in rule(3 + (width / 0.15) as usize) {
             let theta = from + width * x;
             let direction = at(theta);
             let density = share * width * density(theta, direction);
             open += density * self.open_luminance(direction);
             if let Some(met) = met {
-                before += density * self.luminance(met, direction);
+                let [luminance, error] = self.luminance(met, direction);
+                before += density * luminance;
+                doubt += density * error;
             }
         }
         sum[4] += open;
-        if let Some(met) = met {
+        if met.is_some() {
             sum[1] += before;
-            sum[2] += self.doubt(met) * before;
+            sum[2] += doubt;
             sum[3] += open;
             sum[0] += before - open;
         }

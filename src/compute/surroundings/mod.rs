@@ -10,16 +10,15 @@
 //! Everything is in the world's frame (x east, y north, z up) about the room's own origin, in metres: boxes near enough
 //! to be seen differently from different points have a place, a skyline has only directions.
 //!
-//! Light on a face comes from sky, sun and ground as far as no other box and not the room hides them; of that the face
-//! sends ρE/π evenly in all directions. Boxes do not light each other or the ground: one reflection. See
-//! [`crate::compute::sky::faces`].
+//! Light on faces and on the ground comes from all that they see: sky, sun and each other. Of that they send ρE/π alike in
+//! all directions. See [`crate::compute::sky::faces`].
 
 pub mod face_light;
 pub mod shading;
 pub mod skyline;
 pub mod solid;
 
-use face_light::FaceLight;
+use face_light::{FaceLight, Limits};
 use glam::DVec3;
 use skyline::Skyline;
 use solid::{Face, Solid};
@@ -38,6 +37,37 @@ pub enum Seen {
         /// Does the middle of the sun's disc light it there?
         sunlit: bool,
     },
+    /// The ground.
+    Ground {
+        /// Does the middle of the sun's disc light it there?
+        sunlit: bool,
+    },
+}
+
+/// The ground that boxes stand on or above.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ground {
+    /// Its plane.
+    pub face: Face,
+    /// Its light as far as boxes change it.
+    pub light: FaceLight,
+    /// How far that is, in the plane's coordinates. \[m\]
+    pub limits: Limits,
+    /// Luminance beyond, without the sun's own light. \[cd/m²\]
+    pub open: f64,
+}
+
+impl Ground {
+    /// Luminance without the sun's own light, and how far it may be off. \[cd/m²\]
+    fn diffuse(&self, point: DVec3) -> [f64; 2] {
+        let [u, v] = self.face.coordinates(point);
+        let [[a, b], [c, d]] = self.limits;
+        if (a..=b).contains(&u) && (c..=d).contains(&v) {
+            self.light.at(u, v)
+        } else {
+            [self.open, self.light.error * self.open]
+        }
+    }
 }
 
 /// Boxes with the light on them, and a skyline.
@@ -45,8 +75,12 @@ pub enum Seen {
 pub struct Surroundings {
     /// The boxes.
     pub solids: Vec<Solid>,
-    /// The room's own box: black, and it throws a shadow.
-    pub room: Solid,
+    /// The building, or without one the room's own box: it keeps the sun from faces, and is never seen from inside.
+    pub building: Solid,
+    /// Does it keep the sun from the ground, too?
+    pub shades_ground: bool,
+    /// The ground; `None` where it is black.
+    pub ground: Option<Ground>,
     /// Light of every face of every box.
     pub faces: Vec<[FaceLight; 6]>,
     /// Towards the sun that lights faces; `None` where it lights none.
@@ -84,6 +118,20 @@ pub fn first_hit<'a>(
 }
 
 impl Surroundings {
+    /// Dark boxes and a skyline, above dark ground.
+    pub fn dark(solids: Vec<Solid>, skyline: Option<Skyline>) -> Self {
+        Self {
+            faces: solids.iter().map(|_| std::array::from_fn(|_| FaceLight::even(0.0))).collect(),
+            solids,
+            building: Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0),
+            shades_ground: false,
+            ground: None,
+            sun: None,
+            lines: Vec::new(),
+            skyline,
+        }
+    }
+
     /// What is met in a direction; `None`: sky or ground. Without a point to see from, boxes do not count.
     pub fn seen(&self, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
         self.seen_among(0..self.solids.len(), eye, direction)
@@ -91,35 +139,50 @@ impl Surroundings {
 
     /// The same where no other boxes than these can be met.
     pub fn seen_among(&self, boxes: impl Iterator<Item = usize>, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
-        if let Some(eye) = eye
-            && let Some((solid, distance, face)) =
-                first_hit(boxes.map(|index| (index, &self.solids[index])), eye, direction)
-        {
-            return Some(Seen::Face { solid, face, sunlit: self.sunlit(solid, face, eye + distance * direction) });
+        if let Some(eye) = eye {
+            let met = first_hit(boxes.map(|index| (index, &self.solids[index])), eye, direction);
+            let to_ground = self.ground_along(eye, direction).map_or(f64::INFINITY, |(distance, _)| distance);
+            match met.filter(|(_, distance, _)| *distance < to_ground) {
+                Some((solid, distance, face)) => {
+                    return Some(Seen::Face {
+                        solid,
+                        face,
+                        sunlit: self.sunlit(solid, face, eye + distance * direction),
+                    });
+                }
+                None if to_ground < f64::INFINITY => {
+                    return Some(Seen::Ground { sunlit: self.sun_on_ground(eye + to_ground * direction) });
+                }
+                None => {}
+            }
         }
         self.skyline.as_ref().filter(|skyline| skyline.covers(direction)).map(|_| Seen::Skyline)
     }
 
-    /// Luminance of what is met. \[cd/m²\]
-    pub fn luminance(&self, seen: Seen, eye: Option<DVec3>, direction: DVec3) -> f64 {
+    /// The ground in a direction, and how far away it is. \[m\]
+    fn ground_along(&self, eye: DVec3, direction: DVec3) -> Option<(f64, &Ground)> {
+        let ground = self.ground.as_ref().filter(|_| direction.z < 0.0)?;
+        Some((((ground.face.origin.z - eye.z) / direction.z).max(0.0), ground))
+    }
+
+    /// Luminance of what is met, and how far it may be off. \[cd/m²\]
+    pub fn luminance(&self, seen: Seen, eye: Option<DVec3>, direction: DVec3) -> [f64; 2] {
         match (seen, eye) {
-            (Seen::Skyline, _) => self.skyline.as_ref().map_or(0.0, |skyline| skyline.luminance),
+            (Seen::Skyline, _) => [self.skyline.as_ref().map_or(0.0, |skyline| skyline.luminance), 0.0],
             (Seen::Face { solid, face, sunlit }, Some(eye)) => {
                 let light = &self.faces[solid][face];
                 let own = &self.solids[solid].face(face);
                 let distance = own.normal.dot(own.origin - eye) / own.normal.dot(direction);
                 let [u, v] = own.coordinates(eye + distance * direction);
-                light.diffuse(u, v) + if sunlit { light.sun } else { 0.0 }
+                let [smooth, error] = light.at(u, v);
+                [smooth + if sunlit { light.sun } else { 0.0 }, error]
             }
-            (Seen::Face { .. }, None) => 0.0,
-        }
-    }
-
-    /// How far the luminance of what is met may be off, relative.
-    pub fn doubt(&self, seen: Seen) -> f64 {
-        match seen {
-            Seen::Skyline => 0.0,
-            Seen::Face { solid, face, .. } => self.faces[solid][face].error,
+            (Seen::Ground { sunlit }, Some(eye)) => {
+                let Some((distance, ground)) = self.ground_along(eye, direction) else { return [0.0; 2] };
+                let [light, error] = ground.diffuse(eye + distance * direction);
+                [light + if sunlit { ground.light.sun } else { 0.0 }, error]
+            }
+            (Seen::Face { .. } | Seen::Ground { .. }, None) => [0.0; 2],
         }
     }
 
@@ -127,8 +190,16 @@ impl Surroundings {
     pub fn sunlit(&self, solid: usize, face: usize, point: DVec3) -> bool {
         let Some(sun) = self.sun.filter(|_| self.faces[solid][face].sun > 0.0) else { return false };
         let others = self.solids.iter().enumerate().filter(|(other, _)| *other != solid);
-        let room = std::iter::once((usize::MAX, &self.room));
-        first_hit(others.chain(room), point, sun).is_none()
+        let building = std::iter::once((usize::MAX, &self.building));
+        first_hit(others.chain(building), point, sun).is_none()
+    }
+
+    /// Does the middle of the sun's disc light a point of the ground?
+    fn sun_on_ground(&self, point: DVec3) -> bool {
+        let lit = self.ground.as_ref().is_some_and(|ground| ground.light.sun > 0.0);
+        let Some(sun) = self.sun.filter(|_| lit) else { return false };
+        let building = Some(&self.building).filter(|_| self.shades_ground);
+        first_hit(self.solids.iter().chain(building).enumerate(), point, sun).is_none()
     }
 
     /// Segments at which the luminance may jump, as vectors from a point.
@@ -143,6 +214,10 @@ impl Surroundings {
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
         scaled.faces.iter_mut().flatten().for_each(|light| light.scale(factor));
+        if let Some(ground) = &mut scaled.ground {
+            ground.light.scale(factor);
+            ground.open *= factor;
+        }
         if let Some(skyline) = &mut scaled.skyline {
             skyline.luminance *= factor;
         }
@@ -152,6 +227,7 @@ impl Surroundings {
     /// Does any face or the skyline shine?
     pub fn is_lit(&self) -> bool {
         self.faces.iter().flatten().any(FaceLight::is_lit)
+            || self.ground.as_ref().is_some_and(|ground| ground.light.is_lit() || ground.open > 0.0)
             || self.skyline.as_ref().is_some_and(|skyline| skyline.luminance > 0.0)
     }
 }

@@ -13,7 +13,7 @@ const TOUCHING: f64 = 1e-9;
 
 /// The convex shadow of a box on a plane in the plane's coordinates, counter-clockwise; fewer than three corners where it
 /// throws none. `sun` points to the sun, before the plane.
-fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
+pub fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
     let towards = face.normal.dot(sun);
     let height = |p: DVec3| face.normal.dot(p - face.origin);
     let corners = solid.corners();

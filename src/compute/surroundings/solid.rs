@@ -153,6 +153,56 @@ impl Solid {
         (far > BEHIND && far - near.max(0.0) > TOUCH).then_some((near.max(0.0), face))
     }
 
+    /// Distances at which a level ray enters and leaves the box's outline, above, below or beside it, and through which
+    /// face it enters; `None` where it only touches or passes by. `along`: of unit length.
+    pub fn passage(&self, from: DVec2, along: DVec2) -> Option<([f64; 2], usize)> {
+        let start = self.local((from - self.centre).extend(0.0));
+        let along = self.local(along.extend(0.0));
+        let (mut near, mut far, mut face) = (f64::NEG_INFINITY, f64::INFINITY, 0);
+        for axis in 0..2 {
+            let (o, d, half) = (start[axis], along[axis], self.half[axis]);
+            if d.abs() < 1e-14 {
+                if o.abs() >= half - TOUCH {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = ((-half - o) / d, (half - o) / d);
+            let (a, b, side) = if d > 0.0 { (a, b, 2 * axis) } else { (b, a, 2 * axis + 1) };
+            if a > near {
+                (near, face) = (a, side);
+            }
+            far = far.min(b);
+        }
+        (far - near > TOUCH).then_some(([near, far], face))
+    }
+
+    /// Heights of its foot and its top. \[m\]
+    pub fn heights(&self) -> [f64; 2] {
+        self.z
+    }
+
+    /// From its middle to a corner of its outline. \[m\]
+    pub fn outline_radius(&self) -> f64 {
+        self.half.length()
+    }
+
+    /// What of it lies above a height \[m\]; nothing is left of its height where it lies below.
+    pub fn above(&self, height: f64) -> Self {
+        Self { z: self.z.map(|z| z.max(height)), ..*self }
+    }
+
+    /// The same reaching down to a height at least. \[m\]
+    pub fn down_to(&self, height: f64) -> Self {
+        Self { z: [self.z[0].min(height), self.z[1]], ..*self }
+    }
+
+    /// Does a point lie inside?
+    pub fn holds(&self, point: DVec3) -> bool {
+        let own = self.local(point - self.centre.extend(0.0));
+        own.x.abs() < self.half.x && own.y.abs() < self.half.y && own.z > self.z[0] && own.z < self.z[1]
+    }
+
     /// Corner by three bits: x, y, z.
     fn corner(&self, bits: usize) -> DVec3 {
         let side = |bit: usize, half: f64| if bits >> bit & 1 == 1 { half } else { -half };

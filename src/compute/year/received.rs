@@ -116,7 +116,6 @@ mod tests {
     use crate::compute::sky::Distribution;
     use crate::compute::surroundings::Surroundings;
     use crate::compute::surroundings::skyline::Skyline;
-    use crate::compute::surroundings::solid::Solid;
     use std::sync::Arc;
 
     fn received(surface: Surface, altitude: f64) -> Received {
@@ -161,15 +160,7 @@ mod tests {
     #[test]
     fn what_stands_before_it_takes_its_part() {
         let skyline = Skyline::new([[0.0, 0.2], [2.0, 0.5], [4.0, 0.1]], 20.0).unwrap();
-        let room = Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0);
-        let around = Surroundings {
-            solids: Vec::new(),
-            room,
-            faces: Vec::new(),
-            sun: None,
-            lines: Vec::new(),
-            skyline: Some(skyline),
-        };
+        let around = Surroundings::dark(Vec::new(), Some(skyline));
         let outside = Outside::new(Distribution::uniform(), 100.0).unwrap().behind(Arc::new(around));
         let received = received(Surface::Facade, 0.0);
         let (own, judged) = (sum(&received, &outside, &[]), received.judged(&outside).1.iter().sum::<f64>());

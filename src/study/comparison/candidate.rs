@@ -36,9 +36,22 @@ pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
 
 /// Do two scenes ask for the same light? What is compared does not count.
 pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
-    let SceneFile { room, aperture, outside, site, sky, sensors, control, compute, year: _, rank: _, compare: _ } = a;
+    let SceneFile {
+        room,
+        aperture,
+        outside,
+        building,
+        site,
+        sky,
+        sensors,
+        control,
+        compute,
+        year: _,
+        rank: _,
+        compare: _,
+    } = a;
     (room, site, compute) == (&b.room, &b.site, &b.compute)
-        && (aperture, outside, sky) == (&b.aperture, &b.outside, &b.sky)
+        && (aperture, outside, building, sky) == (&b.aperture, &b.outside, &b.building, &b.sky)
         && (sensors, control) == (&b.sensors, &b.control)
 }
 

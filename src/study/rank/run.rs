@@ -133,7 +133,7 @@ fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
 
 /// Do data on cells come sooner than what the scene asks for? With boxes outside every hour is a room either way.
 fn is_quicker_by_cells(file: &SceneFile) -> bool {
-    file.compute.interpolation != Interpolation::Patch && file.outside.is_empty()
+    file.compute.interpolation != Interpolation::Patch && !file.has_outside()
 }
 
 /// Threads of their own, each of which shares the computing of its product with all processors: work that waits for a lock

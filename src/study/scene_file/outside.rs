@@ -33,7 +33,24 @@ pub struct BoxKeys {
     pub turn: f64,
 }
 
-/// Diffuse reflectance of a box that names none: concrete, plaster in the weather.
+/// `[building]`
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BuildingKeys {
+    /// Least x, y and z, room axes. \[m\]
+    pub from: [f64; 3],
+    /// Greatest x, y and z. \[m\]
+    pub to: [f64; 3],
+    /// Diffuse, 0 … 1.
+    #[serde(default = "usual_reflectance")]
+    pub reflectance: f64,
+}
+
+const fn usual_reflectance() -> f64 {
+    USUAL_REFLECTANCE
+}
+
+/// Diffuse reflectance of a box or building that names none: concrete, plaster in the weather.
 pub const USUAL_REFLECTANCE: f64 = 0.3;
 
 /// `sky.skyline`

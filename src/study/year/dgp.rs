@@ -114,10 +114,9 @@ impl Engine {
         let mut file = with_states(question.file, question.moving, set);
         put_ordinary(&mut file);
         // Boxes are lit by the sky of each step.
-        file.outside = Vec::new();
-        let scene = Scene::resolve(&file, question.base, question.library)?;
+        let scene = Scene::resolve(&file.without_outside(), question.base, question.library)?;
         let apertures: Vec<_> = scene.apertures.iter().map(|one| one.aperture).collect();
-        let before = Before::of(&question.file.outside, &scene.room, &apertures)?;
+        let before = Before::of(question.file, &scene.room, &apertures)?;
         let fields: Vec<Field> = question.settings.eyes.iter().map(|eye| eye_field(&scene, eye)).collect();
         let dark = far::dark(&scene.outside);
         let tabled =
@@ -138,7 +137,7 @@ impl Engine {
             return Ok(self.by_tables(question, (hour, &outside), sun.as_ref(), vertical));
         }
         let eyes = &question.settings.eyes;
-        let outside = self.before.stand(outside, sun.as_ref(), &self.scene.room, self.scene.orientation, &Silent)?;
+        let outside = self.before.stand(outside, sun.as_ref(), self.scene.orientation, &Silent)?;
         let scene = Scene { outside, sun, ..self.scene.clone() };
         let shining = question.session.shining(&scene)?;
         let of = |((eye, field), vertical)| shining.glare(&scene, field, eye, vertical, Threshold::default());

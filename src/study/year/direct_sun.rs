@@ -11,8 +11,7 @@ use crate::compute::surroundings::solid::Solid;
 use crate::study::error::StudyError;
 use crate::study::outside::boxes;
 use crate::study::scene::Scene;
-use crate::study::scene_file::OutsideKeys;
-use glam::DVec3;
+use crate::study::scene_file::SceneFile;
 use std::sync::Arc;
 
 /// A scene whose states are fixed, ready for any sun.
@@ -27,17 +26,10 @@ impl DirectSun {
     ///
     /// # Errors
     /// Boxes that cannot be.
-    pub fn new(scene: Arc<Scene>, outside: &[OutsideKeys]) -> Result<Self, StudyError> {
+    pub fn new(scene: Arc<Scene>, file: &SceneFile) -> Result<Self, StudyError> {
         let turn = scene.orientation.turn();
-        let solids: Vec<Solid> = boxes(outside, &scene.room)?.iter().map(|(solid, _)| solid.turned(turn)).collect();
-        let around = (!solids.is_empty()).then(|| Surroundings {
-            solids,
-            room: Solid::new(DVec3::ZERO, DVec3::ZERO, 0.0),
-            faces: Vec::new(),
-            sun: None,
-            lines: Vec::new(),
-            skyline: None,
-        });
+        let solids: Vec<Solid> = boxes(file, &scene.room)?.iter().map(|(solid, _)| solid.turned(turn)).collect();
+        let around = (!solids.is_empty()).then(|| Surroundings::dark(solids, None));
         Ok(Self { scene, around })
     }
 

@@ -153,7 +153,7 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
     }
     let open = |one: &Moving| Ok::<_, StudyError>(settings(&one.keys, &one.device, question.base)?.open);
     let set: Vec<usize> = question.moving.iter().map(open).collect::<Result<_, _>>()?;
-    let all = DirectSun::new(Arc::new(prepared(question, &set)?), &question.file.outside)?;
+    let all = DirectSun::new(Arc::new(prepared(question, &set)?), question.file)?;
     if !all.passes() {
         return Ok(None);
     }
@@ -174,8 +174,7 @@ pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, 
     let mut file = with_states(question.file, question.moving, set);
     put_ordinary(&mut file);
     // Boxes are lit by the sky of each step.
-    file.outside = Vec::new();
-    let mut scene = Scene::resolve(&file, question.base, question.library)?;
+    let mut scene = Scene::resolve(&file.without_outside(), question.base, question.library)?;
     scene.sensors.extend(&question.settings.eyes);
     scene.grid = None;
     Ok(scene)
@@ -213,10 +212,10 @@ impl Engine {
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
         let scene = Arc::new(scene);
-        let sun = DirectSun::new(Arc::clone(&scene), &question.file.outside)?;
+        let sun = DirectSun::new(Arc::clone(&scene), question.file)?;
         let sun = Some(sun).filter(|sun| question.settings.direct_sun && sun.passes());
         let before = Before::of(
-            &question.file.outside,
+            question.file,
             &scene.room,
             &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
         )?;
@@ -252,8 +251,7 @@ impl Engine {
             }
             All::Rooms(scene, before) => {
                 let hour = |(_, (outside, sun)): &Hour| {
-                    let outside =
-                        before.stand(outside.clone(), sun.as_ref(), &scene.room, scene.orientation, &Silent)?;
+                    let outside = before.stand(outside.clone(), sun.as_ref(), scene.orientation, &Silent)?;
                     let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
                     let result = session.room(&scene, &Silent)?;
                     let light = result.sensors.iter().map(|one| one.total()).collect();

@@ -224,9 +224,8 @@ impl<'a> Suns<'a> {
         let scene = |closed: bool| {
             let mut file = with_groups(question.file, groups, &vec![closed; groups.len()]);
             put_ordinary(&mut file);
-            file.outside = Vec::new();
-            let scene = Scene::resolve(&file, question.base, question.library)?;
-            DirectSun::new(Arc::new(scene), &question.file.outside)
+            let scene = Scene::resolve(&file.without_outside(), question.base, question.library)?;
+            DirectSun::new(Arc::new(scene), question.file)
         };
         Ok(Self { groups, scenes: [scene(false)?, scene(true)?] })
     }

@@ -113,7 +113,6 @@ struct Group {
 /// Ready for any hour.
 struct Engine<'a> {
     question: &'a Question<'a>,
-    room: BoxRoom,
     orientation: Orientation,
     before: Before,
     per_lux: f64,
@@ -136,7 +135,7 @@ pub(super) fn solar(
     let Question { file, chosen, .. } = question;
     let room = room(&file.room)?;
     let geometry = apertures(&file.aperture, &room)?;
-    let mut engine = Engine::new(question, room, &geometry)?;
+    let mut engine = Engine::new(question, &room, &geometry)?;
     engine.judge()?;
     let mut sums = vec![Estimate::default(); engine.groups.len()];
     let (mut watts, mut errors) = (vec![0.0; chosen.len()], vec![0.0; chosen.len()]);
@@ -198,7 +197,7 @@ fn told(list: &[ThroughAperture]) -> String {
 }
 
 impl<'a> Engine<'a> {
-    fn new(question: &'a Question<'a>, room: BoxRoom, geometry: &[Aperture]) -> Result<Self, StudyError> {
+    fn new(question: &'a Question<'a>, room: &BoxRoom, geometry: &[Aperture]) -> Result<Self, StudyError> {
         let Question { file, steps, moving, states, chosen, .. } = question;
         let lit = || chosen.iter().filter(|step| question.is_lit(**step));
         // Fixed luminances count by the efficacy of all diffuse light together.
@@ -209,7 +208,7 @@ impl<'a> Engine<'a> {
         let in_watts =
             |keys: &OutsideKeys| OutsideKeys { luminance: keys.luminance.map(|l| l * per_lux), ..keys.clone() };
         let outside: Vec<OutsideKeys> = file.outside.iter().map(in_watts).collect();
-        let before = Before::of(&outside, &room, geometry)?;
+        let before = Before::of(&SceneFile { outside, ..(*file).clone() }, room, geometry)?;
         let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
         let between = match file.compute.interpolation {
             Interpolation::Auto => Between::Linear,
@@ -266,7 +265,7 @@ impl<'a> Engine<'a> {
                 }
             }
         }
-        Ok(Self { question, room, orientation, before, per_lux, groups, passages, received, between })
+        Ok(Self { question, orientation, before, per_lux, groups, passages, received, between })
     }
 
     /// Which of `received` a passage is gathered by in an aperture of a surface.
@@ -281,7 +280,7 @@ impl<'a> Engine<'a> {
         if self.before.is_empty() {
             return Ok((outside, sun));
         }
-        let outside = self.before.stand(outside, sun.as_ref(), &self.room, self.orientation, &Silent)?;
+        let outside = self.before.stand(outside, sun.as_ref(), self.orientation, &Silent)?;
         Ok((outside, sun))
     }
 

@@ -80,7 +80,7 @@ pub(super) fn states(
             ));
         }
     }
-    if !file.outside.is_empty() {
+    if file.has_outside() {
         notes.push("boxes outside are not seen by the controls, which go by where the sun is".to_owned());
     }
     let measured = controllers.iter().any(|one| one.settings().close_above.is_some());

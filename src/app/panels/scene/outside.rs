@@ -1,7 +1,7 @@
 //! What stands outside: boxes with name, place and size in metres, and what they send.
 
 use crate::app::command::Command;
-use crate::app::outside::{Act, Kind, exact, name};
+use crate::app::outside::{Act, Kind, building, exact, name};
 use crate::app::panels::fields::{number, number_by, row};
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
@@ -25,6 +25,7 @@ const LONGEST: usize = 26;
 pub fn essence(scene: &SceneFile) -> String {
     let names: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
     match (names.len(), names.join(", ")) {
+        (0, _) if scene.building.is_some() => texts::BUILDING.into(),
         (0, _) => texts::NONE.into(),
         (count, words) if words.chars().count() > LONGEST => texts::boxes_outside(count),
         (_, words) => words,
@@ -70,6 +71,24 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, commands: &mut Vec<Command>) {
         }
     });
     add.response.on_hover_text(texts::ADD_OUTSIDE_TIP);
+    let mut named = scene.building.is_some();
+    if ui.checkbox(&mut named, texts::BUILDING).on_hover_text(texts::BUILDING_TIP).changed() {
+        scene.building = named.then(|| building(scene));
+    }
+    if let Some(building) = &mut scene.building {
+        let ([left, _, low], [right, back, high]) = (&mut building.from, &mut building.to);
+        let sides = [
+            (texts::BOX_LEFT, left),
+            (texts::TO_X, right),
+            (texts::TO_Y, back),
+            (texts::BOX_UP, low),
+            (texts::TO_Z, high),
+        ];
+        for (label, side) in sides {
+            number_by(ui, (label.get(), " m"), side, -FAR..=FAR, 2, SPEED);
+        }
+        number(ui, texts::REFLECTANCE, "", &mut building.reflectance, 0.0..=1.0, 2);
+    }
 }
 
 /// A length that keeps its place on the other side: from `low` upwards, or from `high` downwards.

@@ -1,0 +1,177 @@
+//! Where light on faces and on the ground is asked for: panels of faces, and the ground as far as it differs from open ground.
+
+use super::vista::{Scenery, Vista};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::surroundings::face_light::{FaceLight, Limits};
+use crate::compute::surroundings::solid::{Face, Solid};
+use glam::DVec3;
+use std::f64::consts::PI;
+
+/// A body nearer to a face than this share of its size casts a steep gradient of light on it: its outline is a border of
+/// panels.
+const CLOSE: f64 = 0.2;
+/// Panels narrower than this share of a side are not made at the outset.
+const NARROW: f64 = 0.03;
+/// The ground is seen to differ from open ground up to so many heights of what stands highest: before a long wall its
+/// deficit falls as (height/distance)²/4.
+const GROUND: f64 = 25.0;
+/// Of that, the least size. \[m\]
+const LEAST: f64 = 0.15;
+
+/// The ground as far as bodies change its light, and what it is beyond.
+pub(super) struct OpenGround {
+    pub limits: Limits,
+    /// Without the sun's own light. \[cd/m²\]
+    pub luminance: f64,
+    /// Of what stands on it or above it: outline in the ground's coordinates, a length in which its light changes, and
+    /// whether its foot is a border.
+    near: Vec<(Limits, f64, bool)>,
+    /// From where it is seen, in its coordinates.
+    eyes: Vec<[f64; 2]>,
+}
+
+impl OpenGround {
+    /// `viewpoints`: from where it is seen.
+    pub fn of(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Self {
+        let surface = &scenery.surfaces[scenery.ground()];
+        let height = scenery.ground_height();
+        let mut near = Vec::new();
+        let (mut limits, mut top) = ([[f64::INFINITY, f64::NEG_INFINITY]; 2], 0.0_f64);
+        for (_, solid) in scenery.others(scenery.ground()) {
+            let corners = solid.corners().map(|corner| surface.face.coordinates(corner));
+            let outline = [0, 1].map(|axis| {
+                let places = || corners.iter().map(|corner| corner[axis]);
+                [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
+            });
+            let [foot, head] = solid.heights().map(|z| z - height);
+            top = top.max(head);
+            let stands = foot <= 1e-9;
+            let size = if stands { 0.5 * head } else { (0.7 * foot + 0.3 * (head - foot)).min(0.5 * head + 1.0) };
+            let straight = corners
+                .iter()
+                .all(|corner| (0..2).all(|axis| outline[axis].iter().any(|line| (line - corner[axis]).abs() < 1e-9)));
+            near.push((outline, size.max(LEAST), stands && straight));
+            for axis in 0..2 {
+                limits[axis] = [limits[axis][0].min(outline[axis][0]), limits[axis][1].max(outline[axis][1])];
+            }
+        }
+        let limits = limits.map(|[low, high]| [low - GROUND * top, high + GROUND * top]);
+        let luminance = (scenery.open.ground_luminance() - surface.sun).max(0.0);
+        let eyes = viewpoints.iter().map(|eye| surface.face.coordinates(*eye)).collect();
+        Self { limits, luminance, near, eyes }
+    }
+
+    /// Dark panels of a surface.
+    pub fn panels(&self, scenery: &Scenery<'_>, index: usize, most: usize, coarse: f64, single: bool) -> FaceLight {
+        let surface = &scenery.surfaces[index];
+        if index == scenery.ground() {
+            return FaceLight::panelled(self.limits, false, &|panel| self.cut(panel, coarse));
+        }
+        let others: Vec<&Solid> = scenery.others(index).map(|(_, solid)| solid).collect();
+        let lines = borders(&surface.face, &others, most);
+        FaceLight::panelled(surface.face.limits, single, &|panel| {
+            let inside = |axis: usize| {
+                let [low, high] = panel[axis];
+                let own: Vec<f64> = lines[axis].iter().copied().filter(|line| *line > low && *line < high).collect();
+                (!own.is_empty()).then(|| (axis, own[own.len() / 2]))
+            };
+            inside(0).or_else(|| inside(1))
+        })
+    }
+
+    /// Across which axis and where a panel of the ground is cut: at feet, then where it is long for what stands near.
+    fn cut(&self, panel: &Limits, factor: f64) -> Option<(usize, f64)> {
+        let gap = |axis: usize, outline: &Limits| {
+            (outline[axis][0] - panel[axis][1]).max(panel[axis][0] - outline[axis][1]).max(0.0)
+        };
+        for (outline, size, _) in self.near.iter().filter(|(_, _, border)| *border) {
+            for axis in 0..2 {
+                let beside = gap(1 - axis, outline) < *size;
+                let inner = outline[axis].into_iter().find(|line| {
+                    let least = 1e-3 * (panel[axis][1] - panel[axis][0]);
+                    *line > panel[axis][0] + least && *line < panel[axis][1] - least
+                });
+                if let Some(line) = inner.filter(|_| beside) {
+                    return Some((axis, line));
+                }
+            }
+        }
+        let length = |axis: usize| panel[axis][1] - panel[axis][0];
+        let axis = usize::from(length(1) > length(0));
+        let away = |outline: &Limits| gap(0, outline).hypot(gap(1, outline));
+        // What is far from all eyes is seen no better than what is near them.
+        let eye = self.eyes.iter().map(|[u, v]| away(&[[*u; 2], [*v; 2]])).fold(f64::INFINITY, f64::min);
+        let long = length(axis) > 0.5 * factor * eye
+            && self.near.iter().any(|(outline, size, _)| length(axis) > 1.001 * factor * size.max(away(outline)));
+        long.then(|| (axis, 0.5 * (panel[axis][0] + panel[axis][1])))
+    }
+
+    /// Is a place of the ground so near that bodies change its light?
+    pub fn holds(&self, [u, v]: [f64; 2]) -> bool {
+        let [[a, b], [c, d]] = self.limits;
+        (a..=b).contains(&u) && (c..=d).contains(&v)
+    }
+
+    /// What a place of a surface sends but for its own direct sun; `NaN` where a body covers it. \[cd/m²\]
+    pub fn light_at(
+        &self,
+        scenery: &Scenery<'_>,
+        lights: &[FaceLight],
+        index: usize,
+        [u, v]: [f64; 2],
+        progress: &dyn Progress,
+    ) -> Result<f64, Cancelled> {
+        if progress.cancelled() {
+            return Err(Cancelled);
+        }
+        let surface = &scenery.surfaces[index];
+        let point = surface.face.point(u, v);
+        if scenery.is_covered(index, point) {
+            return Ok(f64::NAN);
+        }
+        let mut smooth = 0.0;
+        let rest = Vista::new(scenery, index, point).gather(|other, at, counts| {
+            let open = other == scenery.ground() && !self.holds(at);
+            smooth += counts * if open { self.luminance } else { lights[other].diffuse(at[0], at[1]) };
+        });
+        Ok(surface.reflectance / PI * (rest + smooth))
+    }
+}
+
+/// Borders of a face's first panels along both axes: the outlines of bodies that stand close, as far as they make no more
+/// than `most`.
+fn borders(face: &Face, others: &[&Solid], most: usize) -> [Vec<f64>; 2] {
+    let corners = face.corners();
+    let size = face.limits.map(|[low, high]| high - low);
+    let near: Vec<&&Solid> =
+        others.iter().filter(|solid| solid.gap_to(&corners) < CLOSE * size[0].min(size[1])).collect();
+    let mut borders = std::array::from_fn(|axis| {
+        let [low, high] = face.limits[axis];
+        let mut lines: Vec<f64> = near
+            .iter()
+            .filter(|solid| solid.corners().iter().any(|corner| face.normal.dot(*corner - face.origin) > 1e-9))
+            .flat_map(|solid| solid.corners())
+            .map(|corner| face.coordinates(corner)[axis])
+            .collect();
+        lines.sort_unstable_by(f64::total_cmp);
+        let mut kept: Vec<f64> = vec![low];
+        for line in lines {
+            if line - kept[kept.len() - 1] > NARROW * size[axis] && high - line > NARROW * size[axis] {
+                kept.push(line);
+            }
+        }
+        kept.push(high);
+        kept
+    });
+    while (borders[0].len() - 1) * (borders[1].len() - 1) > most {
+        let longer = usize::from(borders[1].len() > borders[0].len());
+        // Every other one, but both ends.
+        let last = borders[longer].len() - 1;
+        let mut index = 0;
+        borders[longer].retain(|_| {
+            index += 1;
+            (index - 1) % 2 == 0 || index - 1 == last
+        });
+    }
+    borders
+}

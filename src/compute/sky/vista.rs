@@ -1,0 +1,438 @@
+//! What is seen from a point of a face or of the ground, past bodies that stand upright.
+//!
+//! Along a bearing every box is a rectangle of distance and height: its front, and its top or underside. Borders of what
+//! is seen are their ends, the horizon and the skyline, in closed form; between two of them one surface alone is seen, the
+//! nearest. Where the sun lights it and where it lies in shade are intervals of the same line, in closed form, too.
+
+use super::outside::Outside;
+use super::patches::ROW_HEIGHT;
+use super::scan_region::sector_bearings;
+use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::surroundings::solid::{Face, Solid};
+use crate::compute::sweep::rule;
+use glam::{DVec2, DVec3};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Bodies that take together less than this share of the view are left out ...
+const LEFT_OUT: f64 = 3e-4;
+/// ... if each of them is so small. \[rad\]
+const SMALL: f64 = 0.06;
+/// So many bodies at most, those that are seen largest, have borders of pieces of the sweep at their corners.
+const WITH_KNOTS: usize = 12;
+/// A piece of the sweep is no longer ...
+const PIECE: f64 = 0.35;
+/// ... and has so many Gauss points; of shorter ones as many as their length needs. \[rad\]
+const POINTS: usize = 3;
+const SHORT: f64 = 0.02;
+/// Length for a further Gauss point along a bearing: on surfaces, and in the sky. \[rad\]
+const ON_SURFACE: f64 = 0.3;
+const IN_SKY: f64 = 0.2;
+/// The ground ends so far away. \[m\]
+const FARTHEST: f64 = 1e7;
+
+/// A surface that sends light back.
+#[derive(Debug, Clone)]
+pub(super) struct Surface {
+    /// Where it is.
+    pub face: Face,
+    /// Diffuse reflectance.
+    pub reflectance: f64,
+    /// Luminance of all of it, whatever falls on it. \[cd/m²\]
+    pub stated: Option<f64>,
+    /// Luminance that the whole disc of the sun adds where nothing hides it. \[cd/m²\]
+    pub sun: f64,
+    /// Shadows on it: convex, counter-clockwise, in its own coordinates.
+    pub shadows: Vec<Vec<DVec2>>,
+}
+
+/// Bodies on the ground, with their surfaces.
+pub(super) struct Scenery<'a> {
+    /// Sky and flat skyline.
+    pub open: &'a Outside,
+    /// A skyline by bearing.
+    pub skyline: Option<&'a Skyline>,
+    /// The boxes; last the building, or the room's own box.
+    pub bodies: Vec<Solid>,
+    /// How many of them the ground sees.
+    pub from_ground: usize,
+    /// Six of each body, as [`Solid::face`] counts them; last the ground.
+    pub surfaces: Vec<Surface>,
+}
+
+impl Scenery<'_> {
+    /// The ground's place among the surfaces.
+    pub fn ground(&self) -> usize {
+        self.surfaces.len() - 1
+    }
+
+    /// Height of the ground. \[m\]
+    pub fn ground_height(&self) -> f64 {
+        self.surfaces[self.ground()].face.origin.z
+    }
+
+    /// Bodies that stand before a surface, by their index.
+    pub fn others(&self, surface: usize) -> impl Iterator<Item = (usize, &Solid)> {
+        let (own, count) =
+            if surface == self.ground() { (usize::MAX, self.from_ground) } else { (surface / 6, self.bodies.len()) };
+        self.bodies[..count].iter().enumerate().filter(move |(index, _)| *index != own)
+    }
+
+    /// Does a point of a surface lie in another body?
+    pub fn is_covered(&self, surface: usize, point: DVec3) -> bool {
+        let before = point + 1e-6 * self.surfaces[surface].face.normal;
+        self.others(surface).any(|(_, solid)| solid.holds(before))
+    }
+}
+
+/// A body before a point.
+struct Body<'a> {
+    index: usize,
+    solid: &'a Solid,
+    /// Bearing of its middle, and how far from it the body is seen. \[rad\]
+    bearing: f64,
+    reach: f64,
+}
+
+/// What is seen along a bearing between two altitudes, if nothing is nearer.
+#[derive(Clone, Copy)]
+struct Stretch {
+    /// Altitudes. \[rad\]
+    low: f64,
+    high: f64,
+    surface: usize,
+    place: Place,
+}
+
+#[derive(Clone, Copy)]
+enum Place {
+    /// An upright surface at a level distance. \[m\]
+    Front(f64),
+    /// A level one, so much above the point. \[m\]
+    Level(f64),
+}
+
+impl Place {
+    /// Level distance at an altitude's tangent. \[m\]
+    fn distance(self, tangent: f64) -> f64 {
+        match self {
+            Self::Front(distance) => distance,
+            // Towards the horizon endlessly far.
+            Self::Level(above) => (above / tangent).abs().min(FARTHEST),
+        }
+    }
+}
+
+/// The view from a point.
+pub(super) struct Vista<'a> {
+    scenery: &'a Scenery<'a>,
+    eye: DVec3,
+    normal: DVec3,
+    bodies: Vec<Body<'a>>,
+    sees_ground: bool,
+}
+
+/// An angle turned into −π … π.
+fn turned(angle: f64) -> f64 {
+    angle - 2.0 * PI * (angle / (2.0 * PI)).round()
+}
+
+fn bearing(v: DVec2) -> f64 {
+    v.x.atan2(v.y)
+}
+
+impl<'a> Vista<'a> {
+    /// From a point of a surface.
+    pub fn new(scenery: &'a Scenery<'a>, surface: usize, eye: DVec3) -> Self {
+        let normal = scenery.surfaces[surface].face.normal;
+        let mut known: Vec<(f64, Body<'a>)> = scenery
+            .others(surface)
+            .filter(|(_, solid)| solid.corners().iter().any(|corner| normal.dot(*corner - eye) > 1e-9))
+            .map(|(index, solid)| {
+                let to = solid.middle() - eye;
+                let aside = to.truncate();
+                // Round the outline of the box.
+                let reach = solid.outline_radius() / aside.length();
+                let reach = if reach < 1.0 { reach.asin() + 1e-9 } else { PI };
+                (solid.radius() / to.length(), Body { index, solid, bearing: bearing(aside), reach })
+            })
+            .collect();
+        known.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut left_out = 0.0;
+        while let Some((sine, _)) = known.last()
+            && *sine < SMALL
+        {
+            left_out += sine * sine;
+            if left_out > LEFT_OUT {
+                break;
+            }
+            known.pop();
+        }
+        let bodies = known.into_iter().map(|(_, body)| body).collect();
+        let sees_ground = surface != scenery.ground() && normal.z < 1.0 - 1e-9;
+        Self { scenery, eye, normal, bodies, sees_ground }
+    }
+
+    /// Light that falls on the point from what sends it whatever the surfaces' smooth light is: sky, skyline, stated
+    /// luminances, surfaces in the sun. \[lx\] Of places whose smooth light is asked for `place` gets the surface, the
+    /// coordinates on it and what its luminance counts for. \[sr\]
+    pub fn gather(&self, mut place: impl FnMut(usize, [f64; 2], f64)) -> f64 {
+        // Faces are upright or level: a wall sees half of all bearings.
+        let upright = self.normal.z.abs() < 1e-9;
+        let (middle, half) = if upright { (bearing(self.normal.truncate()), FRAC_PI_2) } else { (0.0, PI) };
+        let mut knots: Vec<f64> = (0..=4).map(|k| (0.5 * f64::from(k) - 1.0) * half).collect();
+        let open = self.scenery.open;
+        let sectors = if open.is_piecewise_constant() { sector_bearings() } else { Vec::new() };
+        let skyline = self.scenery.skyline.iter().flat_map(|skyline| skyline.corners());
+        let others = skyline.chain(self.peak()).map(|way| bearing(way.truncate())).chain(sectors);
+        let corners = self.bodies.iter().take(WITH_KNOTS).flat_map(|body| body.solid.corners().into_iter().take(4));
+        let corners = corners.map(|corner| bearing((corner - self.eye).truncate()));
+        knots.extend(others.chain(corners).map(|at| turned(at - middle)).filter(|at| at.abs() < half));
+        knots.sort_unstable_by(f64::total_cmp);
+        knots.dedup_by(|a, b| *a - *b < 1e-7);
+        let mut line = Line::default();
+        let mut sum = 0.0;
+        for pair in knots.windows(2) {
+            let count = ((pair[1] - pair[0]) / PIECE).ceil();
+            let step = (pair[1] - pair[0]) / count;
+            let points = if step < SHORT { 1 } else { POINTS };
+            for k in 0..count as usize {
+                for &(x, share) in rule(points) {
+                    let at = middle + pair[0] + (k as f64 + x) * step;
+                    sum += share * step * self.along(at, share * step, &mut line, &mut place);
+                }
+            }
+        }
+        sum
+    }
+
+    fn peak(&self) -> Option<DVec3> {
+        self.scenery.open.sun_direction().map(crate::compute::direction::Dir::vector)
+    }
+
+    /// Altitudes that the plane of the surface leaves, along a bearing.
+    fn free(&self, along: DVec2) -> Option<[f64; 2]> {
+        let (level, up) = (self.normal.truncate().dot(along), self.normal.z);
+        if up > 1e-9 {
+            Some([(-level / up).atan(), FRAC_PI_2])
+        } else if up < -1e-9 {
+            Some([-FRAC_PI_2, (-level / up).atan()])
+        } else {
+            (level > 0.0).then_some([-FRAC_PI_2, FRAC_PI_2])
+        }
+    }
+
+    /// Along one bearing: the light, per angle of bearing; `width` is what places count for besides.
+    fn along(&self, at: f64, width: f64, line: &mut Line, place: &mut impl FnMut(usize, [f64; 2], f64)) -> f64 {
+        let (sin, cos) = at.sin_cos();
+        let along = DVec2::new(sin, cos);
+        let Some([low, high]) = self.free(along) else { return 0.0 };
+        line.stretches.clear();
+        for body in &self.bodies {
+            if turned(at - body.bearing).abs() <= body.reach {
+                self.add(body, along, &mut line.stretches);
+            }
+        }
+        let ground = self.scenery.ground_height() - self.eye.z;
+        if self.sees_ground {
+            let surface = self.scenery.ground();
+            let place = Place::Level(ground.min(-1e-9));
+            line.stretches.push(Stretch { low: -FRAC_PI_2, high: 0.0, surface, place });
+        }
+        let top = self.scenery.skyline.map_or(0.0, |skyline| skyline.altitude(at));
+        let top = top.max(self.scenery.open.skyline_altitude());
+        line.breaks.clear();
+        let ends = line.stretches.iter().flat_map(|stretch| [stretch.low, stretch.high]);
+        line.breaks.extend(ends.chain([low, high, 0.0, top]).filter(|end| *end >= low && *end <= high));
+        line.breaks.sort_unstable_by(f64::total_cmp);
+        let mut sum = 0.0;
+        for pair in 1..line.breaks.len() {
+            let (from, to) = (line.breaks[pair - 1], line.breaks[pair]);
+            if to - from < 1e-12 {
+                continue;
+            }
+            let middle = (0.5 * (from + to)).tan();
+            let over = |stretch: &&Stretch| stretch.low < to - 1e-13 && stretch.high > from + 1e-13;
+            let near = |stretch: &Stretch| stretch.place.distance(middle);
+            let seen = line.stretches.iter().filter(over).min_by(|a, b| near(a).total_cmp(&near(b)));
+            sum += match seen {
+                Some(seen) => {
+                    let seen = *seen;
+                    self.on_surface(&seen, along, [from, to], width, &mut line.shaded, place)
+                }
+                None if to <= 0.0 => 0.0,
+                None if to <= top + 1e-13 => self.skyline_luminance() * self.between(along, from, to),
+                None => self.sky(along, from, to),
+            };
+        }
+        sum
+    }
+
+    /// What a body shows along a bearing.
+    fn add(&self, body: &Body<'_>, along: DVec2, stretches: &mut Vec<Stretch>) {
+        let Some(([near, far], front)) = body.solid.passage(self.eye.truncate(), along) else { return };
+        if far <= 0.0 {
+            return;
+        }
+        let [foot, top] = body.solid.heights().map(|z| z - self.eye.z);
+        let altitude = |above: f64, distance: f64| above.atan2(distance.max(0.0));
+        let first = 6 * body.index;
+        if near > 0.0 {
+            let (low, high) = (altitude(foot, near), altitude(top, near));
+            stretches.push(Stretch { low, high, surface: first + front, place: Place::Front(near) });
+        }
+        if top < 0.0 {
+            let (low, high) = (altitude(top, near), altitude(top, far));
+            stretches.push(Stretch { low, high, surface: first + 5, place: Place::Level(top) });
+        }
+        if foot > 0.0 {
+            let (low, high) = (altitude(foot, far), altitude(foot, near));
+            stretches.push(Stretch { low, high, surface: first + 4, place: Place::Level(foot) });
+        }
+    }
+
+    fn skyline_luminance(&self) -> f64 {
+        self.scenery.skyline.map_or(self.scenery.open.skyline_luminance(), |skyline| skyline.luminance)
+    }
+
+    /// ∫ cos α (n·d) dα between two altitudes.
+    fn between(&self, along: DVec2, from: f64, to: f64) -> f64 {
+        let level = self.normal.truncate().dot(along);
+        let of = |altitude: f64| {
+            let (sin, cos) = altitude.sin_cos();
+            0.5 * (level * (altitude + sin * cos) + self.normal.z * sin * sin)
+        };
+        (of(to) - of(from)).max(0.0)
+    }
+
+    /// Light of a stretch of one surface, but for its smooth light at places.
+    fn on_surface(
+        &self,
+        seen: &Stretch,
+        along: DVec2,
+        [from, to]: [f64; 2],
+        width: f64,
+        shaded: &mut Vec<[f64; 2]>,
+        place: &mut impl FnMut(usize, [f64; 2], f64),
+    ) -> f64 {
+        let surface = &self.scenery.surfaces[seen.surface];
+        if let Some(luminance) = surface.stated {
+            return luminance * self.between(along, from, to);
+        }
+        if surface.reflectance <= 0.0 {
+            return 0.0;
+        }
+        let at = |altitude: f64| {
+            let tangent = altitude.tan();
+            let distance = seen.place.distance(tangent);
+            let above = match seen.place {
+                Place::Front(distance) => distance * tangent,
+                Place::Level(above) => above,
+            };
+            surface.face.coordinates(self.eye + (distance * along).extend(above))
+        };
+        let level = self.normal.truncate().dot(along);
+        for &(x, share) in rule(2 + ((to - from) / ON_SURFACE) as usize) {
+            let altitude = from + (to - from) * x;
+            let (sin, cos) = altitude.sin_cos();
+            let counts = share * (to - from) * cos * (level * cos + self.normal.z * sin);
+            if counts > 0.0 {
+                place(seen.surface, at(altitude), width * counts);
+            }
+        }
+        if surface.sun <= 0.0 {
+            return 0.0;
+        }
+        // Along the line on the surface: height of a front, level distance of a level one.
+        let (origin, way, ends) = match seen.place {
+            Place::Front(distance) => {
+                let foot = surface.face.coordinates(self.eye + (distance * along).extend(0.0));
+                (DVec2::from_array(foot), DVec2::Y, [from, to].map(|a| distance * a.tan()))
+            }
+            Place::Level(_) => {
+                let start = surface.face.coordinates(self.eye);
+                let next = surface.face.coordinates(self.eye + along.extend(0.0));
+                let start = DVec2::from_array(start);
+                let ends = [from, to].map(|a| seen.place.distance(a.tan()));
+                (start, DVec2::from_array(next) - start, [ends[0].min(ends[1]), ends[0].max(ends[1])])
+            }
+        };
+        shaded.clear();
+        shaded.extend(surface.shadows.iter().filter_map(|shadow| through(shadow, origin, way, ends)));
+        shaded.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        let altitude = |at: f64| match seen.place {
+            Place::Front(distance) => at.atan2(distance),
+            Place::Level(above) => above.atan2(at),
+        };
+        let (mut lit, mut done) = (0.0, ends[0]);
+        let mut add = |from: f64, to: f64| {
+            if to > from {
+                let (a, b) = (altitude(from), altitude(to));
+                lit += self.between(along, a.min(b), a.max(b));
+            }
+        };
+        for &[dark, light] in &*shaded {
+            add(done, dark);
+            done = done.max(light);
+        }
+        add(done, ends[1]);
+        surface.sun * lit
+    }
+
+    /// Light of the open sky between two altitudes.
+    fn sky(&self, along: DVec2, from: f64, high: f64) -> f64 {
+        let steps = self.scenery.open.is_piecewise_constant();
+        let peak = self.peak().map(|peak| peak.z.clamp(-1.0, 1.0).asin());
+        let level = self.normal.truncate().dot(along);
+        let at = |sin: f64, cos: f64| self.scenery.open.sky_luminance((along * cos).extend(sin));
+        let (mut low, mut sum) = (from, 0.0);
+        while low < high {
+            // To the next row of a measured sky, or the altitude of the sun.
+            let row = if steps { ((low / ROW_HEIGHT + 1e-9).floor() + 1.0) * ROW_HEIGHT } else { high };
+            let next = peak.filter(|peak| *peak > low + 1e-9).map_or(row, |peak| row.min(peak)).min(high);
+            if steps {
+                let (sin, cos) = (0.5 * (low + next)).sin_cos();
+                sum += at(sin, cos) * self.between(along, low, next);
+            } else {
+                for &(x, share) in rule(3 + ((next - low) / IN_SKY) as usize) {
+                    let (sin, cos) = (low + (next - low) * x).sin_cos();
+                    sum += share * (next - low) * cos * (level * cos + self.normal.z * sin).max(0.0) * at(sin, cos);
+                }
+            }
+            low = next;
+        }
+        sum
+    }
+}
+
+/// What is used again from bearing to bearing.
+#[derive(Default)]
+struct Line {
+    stretches: Vec<Stretch>,
+    breaks: Vec<f64>,
+    shaded: Vec<[f64; 2]>,
+}
+
+/// From where to where a line runs through a convex, counter-clockwise polygon, between two places along it.
+fn through(polygon: &[DVec2], origin: DVec2, way: DVec2, [mut from, mut to]: [f64; 2]) -> Option<[f64; 2]> {
+    for (k, &corner) in polygon.iter().enumerate() {
+        let side = polygon[(k + 1) % polygon.len()] - corner;
+        // Inside: side × (origin + t way − corner) ≥ 0.
+        let (at, slope) = (side.perp_dot(origin - corner), side.perp_dot(way));
+        if slope.abs() < 1e-14 {
+            if at < 0.0 {
+                return None;
+            }
+        } else if slope > 0.0 {
+            from = from.max(-at / slope);
+        } else {
+            to = to.min(-at / slope);
+        }
+        if from >= to {
+            return None;
+        }
+    }
+    Some([from, to])
+}
+
+#[cfg(test)]
+mod tests;

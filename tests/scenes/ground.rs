@@ -1,0 +1,97 @@
+//! The ground and what stands on it: shade, and light that goes to and fro, against closed forms.
+
+use crate::outside::{CLEAR, DIFFUSE, a_box, resolve, seen, setting, text, totals};
+use cfs::compute::direction::Dir;
+use cfs::compute::sky::faces::{Finish, Setting};
+use cfs::compute::sky::{Distribution, Outside, Sun};
+use cfs::compute::surroundings::solid::Solid;
+use glam::DVec3;
+use std::f64::consts::PI;
+
+#[test]
+fn the_ground_under_an_endless_overhang_sees_what_it_leaves_of_the_sky() {
+    // Black, 3 m above the ground, 2 m deep: of the sky over an endless strip of ground between two angles from the
+    // zenith (sin θ₂ − sin θ₁)/2 is missing.
+    let slab = Solid::new(DVec3::new(-5e3, -2.0, 3.0), DVec3::new(5e3, 0.0, 3.2), 0.0);
+    let sky = Outside::new(Distribution::uniform(), 10_000.0).unwrap().with_ground(0.4, 0.0).unwrap();
+    let eye = DVec3::new(0.0, 0.0, 1.5);
+    let seen = seen(&sky, None, setting(vec![(slab, Finish::Reflectance(0.0))], 0.0), eye);
+    for away in [0.3, 0.9, 1.7, 2.4, 4.0, 9.0, 40.0] {
+        let sine = |front: f64| (away - front) / f64::hypot(away - front, 3.0);
+        let exact = 0.4 * 10_000.0 / PI * (1.0 - 0.5 * (sine(0.0) - sine(2.0)));
+        let found = seen.luminance(Dir::from_unit((DVec3::new(0.0, -away, 0.0) - eye).normalize()));
+        assert!((found / exact - 1.0).abs() < 5e-3, "{away}: {found} {exact}");
+    }
+}
+
+#[test]
+fn in_a_white_court_everything_is_as_bright_as_its_lid() {
+    // What reflects all light and is closed by a lid of one luminance has that luminance: any number of reflections.
+    let wall = |from: [f64; 2], to: [f64; 2]| {
+        let solid = Solid::new(DVec3::new(from[0], from[1], 0.0), DVec3::new(to[0], to[1], 4.0), 0.0);
+        (solid, Finish::Reflectance(1.0))
+    };
+    let lid = Solid::new(DVec3::new(-5.0, -9.0, 4.0), DVec3::new(5.0, 1.0, 4.5), 0.0);
+    let boxes = vec![
+        wall([-4.0, -8.0], [-3.0, 0.2]),
+        wall([3.0, -8.0], [4.0, 0.2]),
+        wall([-3.0, -8.0], [3.0, -7.0]),
+        wall([-3.0, 0.1], [3.0, 0.2]),
+        (lid, Finish::Luminance(1000.0)),
+    ];
+    let dark = Outside::new(Distribution::uniform(), 0.0).unwrap().with_ground(1.0, 0.0).unwrap();
+    let seen = seen(&dark, None, setting(boxes, 0.0), DVec3::new(0.4, 0.0, 1.2));
+    for (x, z) in [(0.0, 0.0), (0.7, -0.2), (-0.9, 0.1), (0.2, -0.6), (-0.3, 0.5), (0.0, -2.0), (-2.0, -0.4)] {
+        let found = seen.luminance(Dir::from_unit(DVec3::new(x, -1.0, z).normalize()));
+        assert!((found / 1000.0 - 1.0).abs() < 0.01, "{x} {z}: {found}");
+    }
+}
+
+#[test]
+fn a_closed_black_hall_is_dark_inside() {
+    let sun = "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 12000.0\n\
+               sun = { altitude = 40.0, azimuth = 180.0, direct_normal = 80000.0 }";
+    let wall = |from: [f64; 3], to: [f64; 3]| a_box(from, to, "reflectance = 0.0");
+    let hall = [
+        wall([-20.0, -20.5, 0.0], [24.0, -20.0, 10.0]),
+        wall([-20.5, -20.5, 0.0], [-20.0, 20.5, 10.0]),
+        wall([24.0, -20.5, 0.0], [24.5, 20.5, 10.0]),
+        wall([-20.0, 20.0, 0.0], [24.0, 20.5, 10.0]),
+        wall([-20.5, -20.5, 10.0], [24.5, 20.5, 10.5]),
+    ];
+    for system in [CLEAR, DIFFUSE] {
+        assert!(totals(&text(system, sun, &hall.concat())).iter().all(|e| *e < 0.01));
+    }
+}
+
+#[test]
+fn the_ground_before_a_north_facade_lies_in_the_buildings_shade() {
+    // No sky but the sun, from behind: the shadow of 9 m above the ground reaches 9 m / tan 30°.
+    let sun = Sun { direction: Dir::from_unit(DVec3::new(0.0, 0.75_f64.sqrt(), 0.5)), direct_normal: 60_000.0 };
+    let sky = Outside::new(Distribution::uniform(), 0.0).unwrap().with_ground(0.3, 30_000.0).unwrap();
+    let building = Solid::new(DVec3::new(-500.0, 0.0, -6.0), DVec3::new(500.0, 10.0, 3.0), 0.0);
+    let setting = Setting { building: Some((building, 0.0)), ..setting(Vec::new(), -6.0) };
+    let eye = DVec3::new(0.0, -1e-6, 0.0);
+    let seen = seen(&sky, Some(&sun), setting, eye);
+    let edge = 9.0 * 3_f64.sqrt();
+    for (away, lit) in [(0.98 * edge, 0.0), (1.02 * edge, 0.3 * 30_000.0 / PI)] {
+        let found = seen.luminance(Dir::from_unit((DVec3::new(0.0, -away, -6.0) - eye).normalize()));
+        assert!((found - lit).abs() < 1e-6 * 3000.0, "{away}: {found} {lit}");
+    }
+}
+
+#[test]
+fn a_skyline_darkens_the_ground_too() {
+    // Uniform sky above 30°, a skyline of 500 cd/m² below, and a sun that it hides or not.
+    let lit = |altitude: f64| {
+        let sky = format!(
+            "model = \"uniform\"\ndiffuse_horizontal = 10000.0\nobstruction = {{ altitude = 30.0, luminance = 500.0 }}\n\
+             sun = {{ altitude = {altitude:?}, azimuth = 180.0, direct_normal = 40000.0 }}"
+        );
+        resolve(&text(CLEAR, &sky, "")).unwrap().outside.ground_luminance()
+    };
+    let diffuse = 10_000.0 * 0.75 + PI * 500.0 * 0.25;
+    assert!((lit(20.0) / (0.2 * diffuse / PI) - 1.0).abs() < 1e-6);
+    let sun = 40_000.0 * 50_f64.to_radians().sin();
+    assert!((lit(50.0) / (0.2 * (diffuse + sun) / PI) - 1.0).abs() < 1e-6);
+}
