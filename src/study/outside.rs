@@ -158,8 +158,7 @@ fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], groun
     let far = |solid: &Solid| {
         let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
         let [width, height] = [2.0 * solid.outline_radius(), solid.heights()[1] - ground];
-        let low = height <= LOW * distance && solid.heights()[1] - solid.heights()[0] <= LOW * distance;
-        low.then(|| width * height / (distance * distance))
+        (height <= LOW * distance).then(|| width * height / (distance * distance))
     };
     let mut left_out = 0.0;
     boxes.retain(|(solid, _)| {

@@ -200,7 +200,7 @@ pub(super) struct Engine {
 /// How all light is found.
 enum All {
     Coefficients(Box<Coefficients>),
-    Rooms(Arc<Scene>, Before),
+    Rooms(Arc<Scene>, Box<Before>),
 }
 
 impl Engine {
@@ -225,7 +225,7 @@ impl Engine {
             coefficients.keep_year(question.session, year, steps);
             return Ok(Self { all: All::Coefficients(Box::new(coefficients)), sun });
         }
-        Ok(Self { all: All::Rooms(scene, before), sun })
+        Ok(Self { all: All::Rooms(scene, Box::new(before)), sun })
     }
 
     /// Of one hour of the year.
@@ -249,7 +249,7 @@ impl Engine {
                 };
                 Ok(coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect())
             }
-            All::Rooms(scene, before) => {
+            All::Rooms(scene, Box::new(before)) => {
                 let hour = |(_, (outside, sun)): &Hour| {
                     let outside = before.stand(outside.clone(), sun.as_ref(), scene.orientation, &Silent)?;
                     let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
