@@ -249,7 +249,7 @@ impl Engine {
                 };
                 Ok(coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect())
             }
-            All::Rooms(scene, Box::new(before)) => {
+            All::Rooms(scene, before) => {
                 let hour = |(_, (outside, sun)): &Hour| {
                     let outside = before.stand(outside.clone(), sun.as_ref(), scene.orientation, &Silent)?;
                     let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
