@@ -207,7 +207,7 @@ impl Before {
         })
     }
 
-    /// The same as it is seen from one point, in room axes.
+    /// Its boxes and ground as one point sees them, in room axes.
     pub fn seen_from(self, eye: DVec3) -> Self {
         Self { viewpoints: vec![eye], ..self }
     }

@@ -65,7 +65,7 @@ impl SceneFile {
         !self.outside.is_empty() || self.building.is_some()
     }
 
-    /// The same where nothing stands outside.
+    /// The scene without boxes and building.
     pub fn without_outside(&self) -> Self {
         Self { outside: Vec::new(), building: None, ..self.clone() }
     }

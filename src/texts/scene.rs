@@ -104,6 +104,7 @@ texts! {
     const REMOVE = "Take away" | "Entfernen";
     fn duplicate_box(name) = "Duplicate {name}" | "{name} verdoppeln";
     fn remove_box(name) = "Take away {name}" | "{name} entfernen";
+    fn below_ground(name, height) = "{name} does not rise above the ground at {height} m and is not there: lower the ground" | "{name} ragt nicht über den Boden auf {height} m und ist nicht da: den Boden tiefer legen";
     fn into_room(name, width, depth, height) = "{name} reaches into the room, {width} × {depth} × {height} m: move it out." | "{name} reicht in den Raum hinein, {width} × {depth} × {height} m: hinausschieben.";
     const FRAME_SHARE = "Frame, share" | "Rahmenanteil";
     const DIRT = "Dirt, factor" | "Verschmutzung, Faktor";

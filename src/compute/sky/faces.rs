@@ -175,7 +175,7 @@ fn scenery<'a>(
     skyline: Option<&'a Skyline>,
     shining: Option<(DVec3, f64)>,
     setting: &Setting,
-    [cos, sin]: [f64; 2],
+    turn: [f64; 2],
 ) -> Scenery<'a> {
     let height = setting.ground;
     let above = |solid: &Solid| solid.above(height);
@@ -196,16 +196,7 @@ fn scenery<'a>(
             surfaces.push(Surface { face: solid.face(number), reflectance, stated, sun: 0.0, shadows: Vec::new() });
         }
     }
-    let far = [-1e6, 1e6];
-    let (u, v) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
-    let face = Face { origin: height * DVec3::Z, normal: DVec3::Z, u, v, limits: [far; 2] };
-    surfaces.push(Surface {
-        face,
-        reflectance: outside.ground_reflectance(),
-        stated: None,
-        sun: 0.0,
-        shadows: Vec::new(),
-    });
+    surfaces.push(Surface::ground(height, outside.ground_reflectance(), turn));
     let from_ground = setting.boxes.len() + usize::from(setting.building.is_some());
     let mut scenery = Scenery { open: outside, skyline, bodies, from_ground, surfaces };
     if let Some((sun, normal)) = shining {
@@ -216,8 +207,8 @@ fn scenery<'a>(
                 continue;
             }
             let light = reflectance * normal * towards / PI;
-            let thrown = scenery.others(index).map(|(_, solid)| shadow(solid, face, sun));
-            let shadows = thrown.filter(|outline| outline.len() >= 3).collect();
+            let cast = scenery.others(index).map(|(_, solid)| shadow(solid, face, sun));
+            let shadows = cast.filter(|outline| outline.len() >= 3).collect();
             (scenery.surfaces[index].sun, scenery.surfaces[index].shadows) = (light, shadows);
         }
     }

@@ -82,7 +82,7 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
                     Some((parts, off)) => {
                         met = true;
                         sum.before += parts.before;
-                        sum.doubt += parts.doubt;
+                        sum.uncertainty += parts.uncertainty;
                         sum.behind += parts.behind;
                         sum.open += parts.open;
                         error += off;
@@ -100,7 +100,7 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
             } else {
                 (free.value - sum.behind).max(0.0)
             };
-            Estimate::new(left + sum.before, free.error + error + sum.doubt)
+            Estimate::new(left + sum.before, free.error + error + sum.uncertainty)
         })
         .collect()
 }

@@ -12,7 +12,6 @@ use super::scan_region;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::{Rectangle, Tolerance, integrate, integrate_rectangles};
-use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// ∫ L · weight over a region: sky, skyline and ground.
@@ -145,7 +144,7 @@ fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     let open = outside.open();
     let found = on_dome::over(&Prospect::new(&open, surroundings, eye), region, weight, 1e-5, 0.0);
     found.map_or_else(Estimate::default, |(parts, error)| {
-        Estimate::new(parts.before - parts.behind, error + parts.doubt)
+        Estimate::new(parts.before - parts.behind, error + parts.uncertainty)
     })
 }
 
@@ -162,13 +161,6 @@ pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
                 + changed(outside, &region, Weight::Projected)
         })
         .sum()
-}
-
-/// An outside with its ground lit by what the skyline leaves of the sky, by the skyline itself, and by what it leaves of the
-/// beam on the horizontal plane. \[lx\]
-pub fn with_ground_behind_skyline(outside: Outside, direct_horizontal: f64) -> Outside {
-    let diffuse = irradiance(&outside, Dir::from_unit(DVec3::Z)).value;
-    outside.on_ground(diffuse + direct_horizontal)
 }
 
 /// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]

@@ -47,10 +47,11 @@ mod vista;
 
 pub use distribution::Distribution;
 pub use incident::{incident_illuminances, incident_illuminances_within};
-pub use integral::{irradiance, mean_luminance, with_ground_behind_skyline};
+pub use integral::{irradiance, mean_luminance};
 pub use opening::irradiance_through;
 pub use outside::{Outside, SkyError};
 pub use region::Frame;
 pub use samples::SkySamples;
 pub use scan::Scan;
 pub use sun::{SUN_HALF_ANGLE, Sun};
+pub use vista::with_ground_behind_skyline;

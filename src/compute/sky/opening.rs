@@ -100,6 +100,6 @@ pub fn irradiance_through(
         }
         sum
     };
-    let ([value, doubt], error) = sweep(line, &knots, tolerance.relative, tolerance.absolute);
-    Estimate::new(value, error + doubt)
+    let ([value, uncertainty], error) = sweep(line, &knots, tolerance.relative, tolerance.absolute);
+    Estimate::new(value, error + uncertainty)
 }

@@ -138,7 +138,7 @@ impl Outside {
         Ok(self.on_ground(all))
     }
 
-    /// The same with so much light on open ground. \[lx\]
+    /// Sets the luminance of open ground by the illuminance on it. \[lx\]
     pub(super) fn on_ground(mut self, illuminance: f64) -> Self {
         self.ground_luminance = self.ground_reflectance * illuminance / PI;
         self

@@ -49,7 +49,7 @@ pub(super) struct Parts {
     /// What stands before sky and ground.
     pub before: f64,
     /// How far that may be off for the light on faces.
-    pub doubt: f64,
+    pub uncertainty: f64,
     /// Sky and ground where something stands before them.
     pub behind: f64,
     /// Sky and ground of the whole region, by the same points.
@@ -57,8 +57,8 @@ pub(super) struct Parts {
 }
 
 impl Parts {
-    pub fn of([_, before, doubt, behind, open]: [f64; 5]) -> Self {
-        Self { before, doubt, behind, open }
+    pub fn of([_, before, uncertainty, behind, open]: [f64; 5]) -> Self {
+        Self { before, uncertainty, behind, open }
     }
 }
 
@@ -193,7 +193,7 @@ impl<'a> Prospect<'a> {
     ) {
         let width = to - from;
         let met = self.met(near, at(from + 0.5 * width));
-        let (mut before, mut doubt, mut open) = (0.0, 0.0, 0.0);
+        let (mut before, mut uncertainty, mut open) = (0.0, 0.0, 0.0);
         for &(x, share) in rule(3 + (width / 0.15) as usize) {
             let theta = from + width * x;
             let direction = at(theta);
@@ -202,13 +202,13 @@ impl<'a> Prospect<'a> {
             if let Some(met) = met {
                 let [luminance, error] = self.luminance(met, direction);
                 before += density * luminance;
-                doubt += density * error;
+                uncertainty += density * error;
             }
         }
         sum[4] += open;
         if met.is_some() {
             sum[1] += before;
-            sum[2] += doubt;
+            sum[2] += uncertainty;
             sum[3] += open;
             sum[0] += before - open;
         }

@@ -1,4 +1,4 @@
-//! What is seen from a point of a face or of the ground, past bodies that stand upright.
+//! What is seen from a point of a face or of the ground, past boxes with vertical sides.
 //!
 //! Along a bearing every box is a rectangle of distance and height: its front, and its top or underside. Borders of what
 //! is seen are their ends, the horizon and the skyline, in closed form; between two of them one surface alone is seen, the
@@ -59,6 +59,25 @@ pub(super) struct Scenery<'a> {
     pub surfaces: Vec<Surface>,
 }
 
+impl Surface {
+    /// Ground at a height \[m\]; cosine and sine of the turn of its first axis.
+    pub fn ground(height: f64, reflectance: f64, [cos, sin]: [f64; 2]) -> Self {
+        let (u, v) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
+        let face = Face { origin: height * DVec3::Z, normal: DVec3::Z, u, v, limits: [[-1e6, 1e6]; 2] };
+        Self { face, reflectance, stated: None, sun: 0.0, shadows: Vec::new() }
+    }
+}
+
+/// An outside with its open ground lit by what the skyline leaves of the sky, by the skyline itself, and by what it leaves
+/// of the sun's light on the horizontal plane. \[lx\]
+pub fn with_ground_behind_skyline(outside: Outside, direct_horizontal: f64) -> Outside {
+    let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
+    let surfaces = vec![Surface::ground(0.0, 0.0, [1.0, 0.0])];
+    let scenery = Scenery { open: &outside, skyline, bodies: Vec::new(), from_ground: 0, surfaces };
+    let diffuse = Vista::new(&scenery, 0, DVec3::ZERO).gather(|_, _, _| {});
+    outside.on_ground(diffuse + direct_horizontal)
+}
+
 impl Scenery<'_> {
     /// The ground's place among the surfaces.
     pub fn ground(&self) -> usize {
@@ -105,9 +124,9 @@ struct Stretch {
 
 #[derive(Clone, Copy)]
 enum Place {
-    /// An upright surface at a level distance. \[m\]
+    /// A vertical surface at a horizontal distance. \[m\]
     Front(f64),
-    /// A level one, so much above the point. \[m\]
+    /// A horizontal surface, so much above the point. \[m\]
     Level(f64),
 }
 
@@ -176,9 +195,9 @@ impl<'a> Vista<'a> {
     /// luminances, surfaces in the sun. \[lx\] Of places whose smooth light is asked for `place` gets the surface, the
     /// coordinates on it and what its luminance counts for. \[sr\]
     pub fn gather(&self, mut place: impl FnMut(usize, [f64; 2], f64)) -> f64 {
-        // Faces are upright or level: a wall sees half of all bearings.
-        let upright = self.normal.z.abs() < 1e-9;
-        let (middle, half) = if upright { (bearing(self.normal.truncate()), FRAC_PI_2) } else { (0.0, PI) };
+        // Faces are vertical or horizontal: a wall sees half of all bearings.
+        let vertical = self.normal.z.abs() < 1e-9;
+        let (middle, half) = if vertical { (bearing(self.normal.truncate()), FRAC_PI_2) } else { (0.0, PI) };
         let mut knots: Vec<f64> = (0..=4).map(|k| (0.5 * f64::from(k) - 1.0) * half).collect();
         let open = self.scenery.open;
         let sectors = if open.is_piecewise_constant() { sector_bearings() } else { Vec::new() };

@@ -192,7 +192,7 @@ impl Solid {
         Self { z: self.z.map(|z| z.max(height)), ..*self }
     }
 
-    /// The same reaching down to a height at least. \[m\]
+    /// The box extended downwards to a height, if it ends above. \[m\]
     pub fn down_to(&self, height: f64) -> Self {
         Self { z: [self.z[0].min(height), self.z[1]], ..*self }
     }

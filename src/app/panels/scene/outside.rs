@@ -32,16 +32,21 @@ pub fn essence(scene: &SceneFile) -> String {
     }
 }
 
-/// The first box that reaches into the room, and what would be right.
+/// The first box that reaches into the room, and what would be right; else the first that does not rise above the ground.
 pub fn problem(scene: &SceneFile) -> Option<String> {
     let size = [scene.room.width, scene.room.depth, scene.room.height];
     let room = Solid::new(DVec3::ZERO, DVec3::from_array(size), 0.0);
-    scene.outside.iter().enumerate().find_map(|(number, keys)| {
+    let inside = scene.outside.iter().enumerate().find_map(|(number, keys)| {
         let [from, to] = [keys.solid.from, keys.solid.to].map(DVec3::from_array);
         let within = Solid::new(from, to, keys.solid.turn.to_radians()).overlaps(&room, 1e-6);
         let [width, depth, height] = size.map(|length| fixed(length, 2));
         within.then(|| texts::into_room(name(number, keys), width, depth, height))
-    })
+    });
+    let ground = scene.site.ground_height;
+    let below = |(number, keys): (usize, &OutsideKeys)| {
+        (keys.solid.to[2] <= ground).then(|| texts::below_ground(name(number, keys), fixed(ground, 2)))
+    };
+    inside.or_else(|| scene.outside.iter().enumerate().find_map(below))
 }
 
 /// Draws the section.
@@ -156,6 +161,12 @@ mod tests {
         scene.outside.push(OutsideKeys { name: String::new(), ..scene.outside[0].clone() });
         assert_eq!((essence(&scene).as_str(), problem(&scene)), ("Overhang, Box 2", None));
         scene.outside[1].solid.to[1] = 0.3;
-        assert!(problem(&scene).is_some_and(|told| told.starts_with("Box 2 reaches into the room")));
+        assert!(problem(&scene).is_some_and(|said| said.starts_with("Box 2 reaches into the room")));
+        scene.outside.truncate(1);
+        act(&mut scene, Act::Add(Kind::Balcony)).unwrap();
+        let said = problem(&scene).unwrap();
+        assert!(said.starts_with("Balcony does not rise above the ground at 0.00 m"), "{said}");
+        scene.site.ground_height = -3.0;
+        assert_eq!(problem(&scene), None);
     }
 }

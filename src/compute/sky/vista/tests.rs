@@ -3,14 +3,15 @@
 use super::*;
 use crate::compute::angle::Bearing;
 use crate::compute::direction::Dir;
-use crate::compute::sky::Distribution;
+use crate::compute::sky::{Distribution, irradiance};
+use crate::compute::surroundings::Surroundings;
+use std::sync::Arc;
 
 /// Boxes of one reflectance above the ground, the first of them with the point that looks.
 fn scenery<'a>(open: &'a Outside, skyline: Option<&'a Skyline>, bodies: &[Solid], reflectance: f64) -> Scenery<'a> {
     let surface = |face: Face| Surface { face, reflectance, stated: None, sun: 0.0, shadows: Vec::new() };
     let faces = bodies.iter().flat_map(|solid| (0..6).map(|number| solid.face(number)));
-    let level = Face { origin: DVec3::ZERO, normal: DVec3::Z, u: DVec3::X, v: DVec3::Y, limits: [[-1e6, 1e6]; 2] };
-    let surfaces = faces.chain([level]).map(surface).collect();
+    let surfaces = faces.map(surface).chain([Surface::ground(0.0, reflectance, [1.0, 0.0])]).collect();
     Scenery { open, skyline, bodies: bodies.to_vec(), from_ground: bodies.len(), surfaces }
 }
 
@@ -113,4 +114,26 @@ fn what_lies_in_the_sun_counts_as_far_as_shadows_leave_it() {
         if dark { 0.0 } else { 700.0 }
     });
     assert!((found / rays - 1.0).abs() < 5e-3, "{found} {rays}");
+}
+
+#[test]
+fn ground_below_a_skyline_gets_what_cubature_finds() {
+    let skylines = [
+        Skyline::new([[0.0, 0.3]], 400.0).unwrap(),
+        Skyline::new([[1.0, 0.2], [3.0, 0.7], [3.2, 0.1], [5.0, 0.4]], 900.0).unwrap(),
+    ];
+    // The sun above the skyline, near it, and behind it.
+    for altitude in [0.9, 0.35, 0.15] {
+        let sun = Dir::from_altitude_bearing(altitude, Bearing::from_degrees(170.0));
+        for sky_type in [5, 12, 14] {
+            let open = Outside::new(Distribution::cie(sky_type, sun).unwrap(), 1e4).unwrap();
+            for skyline in &skylines {
+                let around = Surroundings::dark(Vec::new(), Some(skyline.clone()));
+                let outside = open.clone().with_ground(1.0, 0.0).unwrap().behind(Arc::new(around));
+                let exact = irradiance(&outside, Dir::from_unit(DVec3::Z)).value;
+                let found = PI * with_ground_behind_skyline(outside, 0.0).ground_luminance();
+                assert!((found / exact - 1.0).abs() < 2e-4, "{altitude} {sky_type}: {found} {exact}");
+            }
+        }
+    }
 }
