@@ -153,16 +153,17 @@ fn own_box(room: &BoxRoom) -> Solid {
     Solid::new(DVec3::ZERO, room.size, 0.0)
 }
 
-/// Takes those boxes away that are too far and too low to matter.
+/// Takes those boxes away that are too far and too low to matter, whatever light falls on them.
 fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], ground: f64) {
-    let far = |solid: &Solid| {
+    let far = |(solid, finish): &(Solid, Finish)| {
         let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
         let [width, height] = [2.0 * solid.outline_radius(), solid.heights()[1] - ground];
-        (height <= LOW * distance).then(|| width * height / (distance * distance))
+        let reflects = matches!(finish, Finish::Reflectance(_));
+        (reflects && height <= LOW * distance).then(|| width * height / (distance * distance))
     };
     let mut left_out = 0.0;
-    boxes.retain(|(solid, _)| {
-        let Some(angle) = far(solid).filter(|angle| left_out + angle <= UNSEEN) else { return true };
+    boxes.retain(|one| {
+        let Some(angle) = far(one).filter(|angle| left_out + angle <= UNSEEN) else { return true };
         left_out += angle;
         false
     });

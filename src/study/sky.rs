@@ -105,21 +105,7 @@ fn finished(
         Some(keys) => behind_skyline(outside, skyline(keys).map_err(|(key, message)| wrong(key, message))?),
         None => outside,
     };
-    // Below a skyline the ground gets less of the sky, and the sun only where it stands above.
-    let outside = match (outside.skyline_altitude(), outside.surroundings().and_then(|around| around.skyline.as_ref()))
-    {
-        (altitude, None) if altitude <= 0.0 => outside,
-        (altitude, shape) => {
-            let free = beam.map_or(0.0, |sun| {
-                let share = match shape {
-                    Some(shape) => shape.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
-                    None => sun.share_above(altitude),
-                };
-                share * sun.horizontal()
-            });
-            with_ground_behind_skyline(outside, free)
-        }
-    };
+    let outside = with_ground_behind_skyline(outside, beam.as_ref());
     Ok((outside, beam))
 }
 

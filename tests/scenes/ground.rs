@@ -97,3 +97,17 @@ fn a_skyline_darkens_the_ground_too() {
     let sun = 40_000.0 * 50_f64.to_radians().sin();
     assert!((lit(50.0) / (0.2 * (diffuse + sun) / PI) - 1.0).abs() < 1e-6);
 }
+
+#[test]
+fn a_low_far_box_is_left_out_unless_it_shines() {
+    let sun = "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 12000.0\n\
+               sun = { altitude = 40.0, azimuth = 180.0, direct_normal = 80000.0 }";
+    let shed = |finish: &str| text(CLEAR, sun, &a_box([1.0, -301.0, 0.0], [3.0, -300.0, 2.0], finish));
+    let open = totals(&text(CLEAR, sun, ""));
+    assert_eq!(totals(&shed("reflectance = 0.5")), open);
+    let notes = resolve(&shed("reflectance = 0.5")).unwrap().outside_notes;
+    assert!(notes.len() == 1 && notes[0].contains("left out"), "{notes:?}");
+    // Two square metres of 1e9 cd/m² straight ahead, seen from a place that faces up: E = L · Ω · sin of its altitude.
+    let shining = totals(&shed("luminance = 1e9"));
+    assert!(shining.iter().zip(&open).any(|(a, b)| a > &(1.01 * b)), "{shining:?} {open:?}");
+}

@@ -8,8 +8,8 @@
 use super::equations::coarse;
 use super::open_ground::OpenGround;
 use super::outside::Outside;
-use super::sun::{SUN_HALF_ANGLE, Sun};
-use super::vista::{Scenery, Surface};
+use super::sun::Sun;
+use super::vista::{Scenery, Surface, share_above};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::surroundings::shading::{shadow, shadow_edges};
 use crate::compute::surroundings::skyline::Skyline;
@@ -84,7 +84,8 @@ pub fn surroundings(
     viewpoints: &[DVec3],
     progress: &dyn Progress,
 ) -> Result<Surroundings, Cancelled> {
-    let shining = sun.map(|sun| (sun.direction.vector(), sun.direct_normal * above(outside, skyline.as_ref(), sun)));
+    let shining =
+        sun.map(|sun| (sun.direction.vector(), sun.direct_normal * share_above(outside, skyline.as_ref(), sun)));
     let shining = shining.filter(|(_, normal)| *normal > 0.0);
     let scenery = scenery(outside, skyline.as_ref(), shining, setting, turn);
     let ground = OpenGround::of(&scenery, viewpoints);
@@ -159,14 +160,6 @@ pub fn surroundings(
         lines,
         skyline,
     })
-}
-
-/// Share of the disc above horizon and skyline.
-fn above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
-    match skyline {
-        Some(skyline) => skyline.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
-        None => sun.share_above(outside.skyline_altitude()),
-    }
 }
 
 /// Bodies and surfaces. `shining`: towards the sun, and its normal illuminance.

@@ -7,6 +7,7 @@
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
 use super::scan_region::sector_bearings;
+use super::sun::{SUN_HALF_ANGLE, Sun};
 use crate::compute::surroundings::skyline::Skyline;
 use crate::compute::surroundings::solid::{Face, Solid};
 use crate::compute::sweep::rule;
@@ -68,14 +69,26 @@ impl Surface {
     }
 }
 
-/// An outside with its open ground lit by what the skyline leaves of the sky, by the skyline itself, and by what it leaves
-/// of the sun's light on the horizontal plane. \[lx\]
-pub fn with_ground_behind_skyline(outside: Outside, direct_horizontal: f64) -> Outside {
+/// An outside with its open ground lit by what the skyline leaves of sky and sun, and by the skyline itself; without a
+/// skyline as it is.
+pub fn with_ground_behind_skyline(outside: Outside, sun: Option<&Sun>) -> Outside {
     let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
+    if skyline.is_none() && outside.skyline_altitude() <= 0.0 {
+        return outside;
+    }
     let surfaces = vec![Surface::ground(0.0, 0.0, [1.0, 0.0])];
     let scenery = Scenery { open: &outside, skyline, bodies: Vec::new(), from_ground: 0, surfaces };
     let diffuse = Vista::new(&scenery, 0, DVec3::ZERO).gather(|_, _, _| {});
-    outside.on_ground(diffuse + direct_horizontal)
+    let direct = sun.map_or(0.0, |sun| share_above(&outside, skyline, sun) * sun.horizontal());
+    outside.on_ground(diffuse + direct)
+}
+
+/// Share of the sun's disc above horizon and skyline.
+pub(super) fn share_above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
+    match skyline {
+        Some(skyline) => skyline.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
+        None => sun.share_above(outside.skyline_altitude()),
+    }
 }
 
 impl Scenery<'_> {

@@ -131,7 +131,7 @@ fn ground_below_a_skyline_gets_what_cubature_finds() {
                 let around = Surroundings::dark(Vec::new(), Some(skyline.clone()));
                 let outside = open.clone().with_ground(1.0, 0.0).unwrap().behind(Arc::new(around));
                 let exact = irradiance(&outside, Dir::from_unit(DVec3::Z)).value;
-                let found = PI * with_ground_behind_skyline(outside, 0.0).ground_luminance();
+                let found = PI * with_ground_behind_skyline(outside, None).ground_luminance();
                 assert!((found / exact - 1.0).abs() < 2e-4, "{altitude} {sky_type}: {found} {exact}");
             }
         }
