@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 pub(crate) const DIFFUSE: &str = "system = { ideal = \"diffuse\", transmittance = 0.5 }";
 pub(crate) const CLEAR: &str = "system = { ideal = \"transparent\", transmittance = 0.8 }";
-const OVERCAST: &str = "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0";
+pub(crate) const OVERCAST: &str = "model = \"cie\"\ntype = 16\ndiffuse_horizontal = 10000.0";
 const BLACK: &str = "model = \"uniform\"\ndiffuse_horizontal = 0.0";
 
 pub(crate) fn text(aperture: &str, sky: &str, outside: &str) -> String {
