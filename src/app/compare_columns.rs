@@ -4,7 +4,6 @@
 use super::compare::Part;
 use super::control::YearKey;
 use super::error::AppError;
-use super::facing::surface;
 use super::incidence::Incidence;
 use super::room_look::RoomView;
 use super::scene::selection_of;
@@ -101,8 +100,7 @@ impl Column {
     /// What the year of its product hangs on.
     pub fn year_key(&self) -> Option<YearKey> {
         let product = self.state.product.as_ref().filter(|product| product.states.len() > 1)?;
-        let surface = surface(self.scene());
-        YearKey::new(self.scene(), &product.key, self.state.control_keys(), surface, self.state.base())
+        YearKey::new(self.scene(), &product.key, self.state.control_keys(), 0, self.state.base())
     }
 
     /// Is a part to be asked for?

@@ -6,7 +6,6 @@ use super::compare::View;
 use super::control::{Year, YearKey};
 use super::data_looks::{DataLook, FormResult, SchemesResult};
 use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
-use super::facing::surface_of;
 use super::goniophotometer::Bench;
 use super::hand_on::HandOn;
 use super::import::{Arranged, Import, KeptImport};
@@ -430,8 +429,7 @@ impl State {
     /// What the year of a product hangs on; `None` without place and date.
     pub fn year_key(&self, product: &str) -> Option<YearKey> {
         let scene = &self.document.scene;
-        let surface = surface_of(scene, self.control_aperture());
-        YearKey::new(scene, product, self.control_keys(), surface, self.base())
+        YearKey::new(scene, product, self.control_keys(), self.control_aperture(), self.base())
     }
 
     /// The aperture whose control is shown and edited, from 0: the chosen one, else the first.

@@ -7,7 +7,6 @@ use super::data_looks::{FormResult, SchemesResult};
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
-use super::facing::surface_of;
 use super::gallery::Made;
 use super::goniophotometer::Finished;
 use super::hand_on::Preview;
@@ -33,6 +32,7 @@ use crate::study::control::table::of_scene;
 use crate::study::control::year::CONTROLLED;
 use crate::study::scene::seen_by_first_aperture;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
+use crate::study::scene_places::opening;
 use crate::study::sky::{SkyKeyError, outside_from_keys};
 use crate::study::subscriptions::Report;
 use crate::study::year::Annual;
@@ -216,14 +216,15 @@ pub(super) fn take_from_shelf(
         let fixed = ControlKeys::of(ControlMode::Fixed);
         let keys = rule(scene, aperture).unwrap_or(&fixed);
         let daylight = daylight.ok_or(AppError::NoDaylight)?;
+        let opening = opening(scene, aperture)?.ok_or(AppError::NoDaylight)?;
         let facing = Facing {
-            outside: &daylight.outside,
+            outside: daylight.seen.as_deref().unwrap_or(&daylight.outside),
             sun: daylight.sun.as_ref(),
             orientation: Orientation::new(Bearing::from_degrees(scene.site.azimuth)),
-            surface: surface_of(scene, aperture),
+            surface: opening.surface,
         };
         let hour = super::moment::of(scene).map(|time| f64::from(time.hour()) + f64::from(time.minute()) / 60.0);
-        let asked = ControlQuestion { keys, base, hour, of_year: of_scene(scene), facing };
+        let asked = ControlQuestion { keys, base, hour, of_year: of_scene(scene), facing, aperture: opening };
         shelf.controlled_state(&selection.product, &asked)?
     } else if selection.state.is_empty() {
         product.states.get(product.representative().1).map(|state| state.key.clone()).unwrap_or_default()

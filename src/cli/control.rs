@@ -91,10 +91,6 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             );
         }
     }
-    if situation.unseen_boxes > 0 {
-        let boxes = if situation.unseen_boxes == 1 { "the box" } else { "the boxes" };
-        tell!("{boxes} outside: not seen by the controls, which go by where the sun is");
-    }
     Ok(())
 }
 
@@ -149,7 +145,6 @@ fn json(list: &[Moving], sums: &[Summary], situation: &Situation, step: u32) -> 
         "year": situation.year,
         "step_minutes": step,
         "light": "clear sky at all hours",
-        "unseen_boxes": situation.unseen_boxes,
         "apertures": apertures,
     })
 }

@@ -44,7 +44,7 @@ pub mod rank;
 pub mod rank_keys;
 pub mod scene;
 pub mod scene_file;
-mod scene_places;
+pub mod scene_places;
 pub mod scene_words;
 mod scheme_words;
 mod self_contained;

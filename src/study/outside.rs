@@ -7,8 +7,9 @@ use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::mesh::BoxRoom;
-use crate::compute::sky::faces::{Finish, Setting, surroundings};
-use crate::compute::sky::{Outside, Sun};
+use crate::compute::sky::faces::surroundings;
+use crate::compute::sky::{Finish, Outside, Setting, Sun};
+use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::solid::Solid;
 use crate::texts::words as texts;
 use glam::DVec3;
@@ -229,12 +230,24 @@ impl Before {
         orientation: Orientation,
         progress: &dyn Progress,
     ) -> Result<Outside, Cancelled> {
-        let Some(setting) = &self.setting else { return Ok(outside) };
-        let viewpoints: Vec<DVec3> = self.viewpoints.iter().map(|p| orientation.to_world(*p)).collect();
+        let Some((setting, viewpoints)) = self.turned(orientation) else { return Ok(outside) };
         let skyline = outside.surroundings().and_then(|known| known.skyline.clone());
         let open = outside.open();
-        let turned = setting.turned(orientation.turn());
-        let around = surroundings(&open, sun, &turned, orientation.turn(), skyline, &viewpoints, progress)?;
+        let around = surroundings(&open, sun, &setting, orientation.turn(), skyline, &viewpoints, progress)?;
         Ok(open.behind(Arc::new(around)))
+    }
+
+    /// Returns the obstructions and the corners of the apertures in the world's axes; `None` without obstructions.
+    pub fn turned(&self, orientation: Orientation) -> Option<(Setting, Vec<DVec3>)> {
+        let setting = self.setting.as_ref()?.turned(orientation.turn());
+        Some((setting, self.viewpoints.iter().map(|p| orientation.to_world(*p)).collect()))
+    }
+
+    /// Returns the boxes, dark, with the skyline of `outside`; `None` without obstructions.
+    pub fn dark(&self, outside: &Outside, orientation: Orientation) -> Option<Arc<Surroundings>> {
+        let (setting, _) = self.turned(orientation)?;
+        let skyline = outside.surroundings().and_then(|known| known.skyline.clone());
+        let solids = setting.boxes.into_iter().map(|(solid, _)| solid).collect();
+        Some(Arc::new(Surroundings::dark(solids, skyline)))
     }
 }

@@ -7,9 +7,10 @@ use super::control::year::{Moment, Moving, Setting, Situation, day, year as stud
 use super::control::{Device, curve, settings};
 use super::moment;
 use super::scene_file::{ControlKeys, ControlMode, SceneFile};
+use super::scene_places::opening;
 use crate::catalogue::{FirstRule, Product, State};
-use crate::compute::direction::Surface;
 use crate::compute::estimate::Progress;
+use crate::compute::room::aperture::Aperture;
 use crate::texts::{Text, decimal, words as texts};
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
@@ -18,12 +19,6 @@ use std::path::{Path, PathBuf};
 const YEAR_STEP: u32 = 60;
 /// Minutes between the points of today.
 const DAY_STEP: u32 = 30;
-
-/// What is to be said of the year of a control in a scene: it goes by the sun's place, and boxes outside do not hide it.
-pub fn remark(scene: &SceneFile, mode: ControlMode) -> Option<Text> {
-    let by_sun = !matches!(mode, ControlMode::Fixed | ControlMode::User | ControlMode::Table);
-    (by_sun && !scene.outside.is_empty()).then_some(texts::BOXES_UNSEEN)
-}
 
 /// What people call a rule.
 pub struct Words {
@@ -83,16 +78,16 @@ pub struct YearKey {
     /// By which rule; "fixed" with the state that is set by hand.
     pub keys: ControlKeys,
     situation: Situation,
-    surface: Surface,
+    opening: Aperture,
     base: PathBuf,
 }
 
 impl YearKey {
-    /// Of a scene in which one product moves by these keys, seen by an aperture of `surface`; `None` without place and
-    /// date.
-    pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, surface: Surface, base: PathBuf) -> Option<Self> {
+    /// Of a scene in whose `aperture`, from 0, one product moves by these keys; `None` without place and date.
+    pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, aperture: usize, base: PathBuf) -> Option<Self> {
         moment::of(scene)?;
-        Some(Self { product: product.to_owned(), keys, situation: Situation::of(scene).ok()?, surface, base })
+        let (situation, opening) = (Situation::of(scene).ok()?, opening(scene, aperture).ok()??);
+        Some(Self { product: product.to_owned(), keys, situation, opening, base })
     }
 
     /// Why a scene has no year of control, and what can be done.
@@ -100,13 +95,14 @@ impl YearKey {
         if moment::of(scene).is_none() {
             return Some(texts::YEAR_NEEDS_DATE.into());
         }
-        Situation::of(scene).err().map(texts::no_year)
+        let place = Situation::of(scene).err();
+        place.or_else(|| opening(scene, 0).err()).map(texts::no_year)
     }
 
     fn moving(&self, product: &Product) -> Result<Vec<Moving>, StudyError> {
         let device = Device::of(product)?;
         let section = device.section.clone();
-        Ok(vec![Moving { aperture: 1, surface: self.surface, device, keys: self.keys.clone(), section }])
+        Ok(vec![Moving { aperture: 1, opening: self.opening, device, keys: self.keys.clone(), section }])
     }
 }
 

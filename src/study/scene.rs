@@ -170,7 +170,7 @@ impl Scene {
         for (index, (keys, aperture)) in file.aperture.iter().zip(geometry).enumerate() {
             let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: aperture.surface };
             let rule = keys.control.as_ref().or(file.control.as_ref());
-            let asked = rule.map(|keys| ControlQuestion { keys, base, hour, of_year, facing });
+            let asked = rule.map(|keys| ControlQuestion { keys, base, hour, of_year, facing, aperture });
             let wanted = controlled_state(keys, asked.as_ref(), library).map_err(|error| match &error {
                 // The scene's own section has its place in the file already.
                 StudyError::Key { key, .. } if key.starts_with("control.") && keys.control.is_none() => error,

@@ -1,7 +1,7 @@
 //! Where a scene's room, apertures and sensors are: their keys judged, in the room's axes.
 
 use super::error::StudyError;
-use super::scene_file::{ApertureKeys, RoomKeys, SensorKeys, SurfaceKey};
+use super::scene_file::{ApertureKeys, RoomKeys, SceneFile, SensorKeys, SurfaceKey};
 use crate::compute::direction::Surface;
 use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
@@ -34,6 +34,14 @@ pub(super) fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
         walls: share("room.reflectance.walls", keys.reflectance.walls)?,
         ceiling: share("room.reflectance.ceiling", keys.reflectance.ceiling)?,
     })
+}
+
+/// Returns the geometry of the aperture `aperture` of a scene, counted from 0; `None` where there are fewer.
+///
+/// # Errors
+/// Keys of room and apertures.
+pub fn opening(scene: &SceneFile, aperture: usize) -> Result<Option<Aperture>, StudyError> {
+    Ok(apertures(&scene.aperture, &room(&scene.room)?)?.get(aperture).copied())
 }
 
 /// The apertures, each in its wall and apart from all others.

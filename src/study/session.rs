@@ -46,7 +46,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
-use crate::compute::sky::Outside;
+use crate::compute::sky::{Outside, Prepared};
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use results::all_numbers;
@@ -84,6 +84,8 @@ pub struct Session {
     seen_years: Cache<SkyYear>,
     exact_skies: Cache<Vec<f64>>,
     trial_skies: Cache<Vec<Outside>>,
+    /// Obstructions prepared for the hours of a year.
+    standing: Cache<Prepared>,
     by_cells: Cache<ByCells>,
     sides: Cache<RoomSide>,
     falling: Cache<Vec<Vec<f64>>>,
@@ -138,6 +140,7 @@ impl Session {
             seen_years: Cache::new(3),
             exact_skies: Cache::new(18),
             trial_skies: Cache::new(3),
+            standing: Cache::new(3),
             by_cells: Cache::new(12 / part),
             sides: Cache::new(12 / part),
             falling: Cache::new(24 / part),

@@ -3,7 +3,7 @@
 use super::control::device::is_upright;
 use super::control::slat_angle;
 use super::error::StudyError;
-use super::facing::{sun_incident, surface};
+use super::facing::sun_incident;
 use super::incidence::Incidence;
 use super::product_control::{
     TodayPoint, Year, YearKey, ordered_states, quantity, rule_curve, state_words, today, year as year_of_control,
@@ -206,7 +206,7 @@ fn controlled(
         rule_curve(product, &keys, base)?
     };
     let mode = keys.mode;
-    let key = YearKey::new(file, &product.key, keys, surface(file), base.to_owned());
+    let key = YearKey::new(file, &product.key, keys, 0, base.to_owned());
     let today = match &key {
         Some(key) => today(product, key, file)?,
         None => Vec::new(),

@@ -148,7 +148,6 @@ texts! {
     // A year of control.
     const YEAR_NEEDS_DATE = "No year of control: the sun is given by angles. Choose “By date and time” in the scene." | "Kein Jahr der Regelung: Die Sonne ist durch Winkel gegeben. In der Szene „Nach Datum und Zeit“ wählen.";
     fn no_year(problem) = "No year of control: {problem}" | "Kein Jahr der Regelung: {problem}";
-    const BOXES_UNSEEN = "The control goes by where the sun is: it does not see the boxes outside." | "Die Regelung geht nach dem Sonnenstand: Die Quader draußen sieht sie nicht.";
 
     // What stands outside.
     fn boxes_below_ground(count, height) = "{count} of the boxes outside: not above the ground at {height} m (site.ground_height), so not there" | "{count} der Körper draußen: nicht über dem Boden auf {height} m (site.ground_height), also nicht da";

@@ -2,19 +2,26 @@
 //!
 //! Judged by rays of this file's own: from points of the sun's disc, before the section of the slats, piece by piece.
 
+use cfs::compute::angle::Bearing;
 use cfs::compute::control::cut_off::SlatRow;
-use cfs::compute::direction::Surface;
+use cfs::compute::direction::{Dir, Orientation, Surface};
 use cfs::compute::estimate::Silent;
-use cfs::compute::sky::SUN_HALF_ANGLE;
+use cfs::compute::lid::Facing;
+use cfs::compute::room::aperture::Aperture;
+use cfs::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
+use cfs::compute::surroundings::Surroundings;
+use cfs::compute::surroundings::solid::Solid;
 use cfs::compute::system::slats::SlatProfile;
-use cfs::study::control::Device;
 use cfs::study::control::keys::{ControlKeys, ControlMode};
 use cfs::study::control::year::{ClearSky, Moment, Moving, Situation, Weather, day, year};
+use cfs::study::control::{ControlQuestion, Device, inputs, pick_state, sun_at};
 use cfs::study::scene_file::SceneFile;
 use cfs::study::sky::illuminances;
 use cfs::study::sun_position::Place;
+use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Slats of one tilt, and rays across them.
 struct Blind {
@@ -102,6 +109,10 @@ fn device(angles: impl IntoIterator<Item = i32>) -> Device {
 /// A usual one at sea level.
 const SKY: ClearSky = ClearSky::Air { turbidity: 3.0, elevation: 0.0 };
 
+fn opening() -> Aperture {
+    Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [3.0, 1.8] }
+}
+
 fn situation(latitude: f64, facade: f64) -> Situation {
     Situation {
         place: Place::new(latitude, 9.2, 1.0).unwrap(),
@@ -112,14 +123,14 @@ fn situation(latitude: f64, facade: f64) -> Situation {
         ground_reflectance: 0.2,
         skyline: 0.0,
         skyline_by_bearing: None,
-        unseen_boxes: 0,
+        boxes: Vec::new(),
         sky: SKY,
     }
 }
 
 fn moving(section: &SlatRow, device: &Device, keys: ControlKeys) -> Vec<Moving> {
     let device = Device { section: Some(section.clone()), ..device.clone() };
-    vec![Moving { aperture: 1, surface: Surface::Facade, device, keys, section: Some(section.clone()) }]
+    vec![Moving { aperture: 1, opening: opening(), device, keys, section: Some(section.clone()) }]
 }
 
 /// What a year of cut-off came to.
@@ -302,11 +313,6 @@ fn a_year_s_clear_sky_is_as_bright_as_the_scene_s() {
 
 #[test]
 fn upright_slats_follow_the_angle_in_the_horizontal_plane() {
-    use cfs::compute::angle::Bearing;
-    use cfs::compute::direction::{Dir, Orientation};
-    use cfs::compute::lid::Facing;
-    use cfs::compute::sky::{Distribution, Outside, Sun};
-    use cfs::study::control::{ControlQuestion, pick_state, sun_at};
     let (width, spacing) = (0.127_f64, 0.11_f64);
     let section = SlatRow::new(SlatProfile::Flat { width }, spacing).unwrap();
     let device = Device { section: Some(section), upright: true, ..device((-75..=75).step_by(5)) };
@@ -326,7 +332,14 @@ fn upright_slats_follow_the_angle_in_the_horizontal_plane() {
             // However high it stands.
             let at = sun_at(&facing, true).unwrap();
             assert!((at.centre.abs() - aside.abs()).abs() < 1e-9, "{altitude} {aside}: {at:?}");
-            let asked = ControlQuestion { keys: &keys, base: Path::new(""), hour: None, of_year: None, facing };
+            let asked = ControlQuestion {
+                keys: &keys,
+                base: Path::new(""),
+                hour: None,
+                of_year: None,
+                facing,
+                aperture: opening(),
+            };
             let state: f64 = pick_state(&device, &asked).unwrap().parse().unwrap();
             let dark =
                 |tilt: f64| at.span.iter().all(|psi| width * (tilt + psi).sin().abs() >= spacing * psi.cos() - 1e-9);
@@ -338,4 +351,46 @@ fn upright_slats_follow_the_angle_in_the_horizontal_plane() {
             }
         }
     }
+}
+
+#[test]
+fn sun_that_boxes_keep_out_moves_nothing() {
+    // 1.2 m deep, its underside flush with the opening's head: the shadow reaches 1.2 tan(profile angle) down.
+    let overhang = Solid::new(DVec3::new(-90.0, -1.2, 2.7), DVec3::new(90.0, 0.0, 2.8), 0.0);
+    let outside = Outside::new(Distribution::uniform(), 0.0).unwrap();
+    let outside = outside.behind(Arc::new(Surroundings::dark(vec![overhang], None)));
+    let device = device((0..=75).step_by(5));
+    let keys = ControlKeys::of(ControlMode::Din5034);
+    for (tangent, share) in [(0.5, 1.0 - 0.6 / 1.8), (1.0, 1.0 - 1.2 / 1.8), (1.6, 0.0)] {
+        let direction = Dir::from_unit(DVec3::new(0.4, -1.0, tangent).normalize());
+        let sun = Sun { direction, direct_normal: 5e4 };
+        let facing = Facing {
+            outside: &outside,
+            sun: Some(&sun),
+            orientation: Orientation::new(Bearing::from_degrees(180.0)),
+            surface: Surface::Facade,
+        };
+        let seen = inputs(&facing, &opening(), 12.0, None, false, false);
+        assert!((seen.facade_direct - share * facing.sun_illuminance()).abs() < 1e-6, "{tangent}: {seen:?}");
+        let asked = ControlQuestion {
+            keys: &keys,
+            base: Path::new(""),
+            hour: None,
+            of_year: None,
+            facing,
+            aperture: opening(),
+        };
+        assert_eq!(pick_state(&device, &asked).unwrap() == "0", share == 0.0, "{tangent}");
+    }
+    // Through a year: behind a wall from the ground to the sky there is never any sun, behind the overhang less of it.
+    let section = SlatRow::new(SlatProfile::Flat { width: 0.08 }, 0.072).unwrap();
+    let hours = |boxes: Vec<Solid>| {
+        let situation = Situation { boxes, ..situation(48.7, 180.0) };
+        let moving = moving(&section, &device, keys.clone());
+        let moments = year(&situation, Path::new(""), &moving, 60, &SKY, &Silent).unwrap();
+        moments.iter().filter(|moment| moment.settings[0].profile_angle.is_some()).count()
+    };
+    let wall = Solid::new(DVec3::new(-900.0, -2.0, 0.0), DVec3::new(900.0, -1.0, 900.0), 0.0);
+    let [free, under, behind] = [Vec::new(), vec![overhang], vec![wall]].map(hours);
+    assert!(behind == 0 && under > 0 && under < free, "{free} {under} {behind}");
 }

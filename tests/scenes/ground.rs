@@ -2,8 +2,8 @@
 
 use crate::outside::{CLEAR, DIFFUSE, OVERCAST, a_box, resolve, seen, setting, text, totals};
 use cfs::compute::direction::Dir;
-use cfs::compute::sky::faces::{Finish, Setting};
 use cfs::compute::sky::{Distribution, Outside, Sun};
+use cfs::compute::sky::{Finish, Setting};
 use cfs::compute::surroundings::solid::Solid;
 use glam::DVec3;
 use std::f64::consts::PI;

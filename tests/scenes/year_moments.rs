@@ -50,7 +50,8 @@ fn hours_are_moments(name: &str, text: &str, library: &dyn SystemLibrary, [slack
     let file = SceneFile::parse(text).unwrap();
     let session = Session::new();
     let year = year(&file, base, library, &session, &|_| true, &Silent).unwrap();
-    assert_eq!((year.light.way, year.light.dark), (Way::Coefficients, 0), "{name}");
+    let way = if file.outside.is_empty() { Way::Coefficients } else { Way::Rooms };
+    assert_eq!((year.light.way, year.light.dark), (way, 0), "{name}");
     // By itself: nothing of what the year has prepared stands in for the moment.
     let moments = Session::new();
     let places = year.light.places;
@@ -167,4 +168,17 @@ fn a_skyline_of_bearings_is_that_of_the_moment() {
     assert!(sum(&open, 0) > 0.0 && sum(&pane, 0) == 0.0, "{} {}", sum(&open, 0), sum(&pane, 0));
     assert!((sum(&pane, 1) / sum(&open, 1) - 1.0).abs() < 1e-6, "{} {}", sum(&pane, 1), sum(&open, 1));
     hours_are_moments("cells behind a skyline", &text(MADE, skyline, ""), &made, [0.0, 2e-2]);
+}
+
+/// An overhang, a fin, a neighbour and the building itself.
+const BOXES: &str = "[[outside]]\nbox = { from = [-0.5, -1.2, 2.75], to = [4.5, 0.0, 2.9] }\nreflectance = 0.5\n\
+    [[outside]]\nbox = { from = [3.55, -0.9, 0.5], to = [3.7, 0.0, 2.7] }\nreflectance = 0.6\n\
+    [[outside]]\nbox = { from = [-10.0, -25.0, 0.0], to = [14.0, -15.0, 8.0] }\nreflectance = 0.3\n\
+    [building]\nfrom = [-6.0, 0.0, 0.0]\nto = [10.0, 12.0, 9.0]\nreflectance = 0.3\n";
+
+#[test]
+fn light_behind_boxes_is_that_of_the_moment() {
+    let made = Made(Some(klems(rough)));
+    hours_are_moments("pane behind boxes", &text(TRANSPARENT, "", BOXES), &made, [0.0, 5e-3]);
+    hours_are_moments("cells behind boxes", &text(MADE, "", BOXES), &made, [0.0, 5e-3]);
 }

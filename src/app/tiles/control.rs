@@ -221,9 +221,8 @@ impl Drawn for Drawing {
         let upright = *self.upright.get(system.to_owned(), || is_upright(system));
         let still = still(title::selected(state));
         let remark = match (&key, moving) {
-            (_, false) => String::new(),
             (None, true) => rules::YearKey::missing(scene).unwrap_or_default(),
-            (Some(_), true) => rules::remark(scene, mode).map_or_else(String::new, String::from),
+            _ => String::new(),
         };
         let input = control::Input {
             states: &states,

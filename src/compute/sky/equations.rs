@@ -1,7 +1,8 @@
-//! Light that faces and ground send each other, any number of times: on few panels, as the solution of linear equations.
+//! Light that faces and ground send each other, any number of times: on panels, as the solution of linear equations.
 
 use super::open_ground::OpenGround;
-use super::vista::{Scenery, Surface, Vista};
+use super::scenery::{Scenery, Surface};
+use super::vista::Vista;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::surroundings::face_light::FaceLight;
 use rayon::prelude::*;
@@ -17,89 +18,162 @@ const COARSE_GROUND: f64 = 2.0;
 /// The equations are solved to this, relative.
 const SOLVED: f64 = 1e-6;
 
+/// Projected solid angles of panel nodes as seen from a point: node and weight. \[sr\]
+pub(super) type Counts = Vec<(u32, f64)>;
+
+/// Panels of all surfaces, with their nodes numbered throughout.
+pub(super) struct Panels {
+    /// Panels of every surface.
+    pub lights: Vec<FaceLight>,
+    /// Number of the first node of every surface.
+    first: Vec<usize>,
+    /// Surface of every node, and its coordinates on that surface. \[m\]
+    pub places: Vec<(usize, [f64; 2])>,
+}
+
+impl Panels {
+    /// Numbers the nodes of the panels of every surface.
+    pub fn new(lights: Vec<FaceLight>) -> Self {
+        let (mut first, mut places) = (Vec::with_capacity(lights.len()), Vec::new());
+        for (index, light) in lights.iter().enumerate() {
+            first.push(places.len());
+            places.extend(light.places().into_iter().map(|place| (index, place)));
+        }
+        Self { lights, first, places }
+    }
+
+    /// Makes a few dark panels for every reflecting surface.
+    pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround) -> Self {
+        let many = scenery.surfaces.iter().filter(|surface| surface.reflects()).count() > MANY;
+        let of = |(index, surface): (usize, &Surface)| match surface.stated {
+            Some(luminance) => FaceLight::even(luminance),
+            None if !surface.reflects() => FaceLight::even(0.0),
+            None => ground.panels(scenery, index, if many { 1 } else { MOST_COARSE }, COARSE_GROUND, many),
+        };
+        Self::new(scenery.surfaces.iter().enumerate().map(of).collect())
+    }
+
+    /// Calls `add` with the nodes around a point of a surface and their interpolation weights.
+    pub fn weigh(&self, surface: usize, at: [f64; 2], mut add: impl FnMut(usize, f64)) {
+        self.lights[surface].weigh(at, |node, share| add(self.first[surface] + node, share));
+    }
+
+    /// Evaluates `of` at every node, in parallel; `None` where a body covers the node.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub fn each<T: Send>(
+        &self,
+        scenery: &Scenery<'_>,
+        progress: &dyn Progress,
+        of: impl Fn(Vista<'_>) -> T + Sync,
+    ) -> Result<Vec<Option<T>>, Cancelled> {
+        let done = AtomicUsize::new(0);
+        let one = |&(index, [u, v]): &(usize, [f64; 2])| {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            let point = scenery.surfaces[index].face.point(u, v);
+            let found = (!scenery.is_covered(index, point)).then(|| of(Vista::new(scenery, index, point)));
+            progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, self.places.len());
+            Ok(found)
+        };
+        self.places.par_iter().map(one).collect()
+    }
+
+    /// Returns the panels with these luminances of all nodes; where one is `NaN`, because a body covers the node, that of the
+    /// nearest free node of its panel. \[cd/m²\]
+    pub fn with(&self, values: &[f64]) -> Vec<FaceLight> {
+        let mut lights = self.lights.clone();
+        for (light, from) in lights.iter_mut().zip(&self.first) {
+            let count = light.values().len();
+            light.set(&values[*from..from + count]);
+        }
+        lights
+    }
+}
+
+/// System of linear equations of the light that the nodes of panels send each other.
+pub(super) struct Exchange {
+    panels: Panels,
+    /// Node whose luminance each node takes: its own, or the nearest free one.
+    source: Vec<usize>,
+    /// Other nodes as seen from each node; `None` where a body covers it.
+    seen: Vec<Option<Counts>>,
+}
+
+impl Exchange {
+    /// Sets the equations up. `seen`: other nodes as seen from every node, `None` where a body covers it.
+    pub fn new(panels: Panels, mut seen: Vec<Option<Counts>>) -> Self {
+        let name = |(node, seen): (usize, &Option<Counts>)| if seen.is_some() { (node + 1) as f64 } else { f64::NAN };
+        let names: Vec<f64> = seen.iter().enumerate().map(name).collect();
+        let named = panels.with(&names);
+        let names = named.iter().flat_map(FaceLight::values);
+        // The nodes of a panel that is wholly covered stay dark.
+        let own = |(node, name): (usize, &f64)| if *name > 0.0 { *name as usize - 1 } else { node };
+        let source: Vec<usize> = names.enumerate().map(own).collect();
+        for (other, _) in seen.iter_mut().flatten().flatten() {
+            *other = source[*other as usize] as u32;
+        }
+        Self { panels, source, seen }
+    }
+
+    /// Returns the panels.
+    pub fn panels(&self) -> &Panels {
+        &self.panels
+    }
+
+    /// Solves x = ρ/π (e + K x) for the luminance of every node by the method of Gauss and Seidel, which converges since no
+    /// surface reflects more than it receives. `falling`: illuminance e of every node by sky, sun and stated luminances. \[lx\]
+    pub fn solved(&self, scenery: &Scenery<'_>, falling: &[f64]) -> Vec<f64> {
+        let albedo: Vec<f64> = scenery.surfaces.iter().map(|surface| surface.reflectance / PI).collect();
+        let albedo = |node: usize| albedo[self.panels.places[node].0];
+        let own = |node: usize| if self.seen[node].is_some() { albedo(node) * falling[node] } else { 0.0 };
+        let mut light: Vec<f64> = (0..falling.len()).map(own).collect();
+        for _ in 0..1000 {
+            let (mut changed, mut largest) = (0.0_f64, 0.0_f64);
+            for (node, seen) in self.seen.iter().enumerate() {
+                let Some(seen) = seen else { continue };
+                let others: f64 = seen.iter().map(|(other, counts)| counts * light[*other as usize]).sum();
+                let value = albedo(node) * (falling[node] + others);
+                changed = changed.max((value - light[node]).abs());
+                largest = largest.max(value.abs());
+                light[node] = value;
+            }
+            if changed <= SOLVED * largest {
+                break;
+            }
+        }
+        self.source.iter().map(|node| light[*node]).collect()
+    }
+}
+
 /// The smooth light of all surfaces on few panels.
 pub(super) fn coarse(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
     progress: &dyn Progress,
 ) -> Result<Vec<FaceLight>, Cancelled> {
-    let reflects = |surface: &Surface| surface.reflectance > 0.0 && surface.stated.is_none();
-    let many = scenery.surfaces.iter().filter(|surface| reflects(surface)).count() > MANY;
-    let of = |(index, surface): (usize, &Surface)| match surface.stated {
-        Some(luminance) => FaceLight::even(luminance),
-        None if !reflects(surface) => FaceLight::even(0.0),
-        None => ground.panels(scenery, index, if many { 1 } else { MOST_COARSE }, COARSE_GROUND, many),
-    };
-    let mut lights: Vec<FaceLight> = scenery.surfaces.iter().enumerate().map(of).collect();
-    // The values of all panels, one after the other.
-    let mut first = Vec::with_capacity(lights.len());
-    let mut nodes = Vec::new();
-    for (index, light) in lights.iter().enumerate() {
-        first.push(nodes.len());
-        nodes.extend(light.places().into_iter().map(|place| (index, place)));
-    }
-    let done = AtomicUsize::new(0);
-    let row = |&(index, [u, v]): &(usize, [f64; 2])| {
-        if progress.cancelled() {
-            return Err(Cancelled);
-        }
-        let surface = &scenery.surfaces[index];
-        let point = surface.face.point(u, v);
-        if scenery.is_covered(index, point) {
-            return Ok((f64::NAN, Vec::new()));
-        }
-        let mut counts = vec![0.0; nodes.len()];
+    let panels = Panels::coarse(scenery, ground);
+    let rows = panels.each(scenery, progress, |vista| {
+        let mut counts = vec![0.0; panels.places.len()];
         let mut beyond = 0.0;
-        let rest = Vista::new(scenery, index, point).gather(|other, at, weight| {
-            if other == scenery.ground() && !ground.holds(at) {
+        let rest = vista.gather(|surface, at, weight| {
+            if surface == scenery.ground() && !ground.holds(at) {
                 beyond += weight * ground.luminance;
             } else {
-                lights[other].weigh(at, |node, share| counts[first[other] + node] += weight * share);
+                panels.weigh(surface, at, |node, share| counts[node] += weight * share);
             }
         });
-        let albedo = surface.reflectance / PI;
-        let sparse = counts.into_iter().enumerate().filter(|(_, counts)| *counts != 0.0);
-        let sparse: Vec<(u32, f64)> = sparse.map(|(node, counts)| (node as u32, albedo * counts)).collect();
-        progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, nodes.len());
-        Ok((albedo * (rest + beyond), sparse))
-    };
-    let mut rows = nodes.par_iter().map(row).collect::<Result<Vec<_>, Cancelled>>()?;
-    // Of places that a body covers the nearest free one of their panel stands for them.
-    let mut of_node: Vec<usize> = Vec::with_capacity(nodes.len());
-    for (light, from) in lights.iter_mut().zip(&first) {
-        let count = light.places().len();
-        let name = |node: usize| if rows[node].0.is_nan() { f64::NAN } else { (node + 1) as f64 };
-        light.set(&(*from..from + count).map(name).collect::<Vec<f64>>());
-        // Of a panel that is all covered every place stays what it is: dark.
-        let own = |(k, name): (usize, &f64)| if *name > 0.0 { *name as usize - 1 } else { from + k };
-        of_node.extend(light.values().iter().enumerate().map(own));
-    }
-    for (_, others) in &mut rows {
-        others.iter_mut().for_each(|(node, _)| *node = of_node[*node as usize] as u32);
-    }
-    let light = solved(&rows);
-    for (light_of, from) in lights.iter_mut().zip(first) {
-        let own = from..from + light_of.values().len();
-        light_of.set(&own.map(|node| light[of_node[node]]).collect::<Vec<f64>>());
-    }
-    Ok(lights)
+        (rest + beyond, sparse(&counts))
+    })?;
+    let falling: Vec<f64> = rows.iter().map(|row| row.as_ref().map_or(0.0, |row| row.0)).collect();
+    let exchange = Exchange::new(panels, rows.into_iter().map(|row| Some(row?.1)).collect());
+    Ok(exchange.panels().with(&exchange.solved(scenery, &falling)))
 }
 
-/// Solves x = e + K x by Gauss and Seidel: no surface sends more than it gets, so that every step brings it nearer. Places
-/// that a body covers stay dark.
-fn solved(rows: &[(f64, Vec<(u32, f64)>)]) -> Vec<f64> {
-    let mut light: Vec<f64> = rows.iter().map(|(own, _)| if own.is_nan() { 0.0 } else { *own }).collect();
-    for _ in 0..1000 {
-        let (mut changed, mut largest) = (0.0_f64, 0.0_f64);
-        for (node, (own, others)) in rows.iter().enumerate().filter(|(_, (own, _))| !own.is_nan()) {
-            let value = own + others.iter().map(|(other, counts)| counts * light[*other as usize]).sum::<f64>();
-            changed = changed.max((value - light[node]).abs());
-            largest = largest.max(value.abs());
-            light[node] = value;
-        }
-        if changed <= SOLVED * largest {
-            break;
-        }
-    }
-    light
+/// Returns the weights that are not 0, with their places.
+pub(super) fn sparse(counts: &[f64]) -> Counts {
+    let counting = counts.iter().enumerate().filter(|(_, counts)| **counts != 0.0);
+    counting.map(|(node, counts)| (node as u32, *counts)).collect()
 }

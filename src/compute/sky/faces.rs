@@ -8,51 +8,17 @@
 use super::equations::coarse;
 use super::open_ground::OpenGround;
 use super::outside::Outside;
+use super::scenery::{Scenery, Setting, scenery, share_above};
 use super::sun::Sun;
-use super::vista::{Scenery, Surface, share_above};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::surroundings::shading::{shadow, shadow_edges};
+use crate::compute::surroundings::face_light::FaceLight;
+use crate::compute::surroundings::shading::shadow_edges;
 use crate::compute::surroundings::skyline::Skyline;
 use crate::compute::surroundings::solid::{Face, Solid};
 use crate::compute::surroundings::{Ground, Line, Surroundings};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// How a box shines.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Finish {
-    /// Diffuse reflectance, 0 … 1.
-    Reflectance(f64),
-    /// The same luminance on all faces, whatever falls on them. \[cd/m²\]
-    Luminance(f64),
-}
-
-/// What stands outside.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
-    /// Overhangs, fins, neighbours: what rises above the ground.
-    pub boxes: Vec<(Solid, Finish)>,
-    /// The room's own box.
-    pub room: Solid,
-    /// The building that holds it, and its reflectance.
-    pub building: Option<(Solid, f64)>,
-    /// Height of the ground. \[m\]
-    pub ground: f64,
-}
-
-impl Setting {
-    /// The whole turned about the vertical through the origin; cosine and sine of the angle.
-    pub fn turned(&self, turn: [f64; 2]) -> Self {
-        Self {
-            boxes: self.boxes.iter().map(|(solid, finish)| (solid.turned(turn), *finish)).collect(),
-            room: self.room.turned(turn),
-            building: self.building.as_ref().map(|(solid, reflectance)| (solid.turned(turn), *reflectance)),
-            ground: self.ground,
-        }
-    }
-}
 
 /// What the light between the nodes may be off, relative to its mean, before panels are halved.
 const BETWEEN: f64 = 1e-3;
@@ -84,21 +50,40 @@ pub fn surroundings(
     viewpoints: &[DVec3],
     progress: &dyn Progress,
 ) -> Result<Surroundings, Cancelled> {
-    let shining =
-        sun.map(|sun| (sun.direction.vector(), sun.direct_normal * share_above(outside, skyline.as_ref(), sun)));
-    let shining = shining.filter(|(_, normal)| *normal > 0.0);
+    let shining = shining(outside, skyline.as_ref(), sun);
     let scenery = scenery(outside, skyline.as_ref(), shining, setting, turn);
     let ground = OpenGround::of(&scenery, viewpoints);
-    let mut lights = coarse(&scenery, &ground, progress)?;
+    let wanted = wanted(&scenery, viewpoints);
+    let lights = lights(&scenery, &ground, &wanted, viewpoints, progress)?;
+    Ok(assembled(&scenery, &ground, lights, &wanted, shining.map(|(direction, _)| direction)))
+}
+
+/// Towards a sun that is not hidden, and its normal illuminance. \[lx\]
+pub(super) fn shining(outside: &Outside, skyline: Option<&Skyline>, sun: Option<&Sun>) -> Option<(DVec3, f64)> {
+    let of = |sun: &Sun| (sun.direction.vector(), sun.direct_normal * share_above(outside, skyline, sun));
+    sun.map(of).filter(|(_, normal)| *normal > 0.0)
+}
+
+/// The surfaces that reflect and are seen: faces of boxes, and the ground.
+pub(super) fn wanted(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> {
     let seen = |face: &Face| viewpoints.iter().any(|point| face.normal.dot(*point - face.origin) > 1e-9);
-    let boxes = 6 * setting.boxes.len();
-    let wanted: Vec<usize> = (0..scenery.surfaces.len())
-        .filter(|index| *index < boxes || *index == scenery.ground())
-        .filter(|index| {
-            let surface = &scenery.surfaces[*index];
-            surface.reflectance > 0.0 && surface.stated.is_none() && seen(&surface.face)
-        })
-        .collect();
+    let boxes = 6 * (scenery.bodies.len() - 1);
+    let wanted = |index: &usize| {
+        let surface = &scenery.surfaces[*index];
+        (*index < boxes || *index == scenery.ground()) && surface.reflects() && seen(&surface.face)
+    };
+    (0..scenery.surfaces.len()).filter(wanted).collect()
+}
+
+/// The smooth light of all surfaces, of those that are wanted as fine as their light is steep.
+pub(super) fn lights(
+    scenery: &Scenery<'_>,
+    ground: &OpenGround,
+    wanted: &[usize],
+    viewpoints: &[DVec3],
+    progress: &dyn Progress,
+) -> Result<Vec<FaceLight>, Cancelled> {
+    let mut lights = coarse(scenery, ground, progress)?;
     // Of the ground what is near counts most: a place by the solid angle that it is seen in.
     let weight = |index: usize| {
         let face = scenery.surfaces[index].face;
@@ -116,10 +101,10 @@ pub fn surroundings(
     for _ in 0..MOST_OFTEN {
         let done = AtomicUsize::new(0);
         let gathered = wanted.par_iter().map(|&index| {
-            let start = ground.panels(&scenery, index, most, FINE_GROUND, false);
+            let start = ground.panels(scenery, index, most, FINE_GROUND, false);
             let most = if index == scenery.ground() { start.panels().max(most) + MOST } else { most };
             let light = start.fitted(BETWEEN, most, &weight(index), |places| {
-                places.par_iter().map(|place| ground.light_at(&scenery, &lights, index, *place, progress)).collect()
+                places.par_iter().map(|place| ground.light_at(scenery, &lights, index, *place, progress)).collect()
             })?;
             progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, wanted.len());
             Ok((index, light))
@@ -138,10 +123,21 @@ pub fn surroundings(
             break;
         }
     }
+    Ok(lights)
+}
+
+/// Boxes and ground with smooth light that is known, and the sun's own.
+pub(super) fn assembled(
+    scenery: &Scenery<'_>,
+    ground: &OpenGround,
+    mut lights: Vec<FaceLight>,
+    wanted: &[usize],
+    sun: Option<DVec3>,
+) -> Surroundings {
     for (light, surface) in lights.iter_mut().zip(&scenery.surfaces) {
         light.sun = surface.sun;
     }
-    let lines = lines(&scenery, &wanted, shining.map(|(direction, _)| direction));
+    let lines = lines(scenery, wanted, sun);
     let of_ground = lights.pop().filter(|light| light.is_lit());
     let ground = of_ground.map(|light| Ground {
         face: scenery.surfaces[scenery.ground()].face,
@@ -149,63 +145,17 @@ pub fn surroundings(
         limits: ground.limits,
         open: ground.luminance,
     });
-    let faces = lights.chunks_exact(6).take(setting.boxes.len());
-    Ok(Surroundings {
-        faces: faces.map(|six| std::array::from_fn(|k| six[k].clone())).collect(),
-        solids: scenery.bodies[..setting.boxes.len()].to_vec(),
-        building: scenery.bodies[setting.boxes.len()],
-        shades_ground: setting.building.is_some(),
+    let boxes = scenery.bodies.len() - 1;
+    Surroundings {
+        faces: lights.chunks_exact(6).take(boxes).map(|six| std::array::from_fn(|k| six[k].clone())).collect(),
+        solids: scenery.bodies[..boxes].to_vec(),
+        building: scenery.bodies[boxes],
+        shades_ground: scenery.from_ground > boxes,
         ground,
-        sun: shining.map(|(direction, _)| direction),
+        sun,
         lines,
-        skyline,
-    })
-}
-
-/// Bodies and surfaces. `shining`: towards the sun, and its normal illuminance.
-fn scenery<'a>(
-    outside: &'a Outside,
-    skyline: Option<&'a Skyline>,
-    shining: Option<(DVec3, f64)>,
-    setting: &Setting,
-    turn: [f64; 2],
-) -> Scenery<'a> {
-    let height = setting.ground;
-    let above = |solid: &Solid| solid.above(height);
-    let mut bodies: Vec<Solid> = setting.boxes.iter().map(|(solid, _)| above(solid)).collect();
-    // What a room above the ground stands on hides from faces what is behind it, whatever it is.
-    bodies.push(setting.building.as_ref().map_or(setting.room.down_to(height), |(solid, _)| above(solid)));
-    let finishes = setting.boxes.iter().map(|(_, finish)| *finish);
-    let last = setting.building.as_ref().map_or(0.0, |(_, reflectance)| *reflectance);
-    let mut surfaces = Vec::with_capacity(6 * bodies.len() + 1);
-    for (solid, finish) in bodies.iter().zip(finishes.chain([Finish::Reflectance(last)])) {
-        for number in 0..6 {
-            // What stands on the ground shows nothing of its underside.
-            let hidden = number == 4 && solid.heights()[0] <= height + 1e-9;
-            let (reflectance, stated) = match finish {
-                Finish::Reflectance(rho) => (if hidden { 0.0 } else { rho }, None),
-                Finish::Luminance(luminance) => (0.0, Some(luminance)),
-            };
-            surfaces.push(Surface { face: solid.face(number), reflectance, stated, sun: 0.0, shadows: Vec::new() });
-        }
+        skyline: scenery.skyline.cloned(),
     }
-    surfaces.push(Surface::ground(height, outside.ground_reflectance(), turn));
-    let from_ground = setting.boxes.len() + usize::from(setting.building.is_some());
-    let mut scenery = Scenery { open: outside, skyline, bodies, from_ground, surfaces };
-    if let Some((sun, normal)) = shining {
-        for index in 0..scenery.surfaces.len() {
-            let Surface { face, reflectance, stated, .. } = &scenery.surfaces[index];
-            let towards = face.normal.dot(sun);
-            if stated.is_some() || *reflectance <= 0.0 || towards <= 1e-6 {
-                continue;
-            }
-            let light = reflectance * normal * towards / PI;
-            let cast = scenery.others(index).map(|(_, solid)| shadow(solid, face, sun));
-            let shadows = cast.filter(|outline| outline.len() >= 3).collect();
-            (scenery.surfaces[index].sun, scenery.surfaces[index].shadows) = (light, shadows);
-        }
-    }
-    scenery
 }
 
 /// Where the luminance of what is seen jumps beside the bodies' own edges: at shadows' edges, and where faces of boxes that

@@ -12,7 +12,9 @@
 //! | `integral`, `scan_region` | integrals over regions, smooth and measured skies |
 //! | `prospect`, `opening` | what stands before sky and ground: seen from a point, through an opening |
 //! | `on_dome` | regions swept by the bearing: skylines and measured skies behind what stands before them |
-//! | `faces`, `vista`, `open_ground`, `equations` | the light on what stands there and on the ground |
+//! | `scenery` | what stands there, and the ground: bodies and their surfaces |
+//! | `faces`, `vista`, `open_ground`, `equations` | the light on these |
+//! | `prepared`, `dome` | the same for many skies and suns |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |
@@ -23,6 +25,7 @@ pub mod availability;
 pub mod cie;
 pub mod clear_sky;
 mod distribution;
+mod dome;
 mod equations;
 pub mod faces;
 mod gradated;
@@ -36,11 +39,13 @@ mod opening;
 mod outside;
 pub mod patches;
 pub mod perez;
+mod prepared;
 mod prospect;
 mod region;
 mod samples;
 mod scan;
 mod scan_region;
+mod scenery;
 mod sun;
 pub mod sun_disc;
 mod vista;
@@ -50,8 +55,10 @@ pub use incident::{incident_illuminances, incident_illuminances_within};
 pub use integral::{irradiance, mean_luminance};
 pub use opening::irradiance_through;
 pub use outside::{Outside, SkyError};
+pub use prepared::Prepared;
 pub use region::Frame;
 pub use samples::SkySamples;
 pub use scan::Scan;
+pub use scenery::{Finish, Setting};
 pub use sun::{SUN_HALF_ANGLE, Sun};
 pub use vista::with_ground_behind_skyline;

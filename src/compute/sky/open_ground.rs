@@ -1,6 +1,7 @@
 //! Where light on faces and on the ground is asked for: panels of faces, and the ground as far as it differs from open ground.
 
-use super::vista::{Scenery, Vista};
+use super::scenery::Scenery;
+use super::vista::Vista;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::surroundings::face_light::{FaceLight, Limits};
 use crate::compute::surroundings::solid::{Face, Solid};

@@ -7,9 +7,9 @@
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
 use super::scan_region::sector_bearings;
-use super::sun::{SUN_HALF_ANGLE, Sun};
-use crate::compute::surroundings::skyline::Skyline;
-use crate::compute::surroundings::solid::{Face, Solid};
+use super::scenery::{Scenery, Surface, share_above};
+use super::sun::Sun;
+use crate::compute::surroundings::solid::Solid;
 use crate::compute::sweep::rule;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -22,52 +22,13 @@ const SMALL: f64 = 0.06;
 const WITH_KNOTS: usize = 12;
 /// A piece of the sweep is no longer ...
 const PIECE: f64 = 0.35;
-/// ... and has so many Gauss points; of shorter ones as many as their length needs. \[rad\]
-const POINTS: usize = 3;
-const SHORT: f64 = 0.02;
+/// ... and has one Gauss point more for each of these lengths that it exceeds. \[rad\]
+const POINTS: [f64; 2] = [0.02, 0.12];
 /// Length for a further Gauss point along a bearing: on surfaces, and in the sky. \[rad\]
 const ON_SURFACE: f64 = 0.3;
 const IN_SKY: f64 = 0.2;
 /// The ground ends so far away. \[m\]
 const FARTHEST: f64 = 1e7;
-
-/// A surface that sends light back.
-#[derive(Debug, Clone)]
-pub(super) struct Surface {
-    /// Where it is.
-    pub face: Face,
-    /// Diffuse reflectance.
-    pub reflectance: f64,
-    /// Luminance of all of it, whatever falls on it. \[cd/m²\]
-    pub stated: Option<f64>,
-    /// Luminance that the whole disc of the sun adds where nothing hides it. \[cd/m²\]
-    pub sun: f64,
-    /// Shadows on it: convex, counter-clockwise, in its own coordinates.
-    pub shadows: Vec<Vec<DVec2>>,
-}
-
-/// Bodies on the ground, with their surfaces.
-pub(super) struct Scenery<'a> {
-    /// Sky and flat skyline.
-    pub open: &'a Outside,
-    /// A skyline by bearing.
-    pub skyline: Option<&'a Skyline>,
-    /// The boxes; last the building, or the room's own box.
-    pub bodies: Vec<Solid>,
-    /// How many of them the ground sees.
-    pub from_ground: usize,
-    /// Six of each body, as [`Solid::face`] counts them; last the ground.
-    pub surfaces: Vec<Surface>,
-}
-
-impl Surface {
-    /// Ground at a height \[m\]; cosine and sine of the turn of its first axis.
-    pub fn ground(height: f64, reflectance: f64, [cos, sin]: [f64; 2]) -> Self {
-        let (u, v) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
-        let face = Face { origin: height * DVec3::Z, normal: DVec3::Z, u, v, limits: [[-1e6, 1e6]; 2] };
-        Self { face, reflectance, stated: None, sun: 0.0, shadows: Vec::new() }
-    }
-}
 
 /// An outside with its open ground lit by what the skyline leaves of sky and sun, and by the skyline itself; without a
 /// skyline as it is.
@@ -81,39 +42,6 @@ pub fn with_ground_behind_skyline(outside: Outside, sun: Option<&Sun>) -> Outsid
     let diffuse = Vista::new(&scenery, 0, DVec3::ZERO).gather(|_, _, _| {});
     let direct = sun.map_or(0.0, |sun| share_above(&outside, skyline, sun) * sun.horizontal());
     outside.on_ground(diffuse + direct)
-}
-
-/// Share of the sun's disc above horizon and skyline.
-pub(super) fn share_above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
-    match skyline {
-        Some(skyline) => skyline.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
-        None => sun.share_above(outside.skyline_altitude()),
-    }
-}
-
-impl Scenery<'_> {
-    /// The ground's place among the surfaces.
-    pub fn ground(&self) -> usize {
-        self.surfaces.len() - 1
-    }
-
-    /// Height of the ground. \[m\]
-    pub fn ground_height(&self) -> f64 {
-        self.surfaces[self.ground()].face.origin.z
-    }
-
-    /// Bodies that stand before a surface, by their index.
-    pub fn others(&self, surface: usize) -> impl Iterator<Item = (usize, &Solid)> {
-        let (own, count) =
-            if surface == self.ground() { (usize::MAX, self.from_ground) } else { (surface / 6, self.bodies.len()) };
-        self.bodies[..count].iter().enumerate().filter(move |(index, _)| *index != own)
-    }
-
-    /// Does a point of a surface lie in another body?
-    pub fn is_covered(&self, surface: usize, point: DVec3) -> bool {
-        let before = point + 1e-6 * self.surfaces[surface].face.normal;
-        self.others(surface).any(|(_, solid)| solid.holds(before))
-    }
 }
 
 /// A body before a point.
@@ -151,6 +79,78 @@ impl Place {
             // Towards the horizon endlessly far.
             Self::Level(above) => (above / tangent).abs().min(FARTHEST),
         }
+    }
+}
+
+/// A sum over everything that is seen from a point. Each piece comes with its projected solid angle at the point. \[sr\]
+pub(super) trait Collector {
+    /// Adds open sky around a direction.
+    fn sky(&mut self, towards: DVec3, counts: f64);
+    /// Adds a part of the skyline, flat or by bearing.
+    fn skyline(&mut self, counts: f64);
+    /// Adds a part of a surface of stated luminance. \[cd/m²\]
+    fn stated(&mut self, luminance: f64, counts: f64);
+    /// Adds a part of a reflecting surface around a point in its own coordinates, in sun or shade.
+    fn place(&mut self, surface: usize, at: [f64; 2], counts: f64);
+    /// Adds the sunlit part of a reflecting surface.
+    fn sunlit(&mut self, surface: usize, counts: f64);
+    /// Whether anything but sunlit parts is collected.
+    fn takes_all(&self) -> bool {
+        true
+    }
+}
+
+/// Illuminance at the point by sunlit surfaces alone.
+struct SunlitOnly<'a> {
+    scenery: &'a Scenery<'a>,
+    /// \[lx\]
+    sum: f64,
+}
+
+impl Collector for SunlitOnly<'_> {
+    fn sky(&mut self, _: DVec3, _: f64) {}
+    fn skyline(&mut self, _: f64) {}
+    fn stated(&mut self, _: f64, _: f64) {}
+    fn place(&mut self, _: usize, _: [f64; 2], _: f64) {}
+
+    fn sunlit(&mut self, surface: usize, counts: f64) {
+        self.sum += counts * self.scenery.surfaces[surface].sun;
+    }
+
+    fn takes_all(&self) -> bool {
+        false
+    }
+}
+
+/// Illuminance at the point by sky, skyline, stated luminances and sunlit surfaces; the other light of surfaces is left to
+/// `place`.
+struct Falling<'a, F> {
+    scenery: &'a Scenery<'a>,
+    /// \[lx\]
+    sum: f64,
+    place: F,
+}
+
+impl<F: FnMut(usize, [f64; 2], f64)> Collector for Falling<'_, F> {
+    fn sky(&mut self, towards: DVec3, counts: f64) {
+        self.sum += counts * self.scenery.open.sky_luminance(towards);
+    }
+
+    fn skyline(&mut self, counts: f64) {
+        let flat = self.scenery.open.skyline_luminance();
+        self.sum += counts * self.scenery.skyline.map_or(flat, |skyline| skyline.luminance);
+    }
+
+    fn stated(&mut self, luminance: f64, counts: f64) {
+        self.sum += counts * luminance;
+    }
+
+    fn place(&mut self, surface: usize, at: [f64; 2], counts: f64) {
+        (self.place)(surface, at, counts);
+    }
+
+    fn sunlit(&mut self, surface: usize, counts: f64) {
+        self.sum += counts * self.scenery.surfaces[surface].sun;
     }
 }
 
@@ -207,7 +207,21 @@ impl<'a> Vista<'a> {
     /// Light that falls on the point from what sends it whatever the surfaces' smooth light is: sky, skyline, stated
     /// luminances, surfaces in the sun. \[lx\] Of places whose smooth light is asked for `place` gets the surface, the
     /// coordinates on it and what its luminance counts for. \[sr\]
-    pub fn gather(&self, mut place: impl FnMut(usize, [f64; 2], f64)) -> f64 {
+    pub fn gather(&self, place: impl FnMut(usize, [f64; 2], f64)) -> f64 {
+        let mut falling = Falling { scenery: self.scenery, sum: 0.0, place };
+        self.collect(&mut falling);
+        falling.sum
+    }
+
+    /// Returns the illuminance at the point by surfaces that the sun lights, but for their other light. \[lx\]
+    pub fn sunlit(&self) -> f64 {
+        let mut sunlit = SunlitOnly { scenery: self.scenery, sum: 0.0 };
+        self.collect(&mut sunlit);
+        sunlit.sum
+    }
+
+    /// Collects everything that is seen.
+    pub fn collect(&self, collector: &mut impl Collector) {
         // Faces are vertical or horizontal: a wall sees half of all bearings.
         let vertical = self.normal.z.abs() < 1e-9;
         let (middle, half) = if vertical { (bearing(self.normal.truncate()), FRAC_PI_2) } else { (0.0, PI) };
@@ -222,19 +236,17 @@ impl<'a> Vista<'a> {
         knots.sort_unstable_by(f64::total_cmp);
         knots.dedup_by(|a, b| *a - *b < 1e-7);
         let mut line = Line::default();
-        let mut sum = 0.0;
         for pair in knots.windows(2) {
             let count = ((pair[1] - pair[0]) / PIECE).ceil();
             let step = (pair[1] - pair[0]) / count;
-            let points = if step < SHORT { 1 } else { POINTS };
+            let points = 1 + POINTS.iter().filter(|length| step >= **length).count();
             for k in 0..count as usize {
                 for &(x, share) in rule(points) {
                     let at = middle + pair[0] + (k as f64 + x) * step;
-                    sum += share * step * self.along(at, share * step, &mut line, &mut place);
+                    self.along(at, share * step, &mut line, collector);
                 }
             }
         }
-        sum
     }
 
     fn peak(&self) -> Option<DVec3> {
@@ -253,11 +265,11 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// Along one bearing: the light, per angle of bearing; `width` is what places count for besides.
-    fn along(&self, at: f64, width: f64, line: &mut Line, place: &mut impl FnMut(usize, [f64; 2], f64)) -> f64 {
+    /// Along one bearing, which stands for a range of it as wide as this.
+    fn along(&self, at: f64, width: f64, line: &mut Line, collector: &mut impl Collector) {
         let (sin, cos) = at.sin_cos();
         let along = DVec2::new(sin, cos);
-        let Some([low, high]) = self.free(along) else { return 0.0 };
+        let Some([low, high]) = self.free(along) else { return };
         line.stretches.clear();
         for body in &self.bodies {
             if turned(at - body.bearing).abs() <= body.reach {
@@ -276,7 +288,6 @@ impl<'a> Vista<'a> {
         let ends = line.stretches.iter().flat_map(|stretch| [stretch.low, stretch.high]);
         line.breaks.extend(ends.chain([low, high, 0.0, top]).filter(|end| *end >= low && *end <= high));
         line.breaks.sort_unstable_by(f64::total_cmp);
-        let mut sum = 0.0;
         for pair in 1..line.breaks.len() {
             let (from, to) = (line.breaks[pair - 1], line.breaks[pair]);
             if to - from < 1e-12 {
@@ -286,17 +297,17 @@ impl<'a> Vista<'a> {
             let over = |stretch: &&Stretch| stretch.low < to - 1e-13 && stretch.high > from + 1e-13;
             let near = |stretch: &Stretch| stretch.place.distance(middle);
             let seen = line.stretches.iter().filter(over).min_by(|a, b| near(a).total_cmp(&near(b)));
-            sum += match seen {
+            match seen {
                 Some(seen) => {
                     let seen = *seen;
-                    self.on_surface(&seen, along, [from, to], width, &mut line.shaded, place)
+                    self.on_surface(&seen, along, [from, to], width, &mut line.shaded, collector);
                 }
-                None if to <= 0.0 => 0.0,
-                None if to <= top + 1e-13 => self.skyline_luminance() * self.between(along, from, to),
-                None => self.sky(along, from, to),
-            };
+                None if to <= 0.0 => {}
+                None if to <= top + 1e-13 => collector.skyline(width * self.between(along, from, to)),
+                None if collector.takes_all() => self.sky(along, [from, to], width, collector),
+                None => {}
+            }
         }
-        sum
     }
 
     /// What a body shows along a bearing.
@@ -322,10 +333,6 @@ impl<'a> Vista<'a> {
         }
     }
 
-    fn skyline_luminance(&self) -> f64 {
-        self.scenery.skyline.map_or(self.scenery.open.skyline_luminance(), |skyline| skyline.luminance)
-    }
-
     /// ∫ cos α (n·d) dα between two altitudes.
     fn between(&self, along: DVec2, from: f64, to: f64) -> f64 {
         let level = self.normal.truncate().dot(along);
@@ -336,7 +343,7 @@ impl<'a> Vista<'a> {
         (of(to) - of(from)).max(0.0)
     }
 
-    /// Light of a stretch of one surface, but for its smooth light at places.
+    /// A stretch of one surface.
     fn on_surface(
         &self,
         seen: &Stretch,
@@ -344,14 +351,14 @@ impl<'a> Vista<'a> {
         [from, to]: [f64; 2],
         width: f64,
         shaded: &mut Vec<[f64; 2]>,
-        place: &mut impl FnMut(usize, [f64; 2], f64),
-    ) -> f64 {
+        collector: &mut impl Collector,
+    ) {
         let surface = &self.scenery.surfaces[seen.surface];
         if let Some(luminance) = surface.stated {
-            return luminance * self.between(along, from, to);
+            collector.stated(luminance, width * self.between(along, from, to));
         }
         if surface.reflectance <= 0.0 {
-            return 0.0;
+            return;
         }
         let at = |altitude: f64| {
             let tangent = altitude.tan();
@@ -363,16 +370,17 @@ impl<'a> Vista<'a> {
             surface.face.coordinates(self.eye + (distance * along).extend(above))
         };
         let level = self.normal.truncate().dot(along);
-        for &(x, share) in rule(2 + ((to - from) / ON_SURFACE) as usize) {
+        let points = if collector.takes_all() { rule(2 + ((to - from) / ON_SURFACE) as usize) } else { &[] };
+        for &(x, share) in points {
             let altitude = from + (to - from) * x;
             let (sin, cos) = altitude.sin_cos();
             let counts = share * (to - from) * cos * (level * cos + self.normal.z * sin);
             if counts > 0.0 {
-                place(seen.surface, at(altitude), width * counts);
+                collector.place(seen.surface, at(altitude), width * counts);
             }
         }
         if surface.sun <= 0.0 {
-            return 0.0;
+            return;
         }
         // Along the line on the surface: height of a front, level distance of a level one.
         let (origin, way, ends) = match seen.place {
@@ -407,32 +415,31 @@ impl<'a> Vista<'a> {
             done = done.max(light);
         }
         add(done, ends[1]);
-        surface.sun * lit
+        collector.sunlit(seen.surface, width * lit);
     }
 
-    /// Light of the open sky between two altitudes.
-    fn sky(&self, along: DVec2, from: f64, high: f64) -> f64 {
+    /// Open sky between two altitudes.
+    fn sky(&self, along: DVec2, [from, high]: [f64; 2], width: f64, collector: &mut impl Collector) {
         let steps = self.scenery.open.is_piecewise_constant();
         let peak = self.peak().map(|peak| peak.z.clamp(-1.0, 1.0).asin());
         let level = self.normal.truncate().dot(along);
-        let at = |sin: f64, cos: f64| self.scenery.open.sky_luminance((along * cos).extend(sin));
-        let (mut low, mut sum) = (from, 0.0);
+        let mut low = from;
         while low < high {
             // To the next row of a measured sky, or the altitude of the sun.
             let row = if steps { ((low / ROW_HEIGHT + 1e-9).floor() + 1.0) * ROW_HEIGHT } else { high };
             let next = peak.filter(|peak| *peak > low + 1e-9).map_or(row, |peak| row.min(peak)).min(high);
             if steps {
                 let (sin, cos) = (0.5 * (low + next)).sin_cos();
-                sum += at(sin, cos) * self.between(along, low, next);
+                collector.sky((along * cos).extend(sin), width * self.between(along, low, next));
             } else {
                 for &(x, share) in rule(3 + ((next - low) / IN_SKY) as usize) {
                     let (sin, cos) = (low + (next - low) * x).sin_cos();
-                    sum += share * (next - low) * cos * (level * cos + self.normal.z * sin).max(0.0) * at(sin, cos);
+                    let counts = share * (next - low) * cos * (level * cos + self.normal.z * sin).max(0.0);
+                    collector.sky((along * cos).extend(sin), width * counts);
                 }
             }
             low = next;
         }
-        sum
     }
 }
 

@@ -45,9 +45,8 @@ struct Open {
 /// Chebyshev's nodes on −1 … 1: √3/2, 0 and −√3/2.
 const NODE: f64 = 0.866_025_403_784_438_6;
 
-/// Weights of the three nodes' values at a place of −1 … 1.
-fn lagrange(x: f64) -> [f64; NODES] {
-    let t = x / NODE;
+/// Returns the weights of the three nodes' values at a place of −1/[`NODE`] … 1/[`NODE`].
+fn lagrange(t: f64) -> [f64; NODES] {
     [0.5 * t * (t + 1.0), 1.0 - t * t, 0.5 * t * (t - 1.0)]
 }
 
@@ -60,12 +59,17 @@ fn area(limits: &Limits) -> f64 {
     limits.iter().map(|[low, high]| high - low).product()
 }
 
-/// Weights of a panel's nodes at a point.
-fn weights(limits: &Limits, point: [f64; 2]) -> [f64; NODES * NODES] {
-    let [along, across] = std::array::from_fn(|axis| {
+/// Returns the weights of a panel's nodes at a point, along both axes.
+fn both(limits: &Limits, point: [f64; 2]) -> [[f64; NODES]; 2] {
+    std::array::from_fn(|axis| {
         let [low, high] = limits[axis];
-        lagrange(((2.0 * point[axis] - low - high) / (high - low)).clamp(-1.0, 1.0))
-    });
+        lagrange(((2.0 * point[axis] - low - high) / (NODE * (high - low))).clamp(-1.0 / NODE, 1.0 / NODE))
+    })
+}
+
+/// Returns the weights of a panel's nodes at a point.
+fn weights(limits: &Limits, point: [f64; 2]) -> [f64; NODES * NODES] {
+    let [along, across] = both(limits, point);
     std::array::from_fn(|k| along[k / NODES] * across[k % NODES])
 }
 
@@ -235,13 +239,16 @@ impl FaceLight {
         &self.values
     }
 
-    /// The values at these places; where one is `NaN`, that of the nearest of its panel, or else 0. \[cd/m²\]
+    /// The values at these places; where one is `NaN`, that of the nearest of its panel, or else 0. What a panel is off
+    /// between its nodes changes as its light does. \[cd/m²\]
     pub fn set(&mut self, values: &[f64]) {
         let places = self.places();
-        for part in &self.parts {
-            if let Part::Panel { nodes, first, .. } = part {
-                let own = *first..first + nodes * nodes;
+        for part in &mut self.parts {
+            if let Part::Panel { nodes, first, off, .. } = part {
+                let own = *first..*first + *nodes * *nodes;
                 let whole = filled(&values[own.clone()], &places[own.clone()]);
+                let before: f64 = self.values[own.clone()].iter().sum();
+                *off *= if before > 0.0 { whole.iter().sum::<f64>() / before } else { 1.0 };
                 self.values[own].copy_from_slice(&whole);
             }
         }
@@ -273,8 +280,10 @@ impl FaceLight {
             Part::Even(luminance) => (*luminance, 0.0),
             Part::Panel { nodes: 1, first, off, .. } => (self.values[*first], *off),
             Part::Panel { limits, first, off, .. } => {
-                let own = weights(limits, [u, v]);
-                let light: f64 = own.iter().zip(&self.values[*first..]).map(|(w, value)| w * value).sum();
+                let [along, across] = both(limits, [u, v]);
+                let rows = self.values[*first..].chunks_exact(NODES).zip(along);
+                let row = |row: &[f64]| across[0] * row[0] + across[1] * row[1] + across[2] * row[2];
+                let light: f64 = rows.map(|(values, weight)| weight * row(values)).sum();
                 (light.max(0.0), *off)
             }
             Part::Cut { .. } => (0.0, 0.0),

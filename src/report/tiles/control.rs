@@ -7,7 +7,7 @@ use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::tick;
 use crate::drawing::{Align, Drawing, Frame, Rgb, Shape, TEXT};
 use crate::study::moment;
-use crate::study::product_control::{remark, words};
+use crate::study::product_control::words;
 use crate::study::subject::{Controlled, Subject};
 use crate::texts::{fixed, hand_on as texts};
 
@@ -39,7 +39,6 @@ pub(super) fn control(drawing: &mut Drawing, frame: Frame, subject: &Subject, in
     let mut said = vec![words(control.mode).does.to_owned(), now, state(control, control.current)];
     if let Some(year) = year {
         said.push(texts::movements(year.movements));
-        said.extend(remark(&subject.file, control.mode).map(String::from));
     }
     Ok(said.join(" · "))
 }

@@ -14,6 +14,8 @@ use crate::compute::control::controller::{Controller, Inputs, Period, Rounding, 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::lid::Facing;
 use crate::compute::profile_angle::{Screen, disc_span};
+use crate::compute::room::aperture::Aperture;
+use crate::compute::room::beams_past::lit;
 use crate::compute::sky::{SUN_HALF_ANGLE, irradiance};
 use crate::formats::control_curve::read_control_curve;
 use device::section_from_keys;
@@ -35,8 +37,10 @@ pub struct ControlQuestion<'a> {
     pub hour: Option<f64>,
     /// Seconds since the beginning of the year, see [`table::of_scene`].
     pub of_year: Option<f64>,
-    /// The aperture's outside.
+    /// Sky, ground and boxes before the aperture, and the sun.
     pub facing: Facing<'a>,
+    /// Geometry of the aperture.
+    pub aperture: Aperture,
 }
 
 /// The key of the state that a control picks for a device at one moment.
@@ -51,6 +55,7 @@ pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String
     table::begun(&settings.rule, asked.of_year)?;
     let inputs = inputs(
         &asked.facing,
+        &asked.aperture,
         asked.hour.unwrap_or(0.0),
         asked.keys.indoor,
         settings.close_above.is_some(),
@@ -61,10 +66,21 @@ pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String
     Ok(device.keys[state].clone())
 }
 
-/// What the façade's and the room's sensors see of a moment, which has no date yet. `global`: with sky and ground, which takes
-/// an integral. `upright`: of slats that stand upright.
-pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool, upright: bool) -> Inputs {
-    let direct = facing.sun_illuminance();
+/// Returns the readings of façade and room sensors at one moment, without a date: the direct illuminance is the mean over the
+/// aperture past boxes, sky, ground and boxes are those that its middle sees. `global`: whether these are wanted, which takes
+/// an integral. `upright`: whether slats are vertical.
+pub fn inputs(
+    facing: &Facing<'_>,
+    aperture: &Aperture,
+    hour: f64,
+    indoor: Option<f64>,
+    global: bool,
+    upright: bool,
+) -> Inputs {
+    let around = facing.outside.surroundings().filter(|around| !around.solids.is_empty());
+    let direct = facing.sun_illuminance() * around.map_or(1.0, |around| lit(aperture, facing, around).1);
+    let [low, _, high, _] = aperture.corners();
+    let seen = || facing.outside.seen_from(facing.orientation.to_world(0.5 * (low + high)));
     let normal = facing.surface.room_dir(Dir::from_unit(DVec3::Z));
     let normal = facing.orientation.world_from_room(normal);
     Inputs {
@@ -73,7 +89,7 @@ pub fn inputs(facing: &Facing<'_>, hour: f64, indoor: Option<f64>, global: bool,
         day: facing.sun.is_some() || facing.outside.diffuse_horizontal() > 0.0,
         sun: sun_at(facing, upright).filter(|_| direct > 0.0),
         facade_direct: direct,
-        facade_global: if global { direct + irradiance(facing.outside, normal).value } else { direct },
+        facade_global: if global { direct + irradiance(&seen(), normal).value } else { direct },
         indoor,
     }
 }

@@ -3,8 +3,9 @@
 //!
 //! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as equally
 //! bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
-//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone; a year in the room reads its sensors. The skyline
-//! hides the sun as it runs at the sun's bearing; boxes outside are not seen by a control.
+//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone; a year in the room
+//! reads its sensors. The skyline hides the sun as it runs at the sun's bearing, boxes hide it from the parts of an aperture;
+//! sky and ground behind boxes count as dark here, and boxes reflect nothing.
 
 use super::device::section_from_keys;
 use super::keys::ControlKeys;
@@ -16,19 +17,26 @@ use crate::compute::control::cut_off::SlatRow;
 use crate::compute::direction::{Dir, Orientation, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::lid::Facing;
+use crate::compute::room::aperture::Aperture;
 use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
-use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun};
+use crate::compute::sky::{Distribution, Outside, SUN_HALF_ANGLE, Sun, irradiance};
+use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::surroundings::solid::Solid;
 use crate::formats::state_table::of_year;
 use crate::study::error::StudyError;
-use crate::study::scene_file::{DstKey, IlluminanceKey, SceneFile, SurfaceKey, SystemKeys};
+use crate::study::outside::boxes;
+use crate::study::scene_file::{DstKey, IlluminanceKey, SceneFile, SystemKeys};
+use crate::study::scene_places::{apertures, room};
 use crate::study::sky::{CLEANEST, HAZIEST, HIGHEST, LOWEST};
 use crate::study::skyline::skyline as by_bearing;
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
+use glam::DVec3;
 use jiff::ToSpan;
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The word that leaves an aperture's state to a control.
 pub const CONTROLLED: &str = "controlled";
@@ -86,8 +94,8 @@ impl Weather for ClearSky {
 pub struct Moving {
     /// Number of the aperture, from 1.
     pub aperture: usize,
-    /// Façade or roof.
-    pub surface: Surface,
+    /// Geometry of the aperture.
+    pub opening: Aperture,
     /// What moves.
     pub device: Device,
     /// Its rule.
@@ -136,7 +144,8 @@ pub fn moving(
     device: &dyn Fn(&SystemKeys) -> Result<Device, StudyError>,
 ) -> Result<Vec<Moving>, StudyError> {
     let mut list = Vec::new();
-    for (index, aperture) in file.aperture.iter().enumerate() {
+    let geometry = apertures(&file.aperture, &room(&file.room)?)?;
+    for (index, (aperture, opening)) in file.aperture.iter().zip(geometry).enumerate() {
         if aperture.system == SystemKeys::Ranked {
             return Err(StudyError::ranked(format!("aperture[{}].system", index + 1)));
         }
@@ -160,11 +169,7 @@ pub fn moving(
         settings(keys, &device, base)?;
         let described = keys.slats.as_ref().map(section_from_keys).transpose()?;
         let section = described.or_else(|| device.section.clone());
-        let surface = match aperture.surface {
-            SurfaceKey::Facade => Surface::Facade,
-            SurfaceKey::Roof => Surface::Roof,
-        };
-        list.push(Moving { aperture: index + 1, surface, device, keys: keys.clone(), section });
+        list.push(Moving { aperture: index + 1, opening, device, keys: keys.clone(), section });
     }
     if list.is_empty() {
         let message = "nothing moves: give an aperture system = { catalogue = \"…\", state = \"controlled\" }";
@@ -192,8 +197,8 @@ pub struct Situation {
     pub skyline: f64,
     /// The one that rises and falls with the bearing, in its place.
     pub skyline_by_bearing: Option<Skyline>,
-    /// Boxes outside, which a control does not see: it goes by where the sun is, above which skyline.
-    pub unseen_boxes: usize,
+    /// Boxes outside, in the world's axes.
+    pub boxes: Vec<Solid>,
     /// How bright the year is, without a weather.
     pub sky: ClearSky,
 }
@@ -239,16 +244,19 @@ impl Situation {
                 return Err(StudyError::key(key, format!("{value} is out of range (allowed: {min} to {max})")));
             }
         }
+        let facade = Bearing::from_degrees(site.azimuth);
+        let turn = Orientation::new(facade).turn();
+        let boxes = boxes(file, &room(&file.room)?)?.into_iter().map(|(solid, _)| solid.turned(turn)).collect();
         Ok(Self {
             place,
             utc_offset: offset,
             dst: site.dst,
             year,
-            facade: Bearing::from_degrees(site.azimuth),
+            facade,
             ground_reflectance: site.ground_reflectance,
             skyline: skyline.to_radians(),
             skyline_by_bearing,
-            unseen_boxes: file.outside.len(),
+            boxes,
             sky: ClearSky::of(file),
         })
     }
@@ -278,9 +286,7 @@ pub fn year(
     let first = Date::new(situation.year, 1, 1).map_err(wrong)?;
     let days = usize::try_from(first.days_in_year()).unwrap_or(365);
     let a_day = (1440 / minutes) as usize;
-    let controllers: Result<Vec<Controller>, StudyError> =
-        moving.iter().map(|one| Ok(Controller::new(settings(&one.keys, &one.device, base)?))).collect();
-    let mut stepper = Stepper { situation, moving, controllers: controllers?, weather };
+    let mut stepper = Stepper::new(situation, base, moving, weather)?;
     let mut moments = Vec::with_capacity(days * a_day);
     let start = first.at(0, 0, 0, 0).checked_add((30 * i64::from(minutes)).seconds()).map_err(wrong)?;
     for step in 0..days * a_day {
@@ -309,9 +315,7 @@ pub fn day(
     minutes: u32,
     weather: &dyn Weather,
 ) -> Result<Vec<Moment>, StudyError> {
-    let controllers: Result<Vec<Controller>, StudyError> =
-        moving.iter().map(|one| Ok(Controller::new(settings(&one.keys, &one.device, base)?))).collect();
-    let mut stepper = Stepper { situation, moving, controllers: controllers?, weather };
+    let mut stepper = Stepper::new(situation, base, moving, weather)?;
     let wrong = |error: jiff::Error| StudyError::key("sky.time", error.to_string());
     (0..=1440 / minutes.max(1))
         .map(|step| {
@@ -328,9 +332,47 @@ struct Stepper<'a> {
     moving: &'a [Moving],
     controllers: Vec<Controller>,
     weather: &'a dyn Weather,
+    /// Boxes, dark; `None` without any.
+    around: Option<Arc<Surroundings>>,
+    /// Illuminance of each aperture's middle per horizontal illuminance of a uniform sky, and per exitance of the ground.
+    received: Vec<[f64; 2]>,
 }
 
-impl Stepper<'_> {
+/// Returns the illuminance of an aperture's middle per horizontal illuminance of a uniform sky, and per exitance of the ground.
+fn received(aperture: &Aperture, around: Option<&Arc<Surroundings>>, orientation: Orientation) -> [f64; 2] {
+    let Some(around) = around else {
+        return match aperture.surface {
+            Surface::Roof => [1.0, 0.0],
+            Surface::Facade => [0.5, 0.5],
+        };
+    };
+    let [low, _, high, _] = aperture.corners();
+    let normal = orientation.to_world(aperture.surface.room_from_facade(DVec3::Z));
+    let past = |sky: f64, reflectance: f64| {
+        let open = Outside::new(Distribution::uniform(), sky).and_then(|all| all.with_ground(reflectance, 1.0 - sky));
+        let behind =
+            open.map(|open| open.behind(Arc::clone(around)).seen_from(orientation.to_world(0.5 * (low + high))));
+        behind.map_or(0.0, |outside| irradiance(&outside, Dir::from_unit(normal)).value)
+    };
+    [past(1.0, 0.0), past(0.0, 1.0)]
+}
+
+impl<'a> Stepper<'a> {
+    fn new(
+        situation: &'a Situation,
+        base: &Path,
+        moving: &'a [Moving],
+        weather: &'a dyn Weather,
+    ) -> Result<Self, StudyError> {
+        let controllers: Result<Vec<Controller>, StudyError> =
+            moving.iter().map(|one| Ok(Controller::new(settings(&one.keys, &one.device, base)?))).collect();
+        let dark = || Arc::new(Surroundings::dark(situation.boxes.clone(), None));
+        let around = (!situation.boxes.is_empty()).then(dark);
+        let orientation = Orientation::new(situation.facade);
+        let received = moving.iter().map(|one| received(&one.opening, around.as_ref(), orientation)).collect();
+        Ok(Self { situation, moving, controllers: controllers?, weather, around, received })
+    }
+
     fn moment(&mut self, time: DateTime, seconds: f64) -> Result<Moment, StudyError> {
         let here = self.situation;
         let at_site = |error: &dyn std::fmt::Display| StudyError::key("site", error.to_string());
@@ -340,31 +382,32 @@ impl Stepper<'_> {
         let outside = Outside::new(Distribution::uniform(), if up { diffuse.max(LEAST_BEAM) } else { 0.0 })
             .and_then(|outside| outside.with_skyline(here.skyline_at(bearing), 0.0))
             .map_err(|error| at_site(&error))?;
+        let outside = match &self.around {
+            Some(around) => outside.behind(Arc::clone(around)),
+            None => outside,
+        };
         let sun = Sun { direction: Dir::from_altitude_bearing(altitude, bearing), direct_normal: direct };
         // Schedules go by the clock on the wall.
         let clock = here.dst.clock(time, here.utc_offset);
         let hour = f64::from(clock.hour()) + f64::from(clock.minute()) / 60.0 + f64::from(clock.second()) / 3600.0;
         let mut list = Vec::with_capacity(self.moving.len());
-        for (one, controller) in self.moving.iter().zip(&mut self.controllers) {
+        let moving = self.moving.iter().zip(&self.received);
+        for ((one, [of_sky, of_ground]), controller) in moving.zip(&mut self.controllers) {
             let facing = Facing {
                 outside: &outside,
                 sun: (up && direct > 0.0).then_some(&sun),
                 orientation: Orientation::new(here.facade),
-                surface: one.surface,
+                surface: one.opening.surface,
             };
-            let mut inputs = inputs(&facing, hour, one.keys.indoor, false, one.device.upright);
+            let mut inputs = inputs(&facing, &one.opening, hour, one.keys.indoor, false, one.device.upright);
             let at = of_year(time);
             inputs.of_year = Some(at);
             if up {
                 begun(&controller.settings().rule, Some(at))?;
             }
             // An even sky, and the ground below it.
-            inputs.facade_global += match one.surface {
-                Surface::Roof => diffuse,
-                Surface::Facade => {
-                    0.5 * (diffuse + here.ground_reflectance * (diffuse + direct * altitude.sin().max(0.0)))
-                }
-            };
+            let horizontal = diffuse + direct * altitude.sin().max(0.0);
+            inputs.facade_global += of_sky * diffuse + of_ground * here.ground_reflectance * horizontal;
             let decision = controller.step(seconds, &inputs);
             let value = controller.settings().values[decision.state];
             let passes = |section: &SlatRow| inputs.sun.is_some_and(|sun| !section.blocks(value, 0.0, sun.span));

@@ -7,11 +7,14 @@ use super::sky_year::SkyYear;
 use super::{Session, basis_key};
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
-use crate::compute::direction::{Dir, World};
-use crate::compute::sky::Outside;
+use crate::compute::direction::{Dir, Orientation, World};
+use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::sky::{Outside, Prepared};
 use crate::study::cache::{Cache, Key, bits};
+use crate::study::outside::Before;
 use crate::study::scene::Scene;
 use std::f64::consts::TAU;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 /// Most numbers of a year that are kept: 1,200 in each of 8,784 hours. Half of these are dark, which leaves 21 MB.
@@ -51,6 +54,26 @@ impl Session {
             Ok(kept) => kept,
             Err(never) => match never {},
         }
+    }
+
+    /// Returns the obstructions of a scene, prepared for many skies behind the skyline of `outside`, computed or kept; `None`
+    /// without any.
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(in crate::study) fn standing(
+        &self,
+        before: &Before,
+        outside: &Outside,
+        orientation: Orientation,
+        progress: &dyn Progress,
+    ) -> Result<Option<Arc<Prepared>>, Cancelled> {
+        let Some((setting, viewpoints)) = before.turned(orientation) else { return Ok(None) };
+        let mut hasher = DefaultHasher::new();
+        let far = (outside.skyline_altitude(), outside.surroundings());
+        format!("{setting:?} {viewpoints:?} {:?} {far:?}", orientation.turn()).hash(&mut hasher);
+        let find = || Prepared::new(outside, setting, orientation.turn(), viewpoints, progress);
+        self.standing.get(vec![hasher.finish()], find).map(Some)
     }
 
     /// The hours of a year on so many patches.

@@ -7,9 +7,9 @@
 use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
 use super::light::{Light, Question};
-use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::glare::{Field, LEAST_ILLUMINANCE, Threshold};
-use crate::compute::sky::{Outside, Sun};
+use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::study::error::StudyError;
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
@@ -17,6 +17,7 @@ use crate::study::session::far;
 use crate::study::session::glare::{EyeGlare, evaluated, eye_field};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// DGP of the chosen steps: rows of steps, columns of eyes; `None` where nobody is there, or in the dark.
@@ -66,7 +67,7 @@ pub(super) fn dgp(
     let mut found = Dgp { eyes, values: vec![None; eyes * chosen.len()], unproven: 0 };
     let done = AtomicUsize::new(0);
     for (set, rows) in groups {
-        let engine = Engine::new(question, set)?;
+        let engine = Engine::new(question, set, progress)?;
         let of = |&row: &usize| {
             if progress.cancelled() {
                 return Err(StudyError::from(Cancelled));
@@ -100,7 +101,8 @@ pub(super) fn dgp(
 /// Ready for any sky and sun in one set of states.
 struct Engine {
     scene: Scene,
-    before: Before,
+    /// Behind boxes.
+    prepared: Option<Arc<Prepared>>,
     /// Of every eye.
     fields: Vec<Field>,
     /// Of every aperture; empty where they are asked step by step.
@@ -110,24 +112,25 @@ struct Engine {
 }
 
 impl Engine {
-    fn new(question: &Question<'_>, set: &[usize]) -> Result<Self, StudyError> {
+    fn new(question: &Question<'_>, set: &[usize], progress: &dyn Progress) -> Result<Self, StudyError> {
         let mut file = with_states(question.file, question.moving, set);
         put_ordinary(&mut file);
         // Boxes are lit by the sky of each step.
         let scene = Scene::resolve(&file.without_outside(), question.base, question.library)?;
         let apertures: Vec<_> = scene.apertures.iter().map(|one| one.aperture).collect();
         let before = Before::of(question.file, &scene.room, &apertures)?;
+        let prepared = question.session.standing(&before, &scene.outside, scene.orientation, progress)?;
         let fields: Vec<Field> = question.settings.eyes.iter().map(|eye| eye_field(&scene, eye)).collect();
         let dark = far::dark(&scene.outside);
         let tabled =
-            before.is_empty() && dark.is_some() && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
+            prepared.is_none() && dark.is_some() && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
         let year = (question.steps.number(), question.steps.list.len());
         let table = |index: usize| {
             let btdf = scene.apertures[index].transmission()?;
             Some(EyeLight::new(question.session, &scene, index, btdf, &fields, year))
         };
         let tables = if tabled { (0..scene.apertures.len()).filter_map(table).collect() } else { Vec::new() };
-        Ok(Self { scene, before, fields, tables, dark })
+        Ok(Self { scene, prepared, fields, tables, dark })
     }
 
     /// At every eye in an hour of the year, given the illuminance there.
@@ -137,7 +140,10 @@ impl Engine {
             return Ok(self.by_tables(question, (hour, &outside), sun.as_ref(), vertical));
         }
         let eyes = &question.settings.eyes;
-        let outside = self.before.stand(outside, sun.as_ref(), self.scene.orientation, &Silent)?;
+        let outside = match &self.prepared {
+            Some(prepared) => prepared.under(&outside, sun.as_ref()),
+            None => outside,
+        };
         let scene = Scene { outside, sun, ..self.scene.clone() };
         let shining = question.session.shining(&scene)?;
         let of = |((eye, field), vertical)| shining.glare(&scene, field, eye, vertical, Threshold::default());

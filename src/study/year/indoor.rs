@@ -142,8 +142,10 @@ impl<'a> Reader<'a> {
 mod tests {
     use super::*;
     use crate::compute::direction::Surface;
+    use crate::compute::room::aperture::Aperture;
     use crate::study::control::Device;
     use crate::study::control::keys::{ControlKeys, ControlMode};
+    use glam::DVec3;
 
     fn moving(change: impl Fn(&mut ControlKeys)) -> Moving {
         let mut keys = ControlKeys::of(ControlMode::Din5034);
@@ -156,7 +158,8 @@ mod tests {
             section: None,
             upright: false,
         };
-        Moving { aperture: 1, surface: Surface::Facade, device, keys, section: None }
+        let opening = Aperture { surface: Surface::Facade, corner: DVec3::ZERO, size: [1.0; 2] };
+        Moving { aperture: 1, opening, device, keys, section: None }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use super::fixed::{put_ordinary, with_states};
 use super::settings::Settings;
 use super::steps::{Step, Steps};
 use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
-use crate::compute::sky::{Outside, Sun};
+use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::study::coefficients::{Coefficients, TOGETHER};
 use crate::study::control::settings;
 use crate::study::control::year::Moving;
@@ -200,7 +200,7 @@ pub(super) struct Engine {
 /// How all light is found.
 enum All {
     Coefficients(Box<Coefficients>),
-    Rooms(Arc<Scene>, Box<Before>),
+    Rooms(Arc<Scene>, Arc<Prepared>),
 }
 
 impl Engine {
@@ -219,13 +219,13 @@ impl Engine {
             &scene.room,
             &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
         )?;
-        if before.is_empty() {
-            let mut coefficients = Coefficients::new(question.session, &scene, progress)?;
-            let year = (question.steps.number(), question.steps.list.len());
-            coefficients.keep_year(question.session, year, steps);
-            return Ok(Self { all: All::Coefficients(Box::new(coefficients)), sun });
+        if let Some(prepared) = question.session.standing(&before, &scene.outside, scene.orientation, progress)? {
+            return Ok(Self { all: All::Rooms(scene, prepared), sun });
         }
-        Ok(Self { all: All::Rooms(scene, Box::new(before)), sun })
+        let mut coefficients = Coefficients::new(question.session, &scene, progress)?;
+        let year = (question.steps.number(), question.steps.list.len());
+        coefficients.keep_year(question.session, year, steps);
+        Ok(Self { all: All::Coefficients(Box::new(coefficients)), sun })
     }
 
     /// Of one hour of the year.
@@ -249,9 +249,9 @@ impl Engine {
                 };
                 Ok(coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect())
             }
-            All::Rooms(scene, before) => {
+            All::Rooms(scene, prepared) => {
                 let hour = |(_, (outside, sun)): &Hour| {
-                    let outside = before.stand(outside.clone(), sun.as_ref(), scene.orientation, &Silent)?;
+                    let outside = prepared.under(outside, sun.as_ref());
                     let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
                     let result = session.room(&scene, &Silent)?;
                     let light = result.sensors.iter().map(|one| one.total()).collect();

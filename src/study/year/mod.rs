@@ -244,8 +244,16 @@ fn computed(
     if lm83.is_some() {
         lap("LM-83 blinds");
     }
-    let asked =
-        solar::Question { file, base, library, steps: &steps, moving: &moving, states: &states, chosen: &chosen };
+    let asked = solar::Question {
+        file,
+        base,
+        library,
+        session,
+        steps: &steps,
+        moving: &moving,
+        states: &states,
+        chosen: &chosen,
+    };
     let solar = settings.keys.solar.then(|| solar::solar(&asked, &mut notes, progress)).transpose()?;
     if solar.is_some() {
         lap("solar");

@@ -12,11 +12,11 @@ use super::through::{DirectSolar, Passage, ready};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::SolarSource;
 use crate::compute::direction::{Orientation, Surface};
-use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::Facing;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::mesh::BoxRoom;
-use crate::compute::sky::{Frame, Outside, Sun};
+use crate::compute::sky::{Frame, Outside, Prepared, Sun};
 use crate::compute::surroundings::Seen;
 use crate::compute::year::received::Received;
 use crate::compute::year::transmittance::Between;
@@ -25,10 +25,12 @@ use crate::study::error::StudyError;
 use crate::study::outside::Before;
 use crate::study::scene_file::{Interpolation, OutsideKeys, SceneFile};
 use crate::study::scene_places::{apertures, clear, room};
+use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Steps that are computed before their sums are taken.
 const AT_ONCE: usize = 512;
@@ -85,6 +87,7 @@ pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
     pub library: &'a dyn SystemLibrary,
+    pub session: &'a Session,
     pub steps: &'a Steps,
     pub moving: &'a [Moving],
     pub states: &'a [Vec<usize>],
@@ -114,7 +117,8 @@ struct Group {
 struct Engine<'a> {
     question: &'a Question<'a>,
     orientation: Orientation,
-    before: Before,
+    /// Behind boxes.
+    prepared: Option<Arc<Prepared>>,
     per_lux: f64,
     groups: Vec<Group>,
     passages: Vec<Passage>,
@@ -135,7 +139,7 @@ pub(super) fn solar(
     let Question { file, chosen, .. } = question;
     let room = room(&file.room)?;
     let geometry = apertures(&file.aperture, &room)?;
-    let mut engine = Engine::new(question, &room, &geometry)?;
+    let mut engine = Engine::new(question, &room, &geometry, progress)?;
     engine.judge()?;
     let mut sums = vec![Estimate::default(); engine.groups.len()];
     let (mut watts, mut errors) = (vec![0.0; chosen.len()], vec![0.0; chosen.len()]);
@@ -197,7 +201,12 @@ fn told(list: &[ThroughAperture]) -> String {
 }
 
 impl<'a> Engine<'a> {
-    fn new(question: &'a Question<'a>, room: &BoxRoom, geometry: &[Aperture]) -> Result<Self, StudyError> {
+    fn new(
+        question: &'a Question<'a>,
+        room: &BoxRoom,
+        geometry: &[Aperture],
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
         let Question { file, steps, moving, states, chosen, .. } = question;
         let lit = || chosen.iter().filter(|step| question.is_lit(**step));
         // Fixed luminances count by the efficacy of all diffuse light together.
@@ -210,6 +219,7 @@ impl<'a> Engine<'a> {
         let outside: Vec<OutsideKeys> = file.outside.iter().map(in_watts).collect();
         let before = Before::of(&SceneFile { outside, ..(*file).clone() }, room, geometry)?;
         let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
+        let prepared = question.session.standing(&before, &steps.even_outside(0)?.0, orientation, progress)?;
         let between = match file.compute.interpolation {
             Interpolation::Auto => Between::Linear,
             Interpolation::Patch => Between::Constant,
@@ -236,7 +246,7 @@ impl<'a> Engine<'a> {
                 }
             };
             let same = |group: &&mut Group| {
-                before.is_empty()
+                prepared.is_none()
                     && moves.is_none()
                     && group.moving.is_none()
                     && group.surface == aperture.surface
@@ -265,7 +275,7 @@ impl<'a> Engine<'a> {
                 }
             }
         }
-        Ok(Self { question, orientation, before, per_lux, groups, passages, received, between })
+        Ok(Self { question, orientation, prepared, per_lux, groups, passages, received, between })
     }
 
     /// Which of `received` a passage is gathered by in an aperture of a surface.
@@ -277,16 +287,15 @@ impl<'a> Engine<'a> {
     /// Sky, ground, what stands before them, and the sun, in W/m².
     fn outside(&self, step: usize) -> Result<(Outside, Option<Sun>), StudyError> {
         let (outside, sun) = self.question.steps.outside_in_watts(step, self.per_lux)?;
-        if self.before.is_empty() {
-            return Ok((outside, sun));
+        match &self.prepared {
+            Some(prepared) => Ok((prepared.under(&outside, sun.as_ref()), sun)),
+            None => Ok((outside, sun)),
         }
-        let outside = self.before.stand(outside, sun.as_ref(), self.orientation, &Silent)?;
-        Ok((outside, sun))
     }
 
     /// Points spread evenly over an aperture, in the world's axes from the room's origin; none where nothing stands before it.
     fn points(&self, aperture: &Aperture, a_side: usize) -> Vec<DVec3> {
-        if self.before.is_empty() {
+        if self.prepared.is_none() {
             return Vec::new();
         }
         let [low, right, _, up] = aperture.corners();
@@ -302,7 +311,7 @@ impl<'a> Engine<'a> {
     fn at(&self, step: usize) -> Result<Vec<Estimate>, StudyError> {
         let (outside, sun) = self.outside(step)?;
         // Where boxes stand every aperture sees an outside of its own.
-        let alone = !self.before.is_empty();
+        let alone = self.prepared.is_some();
         let mut known: Vec<Option<Vec<f64>>> = vec![None; self.received.len()];
         let mut list = Vec::with_capacity(self.groups.len());
         for group in &self.groups {

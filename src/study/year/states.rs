@@ -14,10 +14,13 @@ use crate::study::control::table::begun;
 use crate::study::control::year::{CONTROLLED, Moving, moving};
 use crate::study::control::{inputs, settings as control_settings};
 use crate::study::error::StudyError;
+use crate::study::outside::Before;
 use crate::study::scene_file::{SceneFile, SystemKeys};
+use crate::study::scene_places::{apertures, room};
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use std::path::Path;
+use std::sync::Arc;
 
 /// What the controls did.
 #[derive(Default)]
@@ -80,11 +83,13 @@ pub(super) fn states(
             ));
         }
     }
-    if file.has_outside() {
-        notes.push("boxes outside are not seen by the controls, which go by where the sun is".to_owned());
-    }
     let measured = controllers.iter().any(|one| one.settings().close_above.is_some());
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
+    let room = room(&file.room)?;
+    let before = Before::of(file, &room, &apertures(&file.aperture, &room)?)?;
+    let first = steps.even_outside(0)?.0;
+    let dark = before.dark(&first, orientation);
+    let lit = if measured { session.standing(&before, &first, orientation, progress)? } else { None };
     let settings = Settings { eyes: Vec::new(), ..all.clone() };
     let asked = light::Question { file, base, library, session, settings: &settings, steps, moving: &moving };
     let mut reader = Reader::new(asked, sensors(&moving, settings.sensors)?);
@@ -98,9 +103,14 @@ pub(super) fn states(
             progress.advance("states", k, steps.list.len());
         }
         let (outside, sun) = if measured { steps.outside(k)? } else { steps.even_outside(k)? };
+        let outside = match (&lit, &dark) {
+            (Some(lit), _) if step.hour.is_lit() => lit.under(&outside, sun.as_ref()),
+            (_, Some(dark)) => outside.open().behind(Arc::clone(dark)),
+            _ => outside,
+        };
         let mut all = Vec::with_capacity(moving.len());
         for (one, controller) in moving.iter().zip(&controllers) {
-            let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: one.surface };
+            let facing = Facing { outside: &outside, sun: sun.as_ref(), orientation, surface: one.opening.surface };
             let global = controller.settings().close_above.is_some();
             let at = Some(of_year(step.time));
             if step.hour.is_lit() {
@@ -108,7 +118,7 @@ pub(super) fn states(
             }
             all.push(Inputs {
                 of_year: at,
-                ..inputs(&facing, step.clock, one.keys.indoor, global, one.device.upright)
+                ..inputs(&facing, &one.opening, step.clock, one.keys.indoor, global, one.device.upright)
             });
         }
         let time = 3600.0 * steps.length * k as f64;

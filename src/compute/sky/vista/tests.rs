@@ -5,6 +5,8 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::Dir;
 use crate::compute::sky::{Distribution, irradiance};
 use crate::compute::surroundings::Surroundings;
+use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::surroundings::solid::Face;
 use std::sync::Arc;
 
 /// Boxes of one reflectance above the ground, the first of them with the point that looks.

@@ -1,0 +1,165 @@
+//! What stands outside: boxes, a building and the ground, and the surfaces that they have.
+
+use super::outside::Outside;
+use super::sun::{SUN_HALF_ANGLE, Sun};
+use crate::compute::surroundings::shading::shadow;
+use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::surroundings::solid::{Face, Solid};
+use glam::{DVec2, DVec3};
+use std::f64::consts::PI;
+
+/// How a box shines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Finish {
+    /// Diffuse reflectance, 0 … 1.
+    Reflectance(f64),
+    /// The same luminance on all faces, whatever falls on them. \[cd/m²\]
+    Luminance(f64),
+}
+
+/// What stands outside.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// Overhangs, fins, neighbours: what rises above the ground.
+    pub boxes: Vec<(Solid, Finish)>,
+    /// The room's own box.
+    pub room: Solid,
+    /// The building that holds it, and its reflectance.
+    pub building: Option<(Solid, f64)>,
+    /// Height of the ground. \[m\]
+    pub ground: f64,
+}
+
+impl Setting {
+    /// The whole turned about the vertical through the origin; cosine and sine of the angle.
+    pub fn turned(&self, turn: [f64; 2]) -> Self {
+        Self {
+            boxes: self.boxes.iter().map(|(solid, finish)| (solid.turned(turn), *finish)).collect(),
+            room: self.room.turned(turn),
+            building: self.building.as_ref().map(|(solid, reflectance)| (solid.turned(turn), *reflectance)),
+            ground: self.ground,
+        }
+    }
+}
+
+/// A surface that sends light back.
+#[derive(Debug, Clone)]
+pub(super) struct Surface {
+    /// Where it is.
+    pub face: Face,
+    /// Diffuse reflectance.
+    pub reflectance: f64,
+    /// Luminance of all of it, whatever falls on it. \[cd/m²\]
+    pub stated: Option<f64>,
+    /// Luminance that the whole disc of the sun adds where nothing hides it. \[cd/m²\]
+    pub sun: f64,
+    /// Shadows on it: convex, counter-clockwise, in its own coordinates.
+    pub shadows: Vec<Vec<DVec2>>,
+}
+
+/// Bodies on the ground, with their surfaces.
+pub(super) struct Scenery<'a> {
+    /// Sky and flat skyline.
+    pub open: &'a Outside,
+    /// A skyline by bearing.
+    pub skyline: Option<&'a Skyline>,
+    /// The boxes; last the building, or the room's own box.
+    pub bodies: Vec<Solid>,
+    /// How many of them the ground sees.
+    pub from_ground: usize,
+    /// Six of each body, as [`Solid::face`] counts them; last the ground.
+    pub surfaces: Vec<Surface>,
+}
+
+impl Surface {
+    /// Does it send back what falls on it?
+    pub fn reflects(&self) -> bool {
+        self.reflectance > 0.0 && self.stated.is_none()
+    }
+
+    /// Ground at a height \[m\]; cosine and sine of the turn of its first axis.
+    pub fn ground(height: f64, reflectance: f64, [cos, sin]: [f64; 2]) -> Self {
+        let (u, v) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
+        let face = Face { origin: height * DVec3::Z, normal: DVec3::Z, u, v, limits: [[-1e6, 1e6]; 2] };
+        Self { face, reflectance, stated: None, sun: 0.0, shadows: Vec::new() }
+    }
+}
+
+/// Share of the sun's disc above horizon and skyline.
+pub(super) fn share_above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
+    match skyline {
+        Some(skyline) => skyline.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
+        None => sun.share_above(outside.skyline_altitude()),
+    }
+}
+
+impl Scenery<'_> {
+    /// The ground's place among the surfaces.
+    pub fn ground(&self) -> usize {
+        self.surfaces.len() - 1
+    }
+
+    /// Height of the ground. \[m\]
+    pub fn ground_height(&self) -> f64 {
+        self.surfaces[self.ground()].face.origin.z
+    }
+
+    /// Bodies that stand before a surface, by their index.
+    pub fn others(&self, surface: usize) -> impl Iterator<Item = (usize, &Solid)> {
+        let (own, count) =
+            if surface == self.ground() { (usize::MAX, self.from_ground) } else { (surface / 6, self.bodies.len()) };
+        self.bodies[..count].iter().enumerate().filter(move |(index, _)| *index != own)
+    }
+
+    /// Does a point of a surface lie in another body?
+    pub fn is_covered(&self, surface: usize, point: DVec3) -> bool {
+        let before = point + 1e-6 * self.surfaces[surface].face.normal;
+        self.others(surface).any(|(_, solid)| solid.holds(before))
+    }
+}
+
+/// Bodies and surfaces. `shining`: towards the sun, and its normal illuminance.
+pub(super) fn scenery<'a>(
+    outside: &'a Outside,
+    skyline: Option<&'a Skyline>,
+    shining: Option<(DVec3, f64)>,
+    setting: &Setting,
+    turn: [f64; 2],
+) -> Scenery<'a> {
+    let height = setting.ground;
+    let above = |solid: &Solid| solid.above(height);
+    let mut bodies: Vec<Solid> = setting.boxes.iter().map(|(solid, _)| above(solid)).collect();
+    // What a room above the ground stands on hides from faces what is behind it, whatever it is.
+    bodies.push(setting.building.as_ref().map_or(setting.room.down_to(height), |(solid, _)| above(solid)));
+    let finishes = setting.boxes.iter().map(|(_, finish)| *finish);
+    let last = setting.building.as_ref().map_or(0.0, |(_, reflectance)| *reflectance);
+    let mut surfaces = Vec::with_capacity(6 * bodies.len() + 1);
+    for (solid, finish) in bodies.iter().zip(finishes.chain([Finish::Reflectance(last)])) {
+        for number in 0..6 {
+            // What stands on the ground shows nothing of its underside.
+            let hidden = number == 4 && solid.heights()[0] <= height + 1e-9;
+            let (reflectance, stated) = match finish {
+                Finish::Reflectance(rho) => (if hidden { 0.0 } else { rho }, None),
+                Finish::Luminance(luminance) => (0.0, Some(luminance)),
+            };
+            surfaces.push(Surface { face: solid.face(number), reflectance, stated, sun: 0.0, shadows: Vec::new() });
+        }
+    }
+    surfaces.push(Surface::ground(height, outside.ground_reflectance(), turn));
+    let from_ground = setting.boxes.len() + usize::from(setting.building.is_some());
+    let mut scenery = Scenery { open: outside, skyline, bodies, from_ground, surfaces };
+    if let Some((sun, normal)) = shining {
+        for index in 0..scenery.surfaces.len() {
+            let Surface { face, reflectance, stated, .. } = &scenery.surfaces[index];
+            let towards = face.normal.dot(sun);
+            if stated.is_some() || *reflectance <= 0.0 || towards <= 1e-6 {
+                continue;
+            }
+            let light = reflectance * normal * towards / PI;
+            let cast = scenery.others(index).map(|(_, solid)| shadow(solid, face, sun));
+            let shadows = cast.filter(|outline| outline.len() >= 3).collect();
+            (scenery.surfaces[index].sun, scenery.surfaces[index].shadows) = (light, shadows);
+        }
+    }
+    scenery
+}
