@@ -117,7 +117,7 @@ impl FaceLight {
             let off: f64 = judged.iter().map(|panel| panel.off).sum();
             let sum = self.integral(weight);
             if off <= relative * sum || judged.len() >= most {
-                return Ok(self);
+                return Ok(self.without_former_values());
             }
             let worst = judged.iter().map(|panel| panel.off).fold(0.0, f64::max);
             let room = most - judged.len();
@@ -135,6 +135,19 @@ impl FaceLight {
                 }
             }
         }
+    }
+
+    /// Drops the values of panels that were cut.
+    fn without_former_values(mut self) -> Self {
+        let all = std::mem::take(&mut self.values);
+        for part in &mut self.parts {
+            if let Part::Panel { nodes, first, .. } = part {
+                let own = *first..*first + *nodes * *nodes;
+                *first = self.values.len();
+                self.values.extend_from_slice(&all[own]);
+            }
+        }
+        self
     }
 
     fn make_panel(&mut self, part: usize, limits: Limits, nodes: usize) {
@@ -369,6 +382,7 @@ mod tests {
         let f = |u: f64, v: f64| 5.0 + v - 4.0 * (-u / 0.2).exp();
         let light = fitted([vec![0.0, 4.0], vec![0.0, 2.0]], 40, f);
         assert!(light.panels() > 3 && light.panels() < 12, "{}", light.panels());
+        assert_eq!(light.places().len(), NODES * NODES * light.panels(), "values of panels that are no more");
         let mean_off = (0..400).map(|k| (f64::from(k % 20), f64::from(k / 20))).map(|(i, j)| {
             let (u, v) = (0.2 * i + 0.1, 0.1 * j + 0.05);
             (light.diffuse(u, v) - f(u, v)).abs() / 2400.0
