@@ -1,4 +1,4 @@
-//! From `[[outside]]` to what stands before sky and ground.
+//! Obstructions of a scene from `[[outside]]`, `[building]` and `site.ground_height`.
 
 use super::error::StudyError;
 use super::scene_file::{BuildingKeys, OutsideKeys, SceneFile, USUAL_REFLECTANCE};
@@ -15,18 +15,18 @@ use crate::texts::words as texts;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Most boxes that one scene may have: every ray asks all of them.
+/// Maximum number of boxes of a scene: every ray is tested against all of them.
 pub const MOST_BOXES: usize = limits::BOXES;
 /// Longest way of a box from the room's origin. \[m\]
 const FARTHEST: f64 = 1e6;
 /// Shortest side of a box: what is thinner is typed by mistake, and rays could pass it unseen. \[m\]
 const THINNEST: f64 = 1e-6;
-/// What rises less than this above the ground is not there. \[m\]
+/// Height above the ground below which a box is left out. \[m\]
 const LOWEST: f64 = 1e-6;
-/// A box is left out where its height above the ground is less than this share of its distance from all apertures, so that
-/// it hides the sun for minutes at the horizon only ...
+/// Height of a box relative to its distance from all apertures below which it may be left out: it hides the sun for minutes at
+/// the horizon only.
 const LOW: f64 = 0.01;
-/// ... and where all of them together are seen no larger than this, a ten-thousandth of what a façade sees. \[sr\]
+/// Solid angle below which such boxes are left out together: a ten-thousandth of what a façade sees. \[sr\]
 const UNSEEN: f64 = 3e-4;
 /// Lengths typed as decimals do not meet exactly. \[m\]
 const TOUCHING: f64 = 1e-6;
@@ -154,7 +154,7 @@ fn own_box(room: &BoxRoom) -> Solid {
     Solid::new(DVec3::ZERO, room.size, 0.0)
 }
 
-/// Takes those boxes away that are too far and too low to matter, whatever light falls on them.
+/// Removes boxes that are too far and too low to matter, whatever light falls on them.
 fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], ground: f64) {
     let far = |(solid, finish): &(Solid, Finish)| {
         let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
@@ -170,13 +170,13 @@ fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], groun
     });
 }
 
-/// What stands outside of a scene, for many skies.
+/// Obstructions of a scene, for any sky.
 pub struct Before {
-    /// In room axes; `None` where nothing stands there.
+    /// Bodies in room axes; `None` without any.
     setting: Option<Setting>,
     /// Corners of the apertures, or what else it is seen from, in room axes.
     viewpoints: Vec<DVec3>,
-    /// What was taken for granted or left out, in words.
+    /// Sentences on what was assumed and what was left out.
     pub notes: Vec<String>,
 }
 
@@ -209,12 +209,12 @@ impl Before {
         })
     }
 
-    /// Its boxes and ground as one point sees them, in room axes.
+    /// Returns the obstructions as they are seen from one point, in room axes.
     pub fn seen_from(self, eye: DVec3) -> Self {
         Self { viewpoints: vec![eye], ..self }
     }
 
-    /// Does nothing stand there?
+    /// Whether there is no obstruction.
     pub fn is_empty(&self) -> bool {
         self.setting.is_none()
     }

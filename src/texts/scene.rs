@@ -90,6 +90,7 @@ texts! {
     const BOX_UP = "From z" | "Ab z";
     const BOX_DEPTH = "Extent along y" | "Ausdehnung in y";
     const BUILDING = "Building around the room" | "Gebäude um den Raum";
+    const BUILDING_SHORT = "building" | "Gebäude";
     const BUILDING_TIP = "A box from the façade backwards that holds the room: it shades the ground and reflects. Without it nothing is assumed" | "Ein Quader ab der Fassade, der den Raum enthält: Er beschattet den Boden und reflektiert. Ohne ihn wird nichts angenommen";
     const TO_X = "To x" | "Bis x";
     const TO_Y = "To y" | "Bis y";

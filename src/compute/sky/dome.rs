@@ -5,12 +5,12 @@ use super::outside::Outside;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Directions in rows of one altitude, from the horizon to the zenith.
+/// Directions in rows of equal altitude, from the horizon to the zenith.
 #[derive(Debug, Clone)]
 pub(super) struct Dome {
-    /// Between rows. \[rad\]
+    /// Angle between rows. \[rad\]
     step: f64,
-    /// Where each row begins, and where the last one ends.
+    /// Index of the first direction of every row, and the number of all.
     first: Vec<usize>,
     directions: Vec<DVec3>,
 }

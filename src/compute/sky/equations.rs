@@ -9,17 +9,17 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Of a face, panels of the equations.
+/// Maximum number of panels of a face in the equations.
 const MOST_COARSE: usize = 4;
-/// More surfaces than this have one value each in the equations.
+/// Number of surfaces above which each has panels of one node in the equations.
 const MANY: usize = 100;
-/// Panels of the ground are no longer than this times the size of what stands near, or its distance.
+/// Maximum length of a panel of the ground relative to the size of the next body, or its distance.
 const COARSE_GROUND: f64 = 2.0;
-/// The equations are solved to this, relative.
+/// Relative accuracy of the solution.
 const SOLVED: f64 = 1e-6;
 
 /// Projected solid angles of panel nodes as seen from a point: node and weight. \[sr\]
-pub(super) type Counts = Vec<(u32, f64)>;
+pub(super) type Counts = Vec<(u32, f32)>;
 
 /// Panels of all surfaces, with their nodes numbered throughout.
 pub(super) struct Panels {
@@ -134,7 +134,7 @@ impl Exchange {
             let (mut changed, mut largest) = (0.0_f64, 0.0_f64);
             for (node, seen) in self.seen.iter().enumerate() {
                 let Some(seen) = seen else { continue };
-                let others: f64 = seen.iter().map(|(other, counts)| counts * light[*other as usize]).sum();
+                let others: f64 = seen.iter().map(|(other, counts)| f64::from(*counts) * light[*other as usize]).sum();
                 let value = albedo(node) * (falling[node] + others);
                 changed = changed.max((value - light[node]).abs());
                 largest = largest.max(value.abs());
@@ -148,7 +148,7 @@ impl Exchange {
     }
 }
 
-/// The smooth light of all surfaces on few panels.
+/// Returns the luminance of all surfaces without the sun's own light, on few panels.
 pub(super) fn coarse(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
@@ -175,5 +175,5 @@ pub(super) fn coarse(
 /// Returns the weights that are not 0, with their places.
 pub(super) fn sparse(counts: &[f64]) -> Counts {
     let counting = counts.iter().enumerate().filter(|(_, counts)| **counts != 0.0);
-    counting.map(|(node, counts)| (node as u32, *counts)).collect()
+    counting.map(|(node, counts)| (node as u32, *counts as f32)).collect()
 }

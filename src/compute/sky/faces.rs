@@ -1,4 +1,4 @@
-//! Light on what stands outside and on the ground: what [`Surroundings`] is made of.
+//! Light on obstructions and on the ground, of which [`Surroundings`] is made.
 //!
 //! Every place sends ρE/π alike in all directions, E from all that it sees: sky, skyline, sun, and the light of the others.
 //! The sun's own light is exact at every point, by a ray, with sharp shadows. The rest is smooth: it is first found on few
@@ -20,7 +20,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What the light between the nodes may be off, relative to its mean, before panels are halved.
+/// Relative error of the light between nodes above which panels are halved.
 const BETWEEN: f64 = 1e-3;
 /// Panels of a face at most, and of all faces together as far as each has its [`FEWEST`].
 const MOST: usize = 48;
@@ -33,7 +33,7 @@ const LOWEST_EYE: f64 = 0.5;
 /// Gathering is repeated until the light of every surface changes by less, relative, but no more often than this.
 const SETTLED: f64 = 2e-3;
 const MOST_OFTEN: usize = 4;
-/// What remains of the light on a face beside what is seen at places between the nodes, relative.
+/// Relative error of the light on a face beside that between its nodes.
 const REST: f64 = 2e-4;
 
 /// Boxes and ground with the light on them, everything in the world's axes. `outside`: the open sky and ground, with a flat
@@ -50,16 +50,16 @@ pub fn surroundings(
     viewpoints: &[DVec3],
     progress: &dyn Progress,
 ) -> Result<Surroundings, Cancelled> {
-    let shining = shining(outside, skyline.as_ref(), sun);
-    let scenery = scenery(outside, skyline.as_ref(), shining, setting, turn);
+    let direct_sun = direct_sun(outside, skyline.as_ref(), sun);
+    let scenery = scenery(outside, skyline.as_ref(), direct_sun, setting, turn);
     let ground = OpenGround::of(&scenery, viewpoints);
     let wanted = wanted(&scenery, viewpoints);
     let lights = lights(&scenery, &ground, &wanted, viewpoints, progress)?;
-    Ok(assembled(&scenery, &ground, lights, &wanted, shining.map(|(direction, _)| direction)))
+    Ok(assembled(&scenery, &ground, lights, &wanted, direct_sun.map(|(direction, _)| direction)))
 }
 
 /// Towards a sun that is not hidden, and its normal illuminance. \[lx\]
-pub(super) fn shining(outside: &Outside, skyline: Option<&Skyline>, sun: Option<&Sun>) -> Option<(DVec3, f64)> {
+pub(super) fn direct_sun(outside: &Outside, skyline: Option<&Skyline>, sun: Option<&Sun>) -> Option<(DVec3, f64)> {
     let of = |sun: &Sun| (sun.direction.vector(), sun.direct_normal * share_above(outside, skyline, sun));
     sun.map(of).filter(|(_, normal)| *normal > 0.0)
 }
@@ -158,8 +158,8 @@ pub(super) fn assembled(
     }
 }
 
-/// Where the luminance of what is seen jumps beside the bodies' own edges: at shadows' edges, and where faces of boxes that
-/// overlap meet.
+/// Returns the lines at which the luminance jumps beside the bodies' own edges: edges of shadows, and lines in which faces of
+/// overlapping boxes meet.
 fn lines(scenery: &Scenery<'_>, seen: &[usize], sun: Option<DVec3>) -> Vec<Line> {
     let mut lines = seams(&scenery.bodies[..scenery.bodies.len() - 1]);
     let Some(sun) = sun else { return lines };

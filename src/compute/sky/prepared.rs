@@ -2,12 +2,12 @@
 //!
 //! Weights of the sky's directions and of the surfaces' light on each other depend on the geometry alone and are computed once;
 //! the luminance of all surfaces under another sky is then a sum. Light of sunlit surfaces is gathered for every sun, between
-//! the exact edges of shadows. Panels are those that suit a uniform sky with a sun before the façade; their error under other
+//! the exact edges of shadows. Panels are those that suit a uniform sky with a sun in front of the façade; their error under other
 //! skies is part of the stated one.
 
 use super::dome::Dome;
 use super::equations::{Exchange, Panels, sparse};
-use super::faces::{assembled, lights, shining, wanted};
+use super::faces::{assembled, direct_sun, lights, wanted};
 use super::open_ground::OpenGround;
 use super::outside::Outside;
 use super::scenery::{Setting, scenery};
@@ -43,12 +43,12 @@ pub struct Prepared {
 
 /// Weights of everything that lights a node: projected solid angles. \[sr\]
 struct Row {
-    /// By direction of the sky.
+    /// Directions of the sky.
     sky: Vec<f32>,
     skyline: f64,
     /// Illuminance by surfaces of stated luminance. \[lx\]
     stated: f64,
-    /// Of the ground beyond the panels.
+    /// Ground beyond the panels.
     beyond: f64,
 }
 
@@ -134,7 +134,7 @@ impl Prepared {
     ) -> Result<Self, Cancelled> {
         let (sky, sun) = trial(outside, turn);
         let skyline = skyline(outside);
-        let lit = shining(&sky, skyline, Some(&sun));
+        let lit = direct_sun(&sky, skyline, Some(&sun));
         let tried = scenery(&sky, skyline, lit, &setting, turn);
         let ground = OpenGround::of(&tried, &viewpoints);
         let wanted = wanted(&tried, &viewpoints);
@@ -171,8 +171,8 @@ impl Prepared {
     /// Returns `outside`, which has the same skyline, with boxes and ground before it as sky and sun light them.
     pub fn under(&self, outside: &Outside, sun: Option<&Sun>) -> Outside {
         let skyline = skyline(outside);
-        let shining = shining(outside, skyline, sun);
-        let scenery = scenery(outside, skyline, shining, &self.setting, self.turn);
+        let direct_sun = direct_sun(outside, skyline, sun);
+        let scenery = scenery(outside, skyline, direct_sun, &self.setting, self.turn);
         let ground = OpenGround::of(&scenery, &self.viewpoints);
         let moment = Moment {
             sky: self.dome.luminances(outside).into_iter().map(|luminance| luminance as f32).collect(),
@@ -183,12 +183,12 @@ impl Prepared {
         let falling = |(&(surface, [u, v]), row): (&(usize, [f64; 2]), &Option<Row>)| {
             let Some(row) = row else { return 0.0 };
             let vista = || Vista::new(&scenery, surface, scenery.surfaces[surface].face.point(u, v));
-            row.falling(&moment) + if shining.is_some() { vista().sunlit() } else { 0.0 }
+            row.falling(&moment) + if direct_sun.is_some() { vista().sunlit() } else { 0.0 }
         };
         let falling: Vec<f64> = places.par_iter().zip(&self.rows).map(falling).collect();
         let mut lights = self.exchange.panels().with(&self.exchange.solved(&scenery, &falling));
         lights.iter_mut().for_each(|light| light.error += OTHERS);
-        let around = assembled(&scenery, &ground, lights, &self.wanted, shining.map(|(direction, _)| direction));
+        let around = assembled(&scenery, &ground, lights, &self.wanted, direct_sun.map(|(direction, _)| direction));
         outside.open().behind(Arc::new(around))
     }
 }

@@ -1,4 +1,4 @@
-//! What stands outside: boxes, a building and the ground, and the surfaces that they have.
+//! Obstructions: boxes, a building and the ground, with the surfaces that they have.
 
 use super::outside::Outside;
 use super::sun::{SUN_HALF_ANGLE, Sun};
@@ -8,16 +8,16 @@ use crate::compute::surroundings::solid::{Face, Solid};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// How a box shines.
+/// Surface property of a box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Finish {
     /// Diffuse reflectance, 0 … 1.
     Reflectance(f64),
-    /// The same luminance on all faces, whatever falls on them. \[cd/m²\]
+    /// Luminance of all faces, whatever light falls on them. \[cd/m²\]
     Luminance(f64),
 }
 
-/// What stands outside.
+/// Obstructions of a scene in one frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     /// Overhangs, fins, neighbours: what rises above the ground.
@@ -42,10 +42,10 @@ impl Setting {
     }
 }
 
-/// A surface that sends light back.
+/// Surface of a body, or the ground.
 #[derive(Debug, Clone)]
 pub(super) struct Surface {
-    /// Where it is.
+    /// Geometry of the face.
     pub face: Face,
     /// Diffuse reflectance.
     pub reflectance: f64,
@@ -65,14 +65,14 @@ pub(super) struct Scenery<'a> {
     pub skyline: Option<&'a Skyline>,
     /// The boxes; last the building, or the room's own box.
     pub bodies: Vec<Solid>,
-    /// How many of them the ground sees.
+    /// Number of bodies that the ground sees: all, or all but the last.
     pub from_ground: usize,
     /// Six of each body, as [`Solid::face`] counts them; last the ground.
     pub surfaces: Vec<Surface>,
 }
 
 impl Surface {
-    /// Does it send back what falls on it?
+    /// Whether the surface reflects light.
     pub fn reflects(&self) -> bool {
         self.reflectance > 0.0 && self.stated.is_none()
     }
@@ -111,18 +111,18 @@ impl Scenery<'_> {
         self.bodies[..count].iter().enumerate().filter(move |(index, _)| *index != own)
     }
 
-    /// Does a point of a surface lie in another body?
+    /// Whether a point of a surface lies in another body.
     pub fn is_covered(&self, surface: usize, point: DVec3) -> bool {
         let before = point + 1e-6 * self.surfaces[surface].face.normal;
         self.others(surface).any(|(_, solid)| solid.holds(before))
     }
 }
 
-/// Bodies and surfaces. `shining`: towards the sun, and its normal illuminance.
+/// Returns bodies and surfaces of a setting. `direct_sun`: direction to the sun and its normal illuminance. \[lx\]
 pub(super) fn scenery<'a>(
     outside: &'a Outside,
     skyline: Option<&'a Skyline>,
-    shining: Option<(DVec3, f64)>,
+    direct_sun: Option<(DVec3, f64)>,
     setting: &Setting,
     turn: [f64; 2],
 ) -> Scenery<'a> {
@@ -148,7 +148,7 @@ pub(super) fn scenery<'a>(
     surfaces.push(Surface::ground(height, outside.ground_reflectance(), turn));
     let from_ground = setting.boxes.len() + usize::from(setting.building.is_some());
     let mut scenery = Scenery { open: outside, skyline, bodies, from_ground, surfaces };
-    if let Some((sun, normal)) = shining {
+    if let Some((sun, normal)) = direct_sun {
         for index in 0..scenery.surfaces.len() {
             let Surface { face, reflectance, stated, .. } = &scenery.surfaces[index];
             let towards = face.normal.dot(sun);

@@ -1,4 +1,4 @@
-//! What is seen from a point of a face or of the ground, past boxes with vertical sides.
+//! View from a point of a face or of the ground past boxes with vertical sides.
 //!
 //! Along a bearing every box is a rectangle of distance and height: its front, and its top or underside. Borders of what
 //! is seen are their ends, the horizon and the skyline, in closed form; between two of them one surface alone is seen, the
@@ -14,15 +14,15 @@ use crate::compute::sweep::rule;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Bodies that take together less than this share of the view are left out ...
+/// Share of the view below which all small bodies together are left out.
 const LEFT_OUT: f64 = 3e-4;
-/// ... if each of them is so small. \[rad\]
+/// Angular radius below which a body is small. \[rad\]
 const SMALL: f64 = 0.06;
-/// So many bodies at most, those that are seen largest, have borders of pieces of the sweep at their corners.
+/// Maximum number of bodies, the largest in view, whose corners are borders of pieces of the sweep.
 const WITH_KNOTS: usize = 12;
-/// A piece of the sweep is no longer ...
+/// Maximum length of a piece of the sweep. \[rad\]
 const PIECE: f64 = 0.35;
-/// ... and has one Gauss point more for each of these lengths that it exceeds. \[rad\]
+/// Lengths of a piece from which it has two and three Gauss points. \[rad\]
 const POINTS: [f64; 2] = [0.02, 0.12];
 /// Length for a further Gauss point along a bearing: on surfaces, and in the sky. \[rad\]
 const ON_SURFACE: f64 = 0.3;
@@ -53,7 +53,7 @@ struct Body<'a> {
     reach: f64,
 }
 
-/// What is seen along a bearing between two altitudes, if nothing is nearer.
+/// Part of a surface along a bearing between two altitudes, if nothing is nearer.
 #[derive(Clone, Copy)]
 struct Stretch {
     /// Altitudes. \[rad\]
@@ -173,7 +173,7 @@ fn bearing(v: DVec2) -> f64 {
 }
 
 impl<'a> Vista<'a> {
-    /// From a point of a surface.
+    /// Creates the view from a point of a surface.
     pub fn new(scenery: &'a Scenery<'a>, surface: usize, eye: DVec3) -> Self {
         let normal = scenery.surfaces[surface].face.normal;
         let mut known: Vec<(f64, Body<'a>)> = scenery
@@ -310,7 +310,7 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// What a body shows along a bearing.
+    /// Adds the parts of a body along a bearing.
     fn add(&self, body: &Body<'_>, along: DVec2, stretches: &mut Vec<Stretch>) {
         let Some(([near, far], front)) = body.solid.passage(self.eye.truncate(), along) else { return };
         if far <= 0.0 {
@@ -443,7 +443,7 @@ impl<'a> Vista<'a> {
     }
 }
 
-/// What is used again from bearing to bearing.
+/// Buffers that all bearings share.
 #[derive(Default)]
 struct Line {
     stretches: Vec<Stretch>,
@@ -451,7 +451,7 @@ struct Line {
     shaded: Vec<[f64; 2]>,
 }
 
-/// From where to where a line runs through a convex, counter-clockwise polygon, between two places along it.
+/// Returns the interval of a line inside a convex, counter-clockwise polygon, between two places along it.
 fn through(polygon: &[DVec2], origin: DVec2, way: DVec2, [mut from, mut to]: [f64; 2]) -> Option<[f64; 2]> {
     for (k, &corner) in polygon.iter().enumerate() {
         let side = polygon[(k + 1) % polygon.len()] - corner;

@@ -23,12 +23,16 @@ const LONGEST: usize = 26;
 
 /// Folded, what there is.
 pub fn essence(scene: &SceneFile) -> String {
-    let names: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
-    match (names.len(), names.join(", ")) {
-        (0, _) if scene.building.is_some() => texts::BUILDING.into(),
-        (0, _) => texts::NONE.into(),
-        (count, words) if words.chars().count() > LONGEST => texts::boxes_outside(count),
-        (_, words) => words,
+    let boxes: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
+    let count = boxes.len();
+    let building = || scene.building.iter().map(|_| String::from(texts::BUILDING_SHORT));
+    let words = boxes.into_iter().chain(building()).collect::<Vec<_>>().join(", ");
+    match words.chars().count() {
+        0 => texts::NONE.into(),
+        length if length > LONGEST && count > 0 => {
+            std::iter::once(texts::boxes_outside(count)).chain(building()).collect::<Vec<_>>().join(", ")
+        }
+        _ => words,
     }
 }
 
