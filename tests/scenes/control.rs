@@ -390,7 +390,7 @@ fn sun_that_boxes_keep_out_moves_nothing() {
         let moments = year(&situation, Path::new(""), &moving, 60, &SKY, &Silent).unwrap();
         moments.iter().filter(|moment| moment.settings[0].profile_angle.is_some()).count()
     };
-    let wall = Solid::new(DVec3::new(-900.0, -2.0, 0.0), DVec3::new(900.0, -1.0, 900.0), 0.0);
+    let wall = Solid::new(DVec3::new(-9e5, -2.0, 0.0), DVec3::new(9e5, -1.0, 900.0), 0.0);
     let [free, under, behind] = [Vec::new(), vec![overhang], vec![wall]].map(hours);
     assert!(behind == 0 && under > 0 && under < free, "{free} {under} {behind}");
 }
