@@ -113,6 +113,19 @@ fn opening() -> Aperture {
     Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [3.0, 1.8] }
 }
 
+/// A façade that faces south.
+fn southward<'a>(outside: &'a Outside, sun: &'a Sun) -> Facing<'a> {
+    let orientation = Orientation::new(Bearing::from_degrees(180.0));
+    Facing { outside, sun: Some(sun), orientation, surface: Surface::Facade }
+}
+
+/// The state that a rule picks for the opening, without a clock.
+fn picked(device: &Device, keys: &ControlKeys, facing: Facing<'_>) -> String {
+    let base = Path::new("");
+    let asked = ControlQuestion { keys, base, hour: None, of_year: None, facing, aperture: opening() };
+    pick_state(device, &asked).unwrap()
+}
+
 fn situation(latitude: f64, facade: f64) -> Situation {
     Situation {
         place: Place::new(latitude, 9.2, 1.0).unwrap(),
@@ -323,24 +336,11 @@ fn upright_slats_follow_the_angle_in_the_horizontal_plane() {
             let bearing = Bearing::from_radians(std::f64::consts::PI + aside);
             let direction = Dir::from_altitude_bearing(altitude.to_radians(), bearing);
             let sun = Sun { direction, direct_normal: 5e4 };
-            let facing = Facing {
-                outside: &outside,
-                sun: Some(&sun),
-                orientation: Orientation::new(Bearing::from_degrees(180.0)),
-                surface: Surface::Facade,
-            };
+            let facing = southward(&outside, &sun);
             // However high it stands.
             let at = sun_at(&facing, true).unwrap();
             assert!((at.centre.abs() - aside.abs()).abs() < 1e-9, "{altitude} {aside}: {at:?}");
-            let asked = ControlQuestion {
-                keys: &keys,
-                base: Path::new(""),
-                hour: None,
-                of_year: None,
-                facing,
-                aperture: opening(),
-            };
-            let state: f64 = pick_state(&device, &asked).unwrap().parse().unwrap();
+            let state: f64 = picked(&device, &keys, facing).parse().unwrap();
             let dark =
                 |tilt: f64| at.span.iter().all(|psi| width * (tilt + psi).sin().abs() >= spacing * psi.cos() - 1e-9);
             assert!(dark(state.to_radians()), "{altitude} {aside}: {state}");
@@ -364,23 +364,10 @@ fn sun_that_boxes_keep_out_moves_nothing() {
     for (tangent, share) in [(0.5, 1.0 - 0.6 / 1.8), (1.0, 1.0 - 1.2 / 1.8), (1.6, 0.0)] {
         let direction = Dir::from_unit(DVec3::new(0.4, -1.0, tangent).normalize());
         let sun = Sun { direction, direct_normal: 5e4 };
-        let facing = Facing {
-            outside: &outside,
-            sun: Some(&sun),
-            orientation: Orientation::new(Bearing::from_degrees(180.0)),
-            surface: Surface::Facade,
-        };
+        let facing = southward(&outside, &sun);
         let seen = inputs(&facing, &opening(), 12.0, None, false, false);
         assert!((seen.facade_direct - share * facing.sun_illuminance()).abs() < 1e-6, "{tangent}: {seen:?}");
-        let asked = ControlQuestion {
-            keys: &keys,
-            base: Path::new(""),
-            hour: None,
-            of_year: None,
-            facing,
-            aperture: opening(),
-        };
-        assert_eq!(pick_state(&device, &asked).unwrap() == "0", share == 0.0, "{tangent}");
+        assert_eq!(picked(&device, &keys, facing) == "0", share == 0.0, "{tangent}");
     }
     // Through a year: behind a wall from the ground to the sky there is never any sun, behind the overhang less of it.
     let section = SlatRow::new(SlatProfile::Flat { width: 0.08 }, 0.072).unwrap();
