@@ -7,7 +7,7 @@ use super::year_json::to_json;
 use crate::formats::FileKind;
 use crate::study::fingerprint::of_results;
 use crate::study::inputs::with_absolute_names;
-use crate::study::year::{Kept, PATIENCE, Step, Way, Year, figures, opening, scene_at, year, year_kept};
+use crate::study::year::{Kept, PATIENCE, Step, Year, figures, opening, scene_at, year, year_kept};
 use crate::study::{Library, SceneFile, Session, StudyError, read_scene_file};
 use anyhow::{Context as _, anyhow, bail};
 use jiff::civil::{Date, DateTime};
@@ -123,12 +123,12 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     for note in &year.notes {
         tell!("note: {note}");
     }
-    let by = match year.light.way {
-        Way::Coefficients => "with coefficients",
-        Way::Rooms => "each as a room",
-    };
     let lit = year.chosen.len() - year.light.dark;
-    tell!("{} steps, {lit} with light, computed {by} for {} sets of states", year.chosen.len(), year.light.sets);
+    tell!(
+        "{} steps, {lit} with light, computed with coefficients for {} sets of states",
+        year.chosen.len(),
+        year.light.sets
+    );
     Ok(())
 }
 

@@ -14,7 +14,7 @@ mod outside_seen;
 mod part;
 pub(super) mod responses;
 mod results;
-mod seen;
+pub(super) mod seen;
 pub(super) mod seen_cells;
 mod skies;
 pub(super) mod sky_patches;
@@ -46,7 +46,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
-use crate::compute::sky::{Outside, Prepared};
+use crate::compute::sky::{Counts, Outside, Prepared};
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use results::all_numbers;
@@ -86,7 +86,10 @@ pub struct Session {
     trial_skies: Cache<Vec<Outside>>,
     /// Obstructions prepared for the hours of a year.
     standing: Cache<Prepared>,
+    /// What points of apertures see of them.
+    seen_patches: Cache<Vec<Vec<Counts>>>,
     by_cells: Cache<ByCells>,
+    by_nodes: Cache<Vec<ByCells>>,
     sides: Cache<RoomSide>,
     falling: Cache<Vec<Vec<f64>>>,
     bands: Cache<Vec<BandWeights>>,
@@ -141,7 +144,9 @@ impl Session {
             exact_skies: Cache::new(18),
             trial_skies: Cache::new(3),
             standing: Cache::new(3),
+            seen_patches: Cache::new(6),
             by_cells: Cache::new(12 / part),
+            by_nodes: Cache::new(6 / part),
             sides: Cache::new(12 / part),
             falling: Cache::new(24 / part),
             bands: Cache::new(18 / part),

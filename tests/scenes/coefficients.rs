@@ -154,7 +154,7 @@ fn hours_asked_together_are_those_asked_alone_to_the_last_bit() {
         ground.with_ground(0.2, 0.0).unwrap().with_skyline(scene.outside.skyline_altitude(), 900.0).unwrap()
     };
     let skies: Vec<Outside> = (0..71).map(sky).collect();
-    let hours: Vec<_> = skies.iter().enumerate().collect();
+    let hours: Vec<_> = skies.iter().enumerate().map(|(k, sky)| (k, sky, None)).collect();
     let all = prepared.hours_estimate(&hours);
     assert!(all.len() == 71 && all[0] != all[1]);
     for part in [1, 3, 32, 50] {

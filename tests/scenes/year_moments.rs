@@ -5,7 +5,7 @@ use crate::rooms::*;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{Btdf, CellMatrix, Dataset, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank};
 use cfs::compute::estimate::Silent;
-use cfs::study::year::{Way, scene_at, year};
+use cfs::study::year::{scene_at, year};
 use cfs::study::{Library, Scene, SceneFile, Session, SystemLibrary};
 use std::path::Path;
 
@@ -50,8 +50,7 @@ fn hours_are_moments(name: &str, text: &str, library: &dyn SystemLibrary, [slack
     let file = SceneFile::parse(text).unwrap();
     let session = Session::new();
     let year = year(&file, base, library, &session, &|_| true, &Silent).unwrap();
-    let way = if file.outside.is_empty() { Way::Coefficients } else { Way::Rooms };
-    assert_eq!((year.light.way, year.light.dark), (way, 0), "{name}");
+    assert_eq!(year.light.dark, 0, "{name}");
     // By itself: nothing of what the year has prepared stands in for the moment.
     let moments = Session::new();
     let places = year.light.places;

@@ -3,6 +3,7 @@
 use super::aperture::Aperture;
 use super::direct::{Reception, Sensor};
 use super::mesh::{Mesh, Patch, Wall};
+use super::nodes::Nodes;
 use crate::compute::basis::{AzimuthMap, Resampling, Ring, RingBasis};
 use crate::compute::dot::dot;
 use crate::compute::quadrature::gauss_legendre;
@@ -86,18 +87,52 @@ impl PatchWeights {
                 row
             })
             .collect();
+        Self::closed(mesh, aperture.area(), basis, rows)
+    }
+
+    /// `area`: what the light leaves.
+    fn closed(mesh: &Mesh, area: f64, basis: Arc<RingBasis>, rows: Vec<Vec<f64>>) -> Self {
         let mut received = vec![0.0; basis.len()];
         for (row, patch) in rows.iter().zip(&mesh.patches) {
             for (sum, weight) in received.iter_mut().zip(row) {
                 *sum += patch.area * weight;
             }
         }
-        let closure = basis
-            .cells()
-            .zip(&received)
-            .map(|(cell, r)| r / (aperture.area() * cell.projected_solid_angle()))
-            .collect();
+        let closure = basis.cells().zip(&received).map(|(cell, r)| r / (area * cell.projected_solid_angle())).collect();
         Self { basis, rows, closure, received }
+    }
+
+    /// Of the same for light that is 1 at one of an aperture's nodes and 0 at the others, node by node.
+    pub fn by_node(mesh: &Mesh, aperture: &Aperture, basis: &Arc<RingBasis>, nodes: &Nodes) -> Vec<Self> {
+        let (rules, count) = (rules(3), nodes.count());
+        let of = |patch: &Patch| {
+            let wall = &mesh.walls[patch.wall];
+            let mut rows = vec![Vec::new(); count];
+            for (position, share) in samples(patch, wall, &rules, points_a_side(patch, wall, aperture)) {
+                let Some(view) = aperture.view(position, wall.normal) else { continue };
+                let reception = Reception::new(&Sensor { position, normal: wall.normal }, aperture, Some(basis));
+                let mut seen = vec![0.0; basis.len() * count];
+                nodes.add_seen(&view, basis, &mut seen);
+                let all: f64 = seen.iter().sum();
+                let mean: Vec<f64> =
+                    (0..count).map(|node| seen[node..].iter().step_by(count).sum::<f64>() / all).collect();
+                for (cell, counts) in reception.cells.iter().enumerate().filter(|(_, counts)| **counts != 0.0) {
+                    let own = &seen[cell * count..(cell + 1) * count];
+                    let sum: f64 = own.iter().sum();
+                    for (node, row) in rows.iter_mut().enumerate() {
+                        row.resize(basis.len(), 0.0);
+                        row[cell] += share * counts * if sum > 0.0 { own[node] / sum } else { mean[node] };
+                    }
+                }
+            }
+            rows
+        };
+        let by_patch: Vec<Vec<Vec<f64>>> = mesh.patches.par_iter().map(of).collect();
+        let of_node = |(node, part): (usize, f64)| {
+            let rows = by_patch.iter().map(|rows| rows[node].clone()).collect();
+            Self::closed(mesh, part * aperture.area(), Arc::clone(basis), rows)
+        };
+        nodes.parts().into_iter().enumerate().map(of_node).collect()
     }
 
     /// Mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the aperture;

@@ -12,6 +12,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::lid::Facing;
 use crate::compute::polygon::{clip, projected_solid_angle};
 use crate::compute::quadrature::{Rectangle, Tolerance, gauss_legendre, integrate_smooth_rectangles};
+use crate::compute::sequence::net;
 use crate::compute::sky::irradiance_through;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -120,6 +121,23 @@ pub fn nodes(view: &View, y: [f64; 2], rules: &[Vec<(f64, f64)>], mut visit: imp
             let solid = (1.0 + x * x) * (1.0 + y * y) / (square * square.sqrt());
             visit(d, area * ws * wt * solid * view.normal.dot(d).max(0.0));
         }
+    }
+}
+
+/// Directions of the façade frame spread over an opening, with the solid angle that each stands for times the sensor's cosine
+/// \[sr\] and its place on the opening, shares of the sides. `count`: a power of two.
+pub fn spread(view: &View, count: u32, mut visit: impl FnMut(DVec3, f64, [f64; 2])) {
+    let range = |limits: [f64; 2]| limits.map(|x| (x / view.distance).atan());
+    let ([a0, a1], [b0, b1]) = (range(view.x), range(view.y));
+    let share = |at: f64, [low, high]: [f64; 2]| ((at * view.distance - low) / (high - low)).clamp(0.0, 1.0);
+    for number in 0..count {
+        let [s, t] = net(number, 0);
+        let [x, y] = [a0 + (a1 - a0) * s, b0 + (b1 - b0) * t].map(f64::tan);
+        let square = 1.0 + x * x + y * y;
+        let d = DVec3::new(x, y, 1.0) / square.sqrt();
+        let solid = (1.0 + x * x) * (1.0 + y * y) / (square * square.sqrt());
+        let counts = (a1 - a0) * (b1 - b0) / f64::from(count) * solid * view.normal.dot(d).max(0.0);
+        visit(d, counts, [share(x, view.x), share(y, view.y)]);
     }
 }
 

@@ -34,7 +34,7 @@ impl Dome {
     }
 
     /// Returns the number of directions.
-    pub fn len(&self) -> usize {
+    pub const fn len(&self) -> usize {
         self.directions.len()
     }
 

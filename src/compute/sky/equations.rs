@@ -5,21 +5,22 @@ use super::scenery::{Scenery, Surface};
 use super::vista::Vista;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::surroundings::face_light::FaceLight;
+use faer::Mat;
+use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Maximum number of panels of a face in the equations.
-const MOST_COARSE: usize = 4;
 /// Number of surfaces above which each has panels of one node in the equations.
 const MANY: usize = 100;
-/// Maximum length of a panel of the ground relative to the size of the next body, or its distance.
-const COARSE_GROUND: f64 = 2.0;
+/// Maximum number of panels of a face in the equations of a single moment, and maximum length of a panel of the ground relative to
+/// the size of the next body, or its distance.
+const COARSE: (usize, f64) = (4, 2.0);
 /// Relative accuracy of the solution.
 const SOLVED: f64 = 1e-6;
 
-/// Projected solid angles of panel nodes as seen from a point: node and weight. \[sr\]
-pub(super) type Counts = Vec<(u32, f32)>;
+/// Projected solid angles of panel nodes, or other luminances, as seen from a point: place in a list and weight. \[sr\]
+pub type Counts = Vec<(u32, f32)>;
 
 /// Panels of all surfaces, with their nodes numbered throughout.
 pub(super) struct Panels {
@@ -42,13 +43,14 @@ impl Panels {
         Self { lights, first, places }
     }
 
-    /// Makes a few dark panels for every reflecting surface.
-    pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround) -> Self {
+    /// Makes a few dark panels for every reflecting surface, `most` of a face; `length`: of a panel of the ground, relative to the
+    /// size of the next body, or its distance.
+    pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround, (most, length): (usize, f64)) -> Self {
         let many = scenery.surfaces.iter().filter(|surface| surface.reflects()).count() > MANY;
         let of = |(index, surface): (usize, &Surface)| match surface.stated {
             Some(luminance) => FaceLight::even(luminance),
             None if !surface.reflects() => FaceLight::even(0.0),
-            None => ground.panels(scenery, index, if many { 1 } else { MOST_COARSE }, COARSE_GROUND, many),
+            None => ground.panels(scenery, index, if many { 1 } else { most }, length, many),
         };
         Self::new(scenery.surfaces.iter().enumerate().map(of).collect())
     }
@@ -146,6 +148,28 @@ impl Exchange {
         }
         self.source.iter().map(|node| light[*node]).collect()
     }
+
+    /// Solves the same for many sets of illuminances at once. `falling`: rows of nodes, a column for each set. \[lx\]
+    pub fn solved_together(&self, scenery: &Scenery<'_>, falling: &Mat<f32>) -> Mat<f32> {
+        let count = falling.nrows();
+        let albedo: Vec<f32> = self
+            .panels
+            .places
+            .iter()
+            .map(|(surface, _)| (scenery.surfaces[*surface].reflectance / PI) as f32)
+            .collect();
+        let mut system = Mat::<f32>::identity(count, count);
+        for (node, seen) in self.seen.iter().enumerate() {
+            for (other, counts) in seen.iter().flatten() {
+                system[(node, *other as usize)] -= albedo[node] * counts;
+            }
+        }
+        let right = Mat::from_fn(count, falling.ncols(), |node, set| albedo[node] * falling[(node, set)]);
+        // One thread: the result must not depend on their number.
+        faer::set_global_parallelism(faer::Par::Seq);
+        let solved = system.partial_piv_lu().solve(&right);
+        Mat::from_fn(count, falling.ncols(), |node, set| solved[(self.source[node], set)])
+    }
 }
 
 /// Returns the luminance of all surfaces without the sun's own light, on few panels.
@@ -154,7 +178,7 @@ pub(super) fn coarse(
     ground: &OpenGround,
     progress: &dyn Progress,
 ) -> Result<Vec<FaceLight>, Cancelled> {
-    let panels = Panels::coarse(scenery, ground);
+    let panels = Panels::coarse(scenery, ground, COARSE);
     let rows = panels.each(scenery, progress, |vista| {
         let mut counts = vec![0.0; panels.places.len()];
         let mut beyond = 0.0;
@@ -170,6 +194,35 @@ pub(super) fn coarse(
     let falling: Vec<f64> = rows.iter().map(|row| row.as_ref().map_or(0.0, |row| row.0)).collect();
     let exchange = Exchange::new(panels, rows.into_iter().map(|row| Some(row?.1)).collect());
     Ok(exchange.panels().with(&exchange.solved(scenery, &falling)))
+}
+
+/// A sum of weights over a long list of which few count.
+pub struct SparseSum {
+    weights: Vec<f64>,
+    /// Places that count, some perhaps twice.
+    places: Vec<u32>,
+}
+
+impl SparseSum {
+    /// Makes an empty sum over a list of so many.
+    pub fn new(count: usize) -> Self {
+        Self { weights: vec![0.0; count], places: Vec::new() }
+    }
+
+    /// Adds a weight.
+    pub fn add(&mut self, place: usize, weight: f64) {
+        if self.weights[place] == 0.0 {
+            self.places.push(place as u32);
+        }
+        self.weights[place] += weight;
+    }
+
+    /// Returns the weights that are not 0 and leaves nothing.
+    pub fn take(&mut self) -> Counts {
+        let weights = &mut self.weights;
+        let taken = self.places.drain(..).map(|place| (place, std::mem::take(&mut weights[place as usize]) as f32));
+        taken.filter(|(_, weight)| *weight != 0.0).collect()
+    }
 }
 
 /// Returns the weights that are not 0, with their places.

@@ -1,122 +1,150 @@
 //! Obstructions and ground prepared for many skies and suns: daylight coefficients of their surfaces.
 //!
-//! Weights of the sky's directions and of the surfaces' light on each other depend on the geometry alone and are computed once;
-//! the luminance of all surfaces under another sky is then a sum. Light of sunlit surfaces is gathered for every sun, between
-//! the exact edges of shadows. Panels are those that suit a uniform sky with a sun in front of the façade; their error under other
-//! skies is part of the stated one.
+//! A moment is a list of luminances: the sky in the directions of a grid, what the sun adds to the cells of the surfaces, and
+//! the other luminance of the surfaces at the nodes of their panels. The last follows from the others by a matrix, found once,
+//! in which light goes to and fro between surfaces until nothing is left. What is seen from a point in a direction is then a sum
+//! over the list with weights that do not depend on sky and sun.
 
 use super::dome::Dome;
-use super::equations::{Exchange, Panels, sparse};
-use super::faces::{assembled, direct_sun, lights, wanted};
+use super::equations::{Counts, Exchange, Panels, SparseSum, sparse};
+use super::faces::{assembled, direct_sun, wanted};
 use super::open_ground::OpenGround;
 use super::outside::Outside;
-use super::scenery::{Setting, scenery};
+use super::region::Frame;
+use super::scenery::{Scenery, Setting, scenery};
+use super::sunlit::SunCells;
 use super::vista::{Collector, Vista};
 use super::{Distribution, Sun};
-use crate::compute::direction::Dir;
+use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::sequence::net;
+use crate::compute::surroundings::first_hit;
 use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::surroundings::solid::{Face, Solid};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
 use glam::DVec3;
-use rayon::prelude::*;
-use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
-/// Spacing of the sky directions that light surfaces. \[rad\]
-const SPACING: f64 = 0.1;
-/// Moment that the panels are made for: reflectance of the ground; upward and sideward parts of the direction to the sun per
-/// part along the façade's normal; direct normal illuminance per horizontal illuminance of the sky.
-const TRIAL: [f64; 4] = [0.2, 0.8, 0.3, 3.0];
+/// Spacing of the sky directions \[rad\]; side of the sunlit cells relative to their distance, and least side \[m\]: of those that
+/// light surfaces, and of those that are seen.
+const LIGHTING: [f64; 3] = [0.1, 0.6, 0.5];
+const SEEN: [f64; 3] = [0.05, 0.15, 0.1];
+/// Panels of a face at most, as far as other bodies border them, and the greatest length of a panel of the ground relative to the
+/// size of the next body, or its distance.
+const PANELS: (usize, f64) = (4, 1.0);
+/// Reflectance of the ground while weights are found: it reflects.
+const GROUND: f64 = 0.2;
 /// Error of the panels under other skies and suns, relative to the luminance of a surface without the sun's own: several times
 /// the mean error in the test of this file.
 const OTHERS: f64 = 1e-2;
+/// Directions of one point's patches together, and of a patch at least and at most.
+const DIRECTIONS: usize = 20_000;
+const OF_A_PATCH: [usize; 2] = [8, 256];
 
 /// Boxes, building and ground ready for any sky behind the same skyline, any sun and any reflectance of the ground.
 pub struct Prepared {
+    /// No other has it.
+    number: u64,
     setting: Setting,
     turn: [f64; 2],
     viewpoints: Vec<DVec3>,
-    dome: Dome,
-    exchange: Exchange,
-    /// Weights at the nodes of the exchange; `None` where a body covers one.
-    rows: Vec<Option<Row>>,
     wanted: Vec<usize>,
+    /// The boxes, what is stated of the luminance of every surface, and the ground. \[cd/m²\]
+    boxes: Vec<Solid>,
+    stated: Vec<Option<f64>>,
+    ground: (Face, OpenGround),
+    skyline: Option<Skyline>,
+    /// Sine of the altitude of a flat skyline.
+    flat: f64,
+    lighting: Sources,
+    seen: Sources,
+    exchange: Exchange,
+    /// Illuminance of the nodes: rows of nodes, columns of the sources that light them.
+    falling: Mat<f32>,
+    /// Luminance of the nodes of surfaces that are seen, by the reflectance of the ground.
+    solved: Mutex<Vec<(u64, Arc<Mat<f32>>)>>,
+    /// Places of these nodes among all.
+    nodes: Vec<usize>,
+    /// Place of every node among these.
+    place: Vec<Option<usize>>,
 }
 
-/// Weights of everything that lights a node: projected solid angles. \[sr\]
-struct Row {
-    /// Directions of the sky.
-    sky: Vec<f32>,
-    skyline: f64,
-    /// Illuminance by surfaces of stated luminance. \[lx\]
-    stated: f64,
-    /// Ground beyond the panels.
-    beyond: f64,
+/// Luminances in a list: directions of the sky, the skyline, what is stated (as 1), open ground beyond the panels, what the sun
+/// adds to cells.
+struct Sources {
+    dome: Dome,
+    cells: SunCells,
 }
 
-/// Luminances of one moment. \[cd/m²\]
-struct Moment {
-    sky: Vec<f32>,
-    skyline: f64,
-    beyond: f64,
+impl Sources {
+    const fn skyline(&self) -> usize {
+        self.dome.len()
+    }
+
+    const fn stated(&self) -> usize {
+        self.dome.len() + 1
+    }
+
+    const fn beyond(&self) -> usize {
+        self.dome.len() + 2
+    }
+
+    const fn first_cell(&self) -> usize {
+        self.dome.len() + 3
+    }
+
+    const fn len(&self) -> usize {
+        self.first_cell() + self.cells.len()
+    }
+
+    /// Of a moment. \[cd/m²\]
+    fn luminances(&self, outside: &Outside, scenery: &Scenery<'_>) -> Vec<f32> {
+        let skyline = scenery.skyline.map_or(outside.skyline_luminance(), |skyline| skyline.luminance);
+        let even = [skyline, 1.0, outside.ground_luminance()];
+        let sky = self.dome.luminances(outside).into_iter().chain(even);
+        sky.chain(self.cells.luminances(scenery)).map(|luminance| luminance as f32).collect()
+    }
 }
 
-/// A row while it is collected.
+/// What lights a node while it is collected.
 struct Gathering<'a> {
-    dome: &'a Dome,
+    sources: &'a Sources,
     ground: (usize, &'a OpenGround),
     exchange: &'a Panels,
-    sky: Vec<f64>,
+    /// By source, and by other node.
+    row: Vec<f64>,
     by_other: Vec<f64>,
-    skyline: f64,
-    stated: f64,
-    beyond: f64,
 }
 
 impl Collector for Gathering<'_> {
     fn sky(&mut self, towards: DVec3, counts: f64) {
-        self.dome.spread(towards, |node, share| self.sky[node] += counts * share);
+        self.sources.dome.spread(towards, |node, share| self.row[node] += counts * share);
     }
 
     fn skyline(&mut self, counts: f64) {
-        self.skyline += counts;
+        self.row[self.sources.skyline()] += counts;
     }
 
     fn stated(&mut self, luminance: f64, counts: f64) {
-        self.stated += counts * luminance;
+        self.row[self.sources.stated()] += counts * luminance;
     }
 
     fn place(&mut self, surface: usize, at: [f64; 2], counts: f64) {
         if surface == self.ground.0 && !self.ground.1.holds(at) {
-            self.beyond += counts;
+            self.row[self.sources.beyond()] += counts;
             return;
         }
+        self.sources.cells.at(surface, at, |cell| self.row[self.sources.first_cell() + cell] += counts);
         self.exchange.weigh(surface, at, |node, share| self.by_other[node] += counts * share);
     }
 
     fn sunlit(&mut self, _: usize, _: f64) {}
 }
 
-impl Row {
-    /// Returns the illuminance of the node without the light of the exchange. \[lx\]
-    fn falling(&self, moment: &Moment) -> f64 {
-        let sky: f32 = self.sky.iter().zip(&moment.sky).map(|(counts, luminance)| counts * luminance).sum();
-        f64::from(sky) + self.skyline * moment.skyline + self.stated + self.beyond * moment.beyond
-    }
-}
-
 fn skyline(outside: &Outside) -> Option<&Skyline> {
     outside.surroundings()?.skyline.as_ref()
-}
-
-/// Returns sky and sun of the moment that panels are made for.
-fn trial(outside: &Outside, [cos, sin]: [f64; 2]) -> (Outside, Sun) {
-    let [reflectance, rise, aside, normal] = TRIAL;
-    let [right, before] = [DVec3::new(cos, sin, 0.0), DVec3::new(sin, -cos, 0.0)];
-    let direction = Dir::new(before + aside * right + rise * DVec3::Z).expect("parts along three axes");
-    let sun = Sun { direction, direct_normal: normal };
-    let sky = Outside::new(Distribution::uniform(), 1.0)
-        .and_then(|sky| sky.with_ground(reflectance, sun.horizontal()))
-        .and_then(|sky| sky.with_skyline(outside.skyline_altitude(), 0.0));
-    (sky.expect("a uniform sky, and a skyline that is there already"), sun)
 }
 
 impl Prepared {
@@ -132,40 +160,185 @@ impl Prepared {
         viewpoints: Vec<DVec3>,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let (sky, sun) = trial(outside, turn);
+        let sky = Outside::new(Distribution::uniform(), 1.0)
+            .and_then(|sky| sky.with_ground(GROUND, 0.0))
+            .and_then(|sky| sky.with_skyline(outside.skyline_altitude(), 0.0));
+        let sky = sky.expect("a uniform sky, and a skyline that is there already");
         let skyline = skyline(outside);
-        let lit = direct_sun(&sky, skyline, Some(&sun));
-        let tried = scenery(&sky, skyline, lit, &setting, turn);
-        let ground = OpenGround::of(&tried, &viewpoints);
-        let wanted = wanted(&tried, &viewpoints);
-        let panels = Panels::new(lights(&tried, &ground, &wanted, &viewpoints, progress)?);
         // Without a sun every part of a surface is collected, whether it will be sunlit or not.
         let scenery = scenery(&sky, skyline, None, &setting, turn);
-        let dome = Dome::new(SPACING);
+        let ground = OpenGround::of(&scenery, &viewpoints);
+        let wanted = wanted(&scenery, &viewpoints);
+        let panels = Panels::coarse(&scenery, &ground, PANELS);
+        let sources = |[spacing, side, least]: [f64; 3], wanted: Option<&[usize]>| {
+            let cells = SunCells::new(&scenery, &ground, wanted, &viewpoints, [side, least]);
+            Sources { dome: Dome::new(spacing), cells }
+        };
+        let lighting = sources(LIGHTING, None);
         let row = |vista: Vista<'_>| {
             let mut all = Gathering {
-                dome: &dome,
+                sources: &lighting,
                 ground: (scenery.ground(), &ground),
                 exchange: &panels,
-                sky: vec![0.0; dome.len()],
+                row: vec![0.0; lighting.len()],
                 by_other: vec![0.0; panels.places.len()],
-                skyline: 0.0,
-                stated: 0.0,
-                beyond: 0.0,
             };
             vista.collect(&mut all);
-            let row = Row {
-                sky: all.sky.iter().map(|counts| *counts as f32).collect(),
-                skyline: all.skyline,
-                stated: all.stated,
-                beyond: all.beyond,
-            };
-            (row, sparse(&all.by_other))
+            (all.row.iter().map(|counts| *counts as f32).collect::<Vec<f32>>(), sparse(&all.by_other))
         };
         let found = panels.each(&scenery, progress, row)?;
-        let (rows, seen) = found.into_iter().map(Option::unzip).unzip();
-        let exchange = Exchange::new(panels, seen);
-        Ok(Self { setting, turn, viewpoints, dome, exchange, rows, wanted })
+        let (rows, seen): (Vec<_>, Vec<_>) = found.into_iter().map(Option::unzip).unzip();
+        let falling = Mat::from_fn(rows.len(), lighting.len(), |node, source| {
+            rows[node].as_ref().map_or(0.0, |row: &Vec<f32>| row[source])
+        });
+        let mut nodes = Vec::new();
+        let place = |(node, (surface, _)): (usize, &(usize, [f64; 2]))| {
+            wanted.contains(surface).then(|| {
+                nodes.push(node);
+                nodes.len() - 1
+            })
+        };
+        let place = panels.places.iter().enumerate().map(place).collect();
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        Ok(Self {
+            number: NUMBER.fetch_add(1, Ordering::Relaxed),
+            boxes: scenery.bodies[..scenery.bodies.len() - 1].to_vec(),
+            stated: scenery.surfaces.iter().map(|surface| surface.stated).collect(),
+            skyline: skyline.cloned(),
+            flat: outside.skyline_altitude().sin(),
+            seen: sources(SEEN, Some(&wanted)),
+            exchange: Exchange::new(panels, seen),
+            solved: Mutex::default(),
+            ground: (scenery.surfaces[scenery.ground()].face, ground),
+            setting,
+            turn,
+            viewpoints,
+            wanted,
+            lighting,
+            falling,
+            nodes,
+            place,
+        })
+    }
+
+    /// Returns a number that no other prepared obstructions have.
+    pub const fn number(&self) -> u64 {
+        self.number
+    }
+
+    /// Returns the boxes, without building and ground.
+    pub fn boxes(&self) -> &[Solid] {
+        &self.boxes
+    }
+
+    /// Returns the number of luminances of a moment.
+    pub const fn count(&self) -> usize {
+        self.seen.len() + self.nodes.len()
+    }
+
+    /// Luminance of the nodes that are seen by source, for the ground of a scenery.
+    fn solved(&self, scenery: &Scenery<'_>) -> Arc<Mat<f32>> {
+        let key = scenery.surfaces[scenery.ground()].reflectance.to_bits();
+        // What is kept is whole even if another thread has failed while it held the lock.
+        let mut kept = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = kept.iter().find(|(known, _)| *known == key) {
+            return Arc::clone(found);
+        }
+        let all = self.exchange.solved_together(scenery, &self.falling);
+        let seen = Arc::new(Mat::from_fn(self.nodes.len(), all.ncols(), |row, source| all[(self.nodes[row], source)]));
+        kept.push((key, Arc::clone(&seen)));
+        seen
+    }
+
+    /// Luminance of the nodes that are seen, without the sun's own, in moments with the same ground. \[cd/m²\]
+    fn exchanged(&self, moments: &[(&Outside, &Scenery<'_>)]) -> Vec<Vec<f32>> {
+        let Some((_, scenery)) = moments.first() else { return Vec::new() };
+        let sent: Vec<f32> =
+            moments.iter().flat_map(|(outside, scenery)| self.lighting.luminances(outside, scenery)).collect();
+        let sent = MatRef::from_column_major_slice(&sent, self.lighting.len(), moments.len());
+        let mut light = Mat::zeros(self.nodes.len(), moments.len());
+        matmul(light.as_mut(), Accum::Replace, self.solved(scenery).as_ref(), sent, 1.0, Par::Seq);
+        (0..moments.len()).map(|moment| light.col_as_slice(moment).to_vec()).collect()
+    }
+
+    fn scenery<'a>(&self, outside: &'a Outside, sun: Option<&Sun>) -> Scenery<'a> {
+        let skyline = skyline(outside);
+        scenery(outside, skyline, direct_sun(outside, skyline, sun), &self.setting, self.turn)
+    }
+
+    /// Returns the luminances of moments, [`Self::count`] of each: of the sky, of sunlit cells, of surfaces. \[cd/m²\]
+    pub fn luminances(&self, moments: &[(&Outside, Option<&Sun>)]) -> Vec<Vec<f32>> {
+        let sceneries: Vec<Scenery<'_>> = moments.iter().map(|(outside, sun)| self.scenery(outside, *sun)).collect();
+        let moments: Vec<_> = moments.iter().map(|(outside, _)| *outside).zip(&sceneries).collect();
+        let same = |a: &(&Outside, &Scenery<'_>), b: &(&Outside, &Scenery<'_>)| {
+            a.0.ground_reflectance() == b.0.ground_reflectance()
+        };
+        let surfaces = moments.chunk_by(same).flat_map(|moments| self.exchanged(moments));
+        let whole = |((outside, scenery), surfaces): (&(&Outside, &Scenery<'_>), Vec<f32>)| {
+            [self.seen.luminances(outside, scenery), surfaces].concat()
+        };
+        moments.iter().zip(surfaces).map(whole).collect()
+    }
+
+    /// Calls `add` with the places of the luminances that are seen from a point in a direction, and what each counts for.
+    pub fn look(&self, eye: DVec3, towards: DVec3, mut add: impl FnMut(usize, f64)) {
+        let sources = &self.seen;
+        let hit = first_hit(self.boxes.iter().enumerate(), eye, towards);
+        let (face, ground) = &self.ground;
+        let to_ground = if towards.z < 0.0 { ((face.origin.z - eye.z) / towards.z).max(0.0) } else { f64::INFINITY };
+        let (surface, distance) = match hit.filter(|(_, distance, _)| *distance < to_ground) {
+            Some((solid, distance, number)) => (6 * solid + number, distance),
+            None if to_ground < f64::INFINITY => (self.stated.len() - 1, to_ground),
+            None => {
+                let hidden =
+                    self.skyline.as_ref().is_some_and(|skyline| skyline.covers(towards)) || towards.z < self.flat;
+                if hidden {
+                    add(sources.skyline(), 1.0)
+                } else {
+                    sources.dome.spread(towards, add)
+                }
+                return;
+            }
+        };
+        let point = eye + distance * towards;
+        if let Some(luminance) = self.stated[surface] {
+            return add(sources.stated(), luminance);
+        }
+        let at = if surface == self.stated.len() - 1 {
+            face.coordinates(point)
+        } else {
+            self.boxes[surface / 6].face(surface % 6).coordinates(point)
+        };
+        if surface == self.stated.len() - 1 && !ground.holds(at) {
+            return add(sources.beyond(), 1.0);
+        }
+        sources.cells.at(surface, at, |cell| add(sources.first_cell() + cell, 1.0));
+        self.exchange.panels().weigh(surface, at, |node, share| {
+            if let Some(place) = self.place[node] {
+                add(sources.len() + place, share);
+            }
+        });
+    }
+
+    /// Returns what the luminances of a moment count for in the illuminance of the plane of `frame` at a point, through every
+    /// patch of a division of its hemisphere. \[sr\]
+    pub fn patches(&self, eye: DVec3, frame: &Frame, basis: &RingBasis) -> Vec<Counts> {
+        let [least, most] = OF_A_PATCH;
+        let count = (DIRECTIONS / basis.len()).next_power_of_two().clamp(least, most);
+        let mut row = SparseSum::new(self.count());
+        let of = |index: usize| {
+            let cell = basis.cell(index);
+            let [inner, outer] = [cell.theta_min, cell.theta_max].map(|theta| theta.sin().powi(2));
+            let counts = cell.projected_solid_angle() / count as f64;
+            for number in 0..count {
+                let [s, t] = net(number as u32, index as u64);
+                let theta = (inner + (outer - inner) * s).sqrt().asin();
+                let towards = frame.direction(theta, cell.phi + (t - 0.5) * cell.width);
+                self.look(eye, towards, |place, share| row.add(place, counts * share));
+            }
+            row.take()
+        };
+        (0..basis.len()).map(of).collect()
     }
 
     /// Returns `outside`, which has the same skyline, with boxes and ground before it as sky and sun light them.
@@ -174,19 +347,11 @@ impl Prepared {
         let direct_sun = direct_sun(outside, skyline, sun);
         let scenery = scenery(outside, skyline, direct_sun, &self.setting, self.turn);
         let ground = OpenGround::of(&scenery, &self.viewpoints);
-        let moment = Moment {
-            sky: self.dome.luminances(outside).into_iter().map(|luminance| luminance as f32).collect(),
-            skyline: skyline.map_or(outside.skyline_luminance(), |skyline| skyline.luminance),
-            beyond: ground.luminance,
-        };
-        let places = &self.exchange.panels().places;
-        let falling = |(&(surface, [u, v]), row): (&(usize, [f64; 2]), &Option<Row>)| {
-            let Some(row) = row else { return 0.0 };
-            let vista = || Vista::new(&scenery, surface, scenery.surfaces[surface].face.point(u, v));
-            row.falling(&moment) + if direct_sun.is_some() { vista().sunlit() } else { 0.0 }
-        };
-        let falling: Vec<f64> = places.par_iter().zip(&self.rows).map(falling).collect();
-        let mut lights = self.exchange.panels().with(&self.exchange.solved(&scenery, &falling));
+        let mut values = vec![0.0; self.place.len()];
+        for (node, luminance) in self.nodes.iter().zip(self.exchanged(&[(outside, &scenery)]).concat()) {
+            values[*node] = f64::from(luminance);
+        }
+        let mut lights = self.exchange.panels().with(&values);
         lights.iter_mut().for_each(|light| light.error += OTHERS);
         let around = assembled(&scenery, &ground, lights, &self.wanted, direct_sun.map(|(direction, _)| direction));
         outside.open().behind(Arc::new(around))
@@ -196,9 +361,12 @@ impl Prepared {
 #[cfg(test)]
 mod tests {
     use super::super::faces::surroundings;
+    use super::super::incident_illuminances_within;
     use super::super::scenery::Finish;
     use super::*;
     use crate::compute::angle::Bearing;
+    use crate::compute::basis::AzimuthMap;
+    use crate::compute::direction::Dir;
     use crate::compute::estimate::Silent;
     use crate::compute::surroundings::Surroundings;
     use crate::compute::surroundings::solid::Solid;
@@ -230,7 +398,10 @@ mod tests {
         };
         let (first, _) = under(0.5, 180.0, 16, 0.2);
         let prepared = Prepared::new(&first, setting.clone(), turn, eyes.clone(), &Silent).unwrap();
-        let mut most = 0.0_f64;
+        let eye = DVec3::new(2.0, 0.0, 1.8);
+        let (frame, basis) = (Frame::facing(Dir::from_unit(DVec3::NEG_Y)), RingBasis::klems_full(AzimuthMap::FACADE));
+        let rows = prepared.patches(eye, &frame, &basis);
+        let (mut most, mut most_of_patches) = (0.0_f64, 0.0_f64);
         for (altitude, bearing, kind, ground) in [
             (0.3, 120.0, 12, 0.2),
             (0.7, 200.0, 12, 0.6),
@@ -248,13 +419,21 @@ mod tests {
                 let (u, v) = ((0.754_877 * f64::from(k)).fract(), (0.569_840 * f64::from(k)).fract());
                 let (radius, phi) = (u.sqrt(), 2.0 * PI * v);
                 let towards = DVec3::new(radius * phi.cos(), -(1.0 - u).sqrt(), radius * phi.sin());
-                let eye = DVec3::new(2.0, 0.0, 1.8);
                 let [a, b] = [&found, &exact].map(|one| one.seen_from(eye).luminance(Dir::from_unit(towards)));
                 off += (a - b).abs();
                 all += b;
             }
             most = most.max(off / all);
+            // What is seen from a point through single patches, against integrals between the edges of bodies and shadows.
+            let luminances = prepared.luminances(&[(&outside, Some(&sun))]).concat();
+            let of = |row: &Counts| row.iter().map(|(k, counts)| f64::from(counts * luminances[*k as usize])).sum();
+            let by_patch: Vec<f64> = rows.iter().map(of).collect();
+            let exact = incident_illuminances_within(&exact.seen_from(eye), &basis, &frame, 1e-4);
+            let [all, sum]: [f64; 2] = [exact.iter().map(|e| e.value).sum(), by_patch.iter().sum()];
+            let off: f64 = exact.iter().zip(&by_patch).map(|(exact, e)| (exact.value - e).abs()).sum();
+            most_of_patches = most_of_patches.max(off / all);
+            assert!((sum / all - 1.0).abs() < 3e-3, "{altitude} {bearing}: {sum} {all}");
         }
-        assert!(most < 2e-3, "{most:.2e}");
+        assert!(most < 5e-3 && most_of_patches < 2e-2, "{most:.2e} {most_of_patches:.2e}");
     }
 }

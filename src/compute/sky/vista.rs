@@ -94,32 +94,6 @@ pub(super) trait Collector {
     fn place(&mut self, surface: usize, at: [f64; 2], counts: f64);
     /// Adds the sunlit part of a reflecting surface.
     fn sunlit(&mut self, surface: usize, counts: f64);
-    /// Whether anything but sunlit parts is collected.
-    fn takes_all(&self) -> bool {
-        true
-    }
-}
-
-/// Illuminance at the point by sunlit surfaces alone.
-struct SunlitOnly<'a> {
-    scenery: &'a Scenery<'a>,
-    /// \[lx\]
-    sum: f64,
-}
-
-impl Collector for SunlitOnly<'_> {
-    fn sky(&mut self, _: DVec3, _: f64) {}
-    fn skyline(&mut self, _: f64) {}
-    fn stated(&mut self, _: f64, _: f64) {}
-    fn place(&mut self, _: usize, _: [f64; 2], _: f64) {}
-
-    fn sunlit(&mut self, surface: usize, counts: f64) {
-        self.sum += counts * self.scenery.surfaces[surface].sun;
-    }
-
-    fn takes_all(&self) -> bool {
-        false
-    }
 }
 
 /// Illuminance at the point by sky, skyline, stated luminances and sunlit surfaces; the other light of surfaces is left to
@@ -213,13 +187,6 @@ impl<'a> Vista<'a> {
         falling.sum
     }
 
-    /// Returns the illuminance at the point by surfaces that the sun lights, but for their other light. \[lx\]
-    pub fn sunlit(&self) -> f64 {
-        let mut sunlit = SunlitOnly { scenery: self.scenery, sum: 0.0 };
-        self.collect(&mut sunlit);
-        sunlit.sum
-    }
-
     /// Collects everything that is seen.
     pub fn collect(&self, collector: &mut impl Collector) {
         // Faces are vertical or horizontal: a wall sees half of all bearings.
@@ -304,8 +271,7 @@ impl<'a> Vista<'a> {
                 }
                 None if to <= 0.0 => {}
                 None if to <= top + 1e-13 => collector.skyline(width * self.between(along, from, to)),
-                None if collector.takes_all() => self.sky(along, [from, to], width, collector),
-                None => {}
+                None => self.sky(along, [from, to], width, collector),
             }
         }
     }
@@ -370,8 +336,7 @@ impl<'a> Vista<'a> {
             surface.face.coordinates(self.eye + (distance * along).extend(above))
         };
         let level = self.normal.truncate().dot(along);
-        let points = if collector.takes_all() { rule(2 + ((to - from) / ON_SURFACE) as usize) } else { &[] };
-        for &(x, share) in points {
+        for &(x, share) in rule(2 + ((to - from) / ON_SURFACE) as usize) {
             let altitude = from + (to - from) * x;
             let (sin, cos) = altitude.sin_cos();
             let counts = share * (to - from) * cos * (level * cos + self.normal.z * sin);

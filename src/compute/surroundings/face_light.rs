@@ -247,6 +247,17 @@ impl FaceLight {
         places
     }
 
+    /// Limits of its panels of a single value, in the order of their values.
+    pub fn limits(&self) -> Vec<Limits> {
+        let mut all = vec![[[0.0; 2]; 2]; self.values.len()];
+        for part in &self.parts {
+            if let Part::Panel { limits, nodes: 1, first, .. } = part {
+                all[*first] = *limits;
+            }
+        }
+        all
+    }
+
     /// Its panels' values. \[cd/m²\]
     pub fn values(&self) -> &[f64] {
         &self.values

@@ -1,10 +1,12 @@
 //! The sun over a prepared scene: its scattered light, and its beams where they fall.
 
 use super::Coefficients;
+use super::behind::Sunlit;
 use super::sun_way::SunLight;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
 use crate::compute::room::beam::{Beam, merged};
+use crate::compute::room::beams_past::beams_past;
 use crate::compute::room::direct::beams_through;
 use crate::compute::room::first_bounce::FirstLight;
 use crate::compute::room::outline::Outline;
@@ -14,6 +16,18 @@ use crate::study::session::landed::Landed;
 use crate::study::session::responses::Responses;
 use crate::study::session::unit_beams::{Together, UnitBeam};
 use std::sync::Arc;
+
+/// What a share of scattered light may be off that is taken as that of a whole patch, relative to what it leaves out or lets in.
+const ALIKE: f64 = 0.1;
+
+/// Scattered light of the sun on a part of an aperture, given that of all the aperture, what of it the room reflects, and the
+/// shares of what comes straight and of that.
+fn of_part(all: Estimate, reflected: f64, shares: Option<[f64; 2]>) -> Estimate {
+    let Some([straight, by_room]) = shares else { return all };
+    let value = (all.value - reflected) * straight + reflected * by_room;
+    let doubt = ALIKE * ((all.value - reflected) * straight * (1.0 - straight) + reflected * by_room * (1.0 - by_room));
+    Estimate::new(value, all.error * straight.max(by_room) + doubt.abs())
+}
 
 /// Beams that are seen as sharp as they are, the strongest of a fan.
 const OUTLINED: usize = 4;
@@ -35,22 +49,40 @@ impl Coefficients {
         let mut sums = vec![Estimate::default(); sensors];
         let mut first = FirstLight::dark(0);
         let mut units: Vec<(Arc<UnitBeam>, f64)> = Vec::new();
+        // Of a beam past boxes.
+        let mut pieces = 1;
         for index in 0..self.parts.len() {
             let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
             if facing.sun_illuminance() <= 0.0 {
                 continue;
             }
+            let mut past = None;
+            if let Some((behind, part)) = self.behind.as_ref().zip(self.parts[index].past()) {
+                let Some(reached) = behind.sunlit(part, &facing) else { continue };
+                past = Some((behind, reached)).filter(|(_, reached)| !reached.pieces.is_empty());
+            }
+            let shares = past.as_ref().map(|(_, reached)| &*reached.shares);
             let beams = match self.parts[index].sun.light(&facing, self.suns, sensors) {
-                Some(found) => self.add_scattered(index, &facing, found, &mut sums),
-                None => self.add_data(index, &facing, doubts, &mut sums),
+                Some(found) => self.add_scattered(index, &facing, found, shares, &mut sums),
+                None => self.add_data(index, &facing, doubts, shares, &mut sums),
             };
             let aperture = &self.scene.apertures[index].aperture;
             for (sum, sensor) in sums.iter_mut().zip(&self.scene.sensors) {
-                let seen = beams_through(sensor, aperture, &beams, &facing);
+                let seen = match &past {
+                    Some((behind, Sunlit { pieces, rim, .. })) => {
+                        beams_past(sensor, aperture, pieces, rim, &beams, &facing, &behind.around)
+                    }
+                    None => beams_through(sensor, aperture, &beams, &facing),
+                };
                 *sum += seen.all + Estimate::new(0.0, seen.data_error);
             }
             let (Some(room), Some(landed)) = (&self.room, &self.landed) else { continue };
+            pieces = pieces.max(past.as_ref().map_or(1, |(_, reached)| reached.pieces.len()));
             for beam in &beams {
+                if let Some((_, reached)) = &past {
+                    first.add_beam_through(aperture, &reached.pieces, beam, &facing);
+                    continue;
+                }
                 // Others may ask for the suns of a year.
                 let shared = || landed.of(&self.scene, index, beam, &facing, &room.radiosity);
                 match (self.suns > 0).then(shared).flatten() {
@@ -60,7 +92,7 @@ impl Coefficients {
             }
         }
         if let (Some(room), Some(landed)) = (&self.room, &self.landed) {
-            self.add_landed(room, landed.landed(), (&units, first.beams), &mut sums);
+            self.add_landed(room, landed.landed(), (&units, first.beams), OUTLINED * pieces, &mut sums);
         }
         let whole = |e: Estimate| Estimate::new(e.value.max(0.0), e.error + 1e-6 * e.value.abs());
         sums.into_iter().map(whole).collect()
@@ -72,6 +104,7 @@ impl Coefficients {
         room: &Responses,
         landed: &Landed,
         (units, mut beams): (&[(Arc<UnitBeam>, f64)], Vec<Beam>),
+        outlined: usize,
         sums: &mut [Estimate],
     ) {
         if units.is_empty() && beams.is_empty() {
@@ -94,7 +127,7 @@ impl Coefficients {
             // The strongest are seen as the outlines that they are; what patches tell of these tells how well they tell of
             // the others.
             beams.sort_by(|a, b| b.flux.total_cmp(&a.flux));
-            let few = &beams[..beams.len().min(OUTLINED)];
+            let few = &beams[..beams.len().min(outlined)];
             let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
             let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
             let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
@@ -119,6 +152,7 @@ impl Coefficients {
         index: usize,
         facing: &Facing<'_>,
         found: SunLight,
+        shares: Option<&[[f64; 2]]>,
         sums: &mut [Estimate],
     ) -> Vec<BeamLight> {
         let part = &self.parts[index];
@@ -126,20 +160,27 @@ impl Coefficients {
         for (s, sum) in sums.iter_mut().enumerate() {
             let [value, reflected, doubt] = [0, 1, 2].map(|row| clear * found.light[row * sensors + s]);
             let error = doubt.hypot(self.rest() * reflected) + clear * found.errors[s];
-            *sum += Estimate::new(value, error);
+            *sum += of_part(Estimate::new(value, error), reflected, shares.map(|shares| shares[s]));
         }
         let regular = part.regular.as_ref().filter(|_| part.sun.leaves_regular());
         found.beams.into_iter().chain(BeamLight::regular(regular, facing)).map(|beam| beam.scaled(clear)).collect()
     }
 
     /// The same by the data's own cells or directions.
-    fn add_data(&self, index: usize, facing: &Facing<'_>, doubts: bool, sums: &mut [Estimate]) -> Vec<BeamLight> {
+    fn add_data(
+        &self,
+        index: usize,
+        facing: &Facing<'_>,
+        doubts: bool,
+        shares: Option<&[[f64; 2]]>,
+        sums: &mut [Estimate],
+    ) -> Vec<BeamLight> {
         let (part, sensors) = (&self.parts[index], sums.len());
         let illuminance = part.clear * facing.sun_illuminance();
         if let Some(direction) = facing.sun_entering() {
             let mut own = vec![0.0; sensors];
             part.transport.sun(direction, sensors, &mut own, illuminance);
-            let column = doubts.then(|| part.transport.for_direction(direction, sensors));
+            let column = (doubts || shares.is_some()).then(|| part.transport.for_direction(direction, sensors));
             for (s, sum) in sums.iter_mut().enumerate() {
                 let error = column.as_ref().map_or(0.0, |column| {
                     let reflected = column.light[sensors + s].abs() * illuminance;
@@ -148,7 +189,8 @@ impl Coefficients {
                     let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
                     doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s]
                 });
-                *sum += Estimate::new(own[s], error);
+                let reflected = column.as_ref().map_or(0.0, |column| column.light[sensors + s] * illuminance);
+                *sum += of_part(Estimate::new(own[s], error), reflected, shares.map(|shares| shares[s]));
             }
         }
         BeamLight::regular(part.regular.as_ref(), facing).map(|beam| beam.scaled(part.clear)).into_iter().collect()

@@ -1,17 +1,13 @@
 //! A system by its description: sky by columns of single patches, the sun by its very direction.
 
-use super::views::{SensorRows, Views, Want};
+use super::views::{Opening, SensorRows, Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::dot::{add_scaled, wide};
-use crate::compute::estimate::Progress;
 use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows, between_rows};
 use crate::compute::lid::{BandLight, SkyThrough, direction, scattered_of, structure_angles, sun_cells};
 use crate::compute::system::measure::{ProfileLight, Specimen, Structure};
 use crate::study::error::StudyError;
-use crate::study::scene::Scene;
-use crate::study::session::Session;
-use crate::study::session::responses::Responses;
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -183,16 +179,9 @@ pub(super) struct DescribedViews {
 
 impl DescribedViews {
     /// `bands`: a system that scatters by profile angle says how.
-    pub fn new(
-        session: &Session,
-        scene: &Scene,
-        index: usize,
-        bands: Option<(bool, usize)>,
-        room: Option<&Responses>,
-        progress: &dyn Progress,
-    ) -> Result<Self, StudyError> {
-        let cells = Views::new(session, scene, index, Arc::clone(sun_cells()), room, Want::All, progress)?;
-        let of = |kind| Views::of_bands(session, scene, index, kind, room, progress).map(|views| (kind, views));
+    pub fn new(opening: &Opening<'_>, bands: Option<(bool, usize)>) -> Result<Self, StudyError> {
+        let cells = Views::new(opening, Arc::clone(sun_cells()), Want::All)?;
+        let of = |kind| Views::of_bands(opening, kind).map(|views| (kind, views));
         Ok(Self { cells, bands: bands.map(of).transpose()? })
     }
 

@@ -7,6 +7,7 @@
 //! | `transport` | V·T: sensors by incident direction |
 //! | `described` | the same of systems known by their description |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
+//! | `behind`, `sent` | the same behind boxes |
 //! | `straight` | the outside that is seen straight through |
 //! | `far` | what stands far away: its light, and what it hides |
 //! | `sun_way` | how the very sun comes through a system |
@@ -20,8 +21,10 @@
 //! directions that suit them: their light is integrated anew and takes milliseconds.
 
 mod beam;
+mod behind;
 mod described;
 mod part;
+mod sent;
 mod straight;
 mod sun_way;
 mod transport;
@@ -40,16 +43,21 @@ use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::near_field::NearField;
 use crate::compute::sky::perez::PerezState;
-use crate::compute::sky::{Distribution, Outside};
+use crate::compute::sky::{Distribution, Outside, Prepared, Sun};
+use behind::Behind;
+pub(super) use behind::seen_by_points;
 pub(super) use part::TOGETHER;
 use part::{AperturePart, Sums, Way};
+pub(super) use sent::Sent;
 use std::sync::Arc;
 pub(super) use transport::{SPACING, patches as incident_patches};
+use views::Opening;
 
 /// A prepared scene.
 pub struct Coefficients {
     scene: Scene,
     parts: Vec<AperturePart>,
+    behind: Option<Behind>,
     room: Option<Responses>,
     /// What the room makes of beams, where there may be any.
     landed: Option<Arc<UnitBeams>>,
@@ -60,6 +68,8 @@ pub struct Coefficients {
     suns: usize,
 }
 
+/// What prepared obstructions cost, relative to all light.
+const BEHIND: f64 = 4e-3;
 /// Safety on the error of the fixed directions, seen on some skies and stated for others.
 const OTHER_SKIES: f64 = 2.0;
 
@@ -87,6 +97,19 @@ impl Coefficients {
     ///
     /// Refuses scenes whose near field is to be done by one of the methods for comparison.
     pub fn new(session: &Session, scene: &Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
+        Self::past(session, scene, None, progress)
+    }
+
+    /// Prepares a scene, whose outside names no boxes, behind those that are prepared already.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn past(
+        session: &Session,
+        scene: &Scene,
+        prepared: Option<&Arc<Prepared>>,
+        progress: &dyn Progress,
+    ) -> Result<Self, StudyError> {
         if scene.near_field != NearField::SolidAngle {
             return Err(StudyError::key(
                 "compute.near_field",
@@ -108,7 +131,7 @@ impl Coefficients {
             || scene.room.ceiling > 0.0
             || scene.apertures.iter().any(|a| a.reflectance > 0.0);
         if !(scene.interreflection && reflects) {
-            let mut coefficients = Self::with(session, scene, None, progress)?;
+            let mut coefficients = Self::with(session, scene, prepared, None, progress)?;
             coefficients.add_data_uncertainty(session, progress)?;
             return Ok(coefficients);
         }
@@ -118,7 +141,7 @@ impl Coefficients {
         loop {
             progress.advance("coefficients", turn, turns);
             let room = session.responses(scene, PATCHES[turn], progress)?;
-            let mut coefficients = Self::with(session, scene, Some(room), progress)?;
+            let mut coefficients = Self::with(session, scene, prepared, Some(room), progress)?;
             turn += 1;
             let light = coefficients.sky_estimate(&scene.outside);
             let mean = light.iter().map(|e| e.value).sum::<f64>() / light.len().max(1) as f64;
@@ -132,14 +155,17 @@ impl Coefficients {
     fn with(
         session: &Session,
         scene: &Scene,
+        prepared: Option<&Arc<Prepared>>,
         room: Option<Responses>,
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
+        let behind = prepared.map(|prepared| Behind::new(Arc::clone(prepared)));
         let parts = (0..scene.apertures.len())
             .map(|index| {
                 let btdf = scene.apertures[index].transmission();
                 let btdf = btdf.expect("a resolved scene has only systems with transmission data");
-                AperturePart::new(session, scene, index, btdf, room.as_ref(), progress)
+                let opening = Opening { session, scene, index, room: room.as_ref(), nodes: None, progress };
+                AperturePart::new(&opening, btdf, behind.as_ref())
             })
             .collect::<Result<Vec<_>, _>>()?;
         let landed = match &room {
@@ -147,8 +173,11 @@ impl Coefficients {
             _ => None,
         };
         let mut coefficients =
-            Self { scene: scene.clone(), parts, room, landed, directions: 0.0, data: Vec::new(), suns: 0 };
-        coefficients.directions = OTHER_SKIES * coefficients.gap_of_directions(session);
+            Self { scene: scene.clone(), parts, behind, room, landed, directions: 0.0, data: Vec::new(), suns: 0 };
+        coefficients.directions = match &coefficients.behind {
+            Some(_) => BEHIND,
+            None => OTHER_SKIES * coefficients.gap_of_directions(session),
+        };
         Ok(coefficients)
     }
 
@@ -185,7 +214,7 @@ impl Coefficients {
 
     /// Can it be done by the fixed directions?
     fn is_smooth(&self, outside: &Outside) -> bool {
-        !outside.is_piecewise_constant() && far::same(outside, &self.scene.outside)
+        self.behind.is_some() || !outside.is_piecewise_constant() && far::same(outside, &self.scene.outside)
     }
 
     /// Keeps in `session`, for all systems, what the hours of a year are on the patches of this one; `year`: a number that
@@ -221,9 +250,10 @@ impl Coefficients {
 
     /// The same of hours of the year of [`Self::keep_year`], whose outsides these are: faster for many at once, and the
     /// same.
-    pub fn hours_estimate(&self, hours: &[(usize, &Outside)]) -> Vec<Vec<Estimate>> {
-        let way =
-            |&(hour, outside)| (outside, if self.is_smooth(outside) { Way::Hour(hour) } else { Way::Exact(None) });
+    pub fn hours_estimate(&self, hours: &[(usize, &Outside, Option<&Sun>)]) -> Vec<Vec<Estimate>> {
+        let way = |&(hour, outside, sun)| {
+            (outside, if self.is_smooth(outside) { Way::Hour(hour, sun) } else { Way::Exact(None) })
+        };
         self.estimated(&hours.iter().map(way).collect::<Vec<_>>())
     }
 

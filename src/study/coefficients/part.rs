@@ -1,24 +1,26 @@
 //! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
 //! is seen straight through, by directions of every sensor's own.
 
+use super::behind::{self, Behind, Past, nodes};
 use super::described::{Described, DescribedViews};
+use super::sent::Sent;
 use super::straight::{StraightView, seen_exactly};
 use super::sun_way::SunWay;
-use super::transport::{self, ACROSS, Transport};
-use super::views::{Views, Want};
+use super::transport::{self, ACROSS, Column, Transport};
+use super::views::{Opening, Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::Dir;
 use crate::compute::dot::add_scaled;
-use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::estimate::Estimate;
+use crate::compute::lid::SkyThrough;
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::Outside;
+use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::far::{self, Constants};
-use crate::study::session::responses::Responses;
 use crate::study::session::sky_patches::{SkyPatches, illuminances};
 use crate::study::session::sky_year::SkyYear;
 use crate::study::system::VerySystem;
@@ -34,12 +36,13 @@ pub(in crate::study) const TOGETHER: usize = 32;
 
 /// One aperture.
 pub(super) struct AperturePart {
-    sky: Arc<SkyPatches>,
-    /// What they are in the hours of a year, where that is kept.
+    sky: Seen,
+    /// What that is in the hours of a year, where it is kept.
     year: Option<Arc<SkyYear>>,
-    /// Columns for every patch of the sky's samples, one for the ground and one for the skyline. Rows of all sensors for all
-    /// diffuse light but what is seen straight through, then for what of it is interreflected, the doubt of that, and
-    /// the doubt of the interpolation where there is any: what [`Sums`] holds. Half the digits are 10⁻⁶ of the sums.
+    /// Columns for every patch of the sky's samples, one for the ground and one for the skyline; behind boxes for the luminances
+    /// of a moment. Rows of all sensors for all diffuse light but what is seen straight through an aperture before which
+    /// nothing stands, then for what of it is interreflected, the doubt of that, and the doubt of the interpolation where
+    /// there is any: what [`Sums`] holds. Half the digits are 10⁻⁶ of the sums.
     tables: Mat<f32>,
     /// What the system does with light.
     pub transport: Transport,
@@ -47,13 +50,23 @@ pub(super) struct AperturePart {
     pub regular: Option<AngularTransmittance>,
     /// How the very sun comes through.
     pub sun: SunWay,
-    seen: Vec<StraightView>,
-    /// The moments of what the sensors see in the hours of a year, where they are kept.
-    seen_year: Option<Arc<SkyYear>>,
     /// Mean relative gap of flux of the regular part.
     pub gap: f64,
     /// Share of the light that frame and dirt leave.
     pub clear: f64,
+}
+
+/// How the outside is seen.
+enum Seen {
+    /// By patches that are the same at all points of an aperture; what is straight, by sensors.
+    Alike {
+        patches: Arc<SkyPatches>,
+        straight: Vec<StraightView>,
+        /// The moments of what the sensors see in the hours of a year, where they are kept.
+        year: Option<Arc<SkyYear>>,
+    },
+    /// Behind boxes, by luminances.
+    Behind(Arc<Prepared>, Box<Past>),
 }
 
 /// How the light of a sky is found.
@@ -61,10 +74,22 @@ pub(super) struct AperturePart {
 pub(super) enum Way<'a> {
     /// By the fixed directions.
     Fixed,
-    /// The same for an hour of the year that is kept.
-    Hour(usize),
+    /// The same for an hour of the year that is kept, with its sun.
+    Hour(usize, Option<&'a Sun>),
     /// By integrals; with a session as a trial of the fixed directions, and kept.
     Exact(Option<&'a Session>),
+}
+
+impl<'a> Way<'a> {
+    /// The hour of the year.
+    pub const fn hour(self) -> Option<usize> {
+        if let Self::Hour(hour, _) = self { Some(hour) } else { None }
+    }
+
+    /// Its sun.
+    pub const fn sun(self) -> Option<&'a Sun> {
+        if let Self::Hour(_, sun) = self { sun } else { None }
+    }
 }
 
 /// What one sky gives, sensor by sensor.
@@ -88,24 +113,13 @@ impl Sums {
 }
 
 impl AperturePart {
-    pub fn new(
-        session: &Session,
-        scene: &Scene,
-        index: usize,
-        btdf: &Btdf,
-        room: Option<&Responses>,
-        progress: &dyn Progress,
-    ) -> Result<Self, StudyError> {
-        let sensors = scene.sensors.len();
+    pub fn new(opening: &Opening<'_>, btdf: &Btdf, behind: Option<&Behind>) -> Result<Self, StudyError> {
+        let Opening { session, scene, index, room, .. } = *opening;
         let very = scene.apertures[index].system.very.as_ref().filter(|_| scene.beams);
-        let described = very.map(|very| described_views(session, scene, index, very, room, progress)).transpose()?;
-        let by_description = match (very, &described) {
-            (Some(very), Some(views)) if very.answers_for_the_sky() => {
-                let through = session.sky_through(very);
-                Some(Described::new(&through.1, views))
-            }
-            _ => None,
-        };
+        let described = very.map(|very| described_views(opening, very)).transpose()?;
+        let by_description = described_through(session, scene, index)
+            .zip(described.as_ref())
+            .map(|((_, through), views)| Described::new(&through.1, views));
         // What the description answers for is not asked of the data, which need not be there.
         let nothing = Btdf::default();
         let btdf = if by_description.is_some() { &nothing } else { btdf };
@@ -113,71 +127,49 @@ impl AperturePart {
             Some(own) => (RingBasis::clone(&own.basis), transport::SPACING, Transport::Described(Box::new(own))),
             None => {
                 let (patches, spacing) = transport::patches(btdf, scene.interpolation);
-                (patches, spacing, Transport::new(session, scene, index, btdf, room, progress)?)
+                (patches, spacing, Transport::new(opening, btdf)?)
             }
         };
-        let sky = session.sky_patches(scene, index, patches, spacing);
-        let patches = &sky.patches;
         let by_angle = match &transport {
             Transport::Described(own) => own.by_angle.clone(),
             _ => None,
         };
         let very = very.cloned().zip(described).map(|(very, views)| (very, views, by_angle));
-        let sun = SunWay::new(session, scene, index, btdf, very, room, progress)?;
-        // What goes straight to the sensors is left to `seen`: here is what the room makes of that light.
-        let straight = match (&btdf.regular, room) {
-            (Some(tau), Some(room)) => {
-                let basis = Arc::new(patches.clone());
-                let views = Views::new(session, scene, index, basis, Some(room), Want::Reflected, progress)?;
-                Some((tau, views))
+        let sun = SunWay::new(opening, btdf, very)?;
+        let regular = btdf.regular.as_ref();
+        let (sky, tables, gap) = match behind {
+            Some(behind) => {
+                let through = described_through(session, scene, index);
+                let nodes = nodes(&scene.apertures[index].aperture);
+                let reflecting = Opening { nodes: Some(&nodes), ..*opening };
+                let (columns, gap) = match (room, &through) {
+                    (None, _) => (Vec::new(), 0.0),
+                    (Some(_), Some((very, through))) => {
+                        let own = Described::new(&through.1, &described_views(&reflecting, very)?);
+                        columns(&reflecting, &Transport::Described(Box::new(own)), &patches, regular)?
+                    }
+                    (Some(_), None) => columns(&reflecting, &Transport::new(&reflecting, btdf)?, &patches, regular)?,
+                };
+                let sent = match &through {
+                    Some((_, through)) => Some(Sent::described(&through.1)),
+                    None => Sent::of_data(session, btdf, scene.interpolation, &patches),
+                };
+                let (past, tables) = behind.past(opening, nodes, (&patches, &columns), sent, regular);
+                (Seen::Behind(Arc::clone(&behind.prepared), Box::new(past)), tables, gap)
             }
-            _ => None,
-        };
-        let across = gauss_legendre(ACROSS);
-        let columns: Vec<transport::Column> = (0..patches.len())
-            .into_par_iter()
-            .map(|p| {
-                let cell = patches.cell(p);
-                let mut column = transport.through_patch(p, &cell, sensors);
-                if let Some((tau, views)) = &straight {
-                    // What goes straight leaves by the patch that it came through, as a luminance even over it.
-                    let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
-                    views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
-                }
-                column
-            })
-            .collect();
-        // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
-        let open = sky.samples.cells();
-        let width = open.len() + 2;
-        // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
-        let doubts = columns.iter().any(|column| !column.doubt.is_empty());
-        let rows = sensors * if doubts { 4 } else { 3 };
-        let mut tables = Mat::zeros(rows, width);
-        let mut put = |to: usize, light: &mut dyn Iterator<Item = f64>| {
-            tables.col_as_slice_mut(to).iter_mut().zip(light).for_each(|(to, e): (&mut f32, f64)| *to = e as f32);
-        };
-        for (to, &p) in open.iter().enumerate() {
-            put(to, &mut columns[p].light.iter().chain(&columns[p].doubt).copied());
-        }
-        // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
-        for (to, share) in [(width - 2, &sky.ground), (width - 1, &sky.skyline)] {
-            let mut sum = vec![0.0; rows];
-            for (column, share) in columns.iter().zip(share) {
-                let (light, doubt) = sum.split_at_mut(3 * sensors);
-                add_scaled(light, &column.light, *share);
-                add_scaled(doubt, &column.doubt, *share);
+            None => {
+                let (columns, gap) = columns(opening, &transport, &patches, regular)?;
+                let sky = session.sky_patches(scene, index, patches, spacing);
+                let tables = by_patches(&sky, &columns, scene.sensors.len());
+                // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
+                let constants = regular.map(|_| Constants::of(&scene.outside));
+                let view = |sensor| {
+                    let (tau, constants) = regular.zip(constants.as_ref())?;
+                    Some(StraightView::new(scene, index, sensor, tau, constants))
+                };
+                let straight = scene.sensors.par_iter().filter_map(view).collect();
+                (Seen::Alike { patches: sky, straight, year: None }, tables, gap)
             }
-            put(to, &mut sum.into_iter());
-        }
-        // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
-        let seen = match &btdf.regular {
-            Some(tau) => {
-                let constants = Constants::of(&scene.outside);
-                let view = |sensor| StraightView::new(scene, index, sensor, tau, &constants);
-                scene.sensors.par_iter().map(view).collect()
-            }
-            None => Vec::new(),
         };
         Ok(Self {
             year: None,
@@ -185,9 +177,7 @@ impl AperturePart {
             transport,
             sun,
             regular: btdf.regular.clone(),
-            seen,
-            seen_year: None,
-            gap: straight.map_or(0.0, |(_, views)| views.gap),
+            gap,
             clear: scene.apertures[index].clear,
             sky,
         })
@@ -198,39 +188,61 @@ impl AperturePart {
         self.regular.is_some() || !matches!(self.sun, SunWay::Data)
     }
 
+    /// The aperture past boxes, where there are any.
+    pub fn past(&self) -> Option<&Past> {
+        if let Seen::Behind(_, past) = &self.sky { Some(past) } else { None }
+    }
+
     /// Number of luminances that a new sky costs.
     pub fn evaluations(&self) -> usize {
-        self.sky.samples.len() + self.seen.iter().map(StraightView::directions).sum::<usize>()
+        match &self.sky {
+            Seen::Alike { patches, straight, .. } => {
+                patches.samples.len() + straight.iter().map(StraightView::directions).sum::<usize>()
+            }
+            Seen::Behind(prepared, _) => prepared.count(),
+        }
     }
 
     /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
-        self.year = session.sky_year(year, self.sky.fingerprint, self.sky.samples.cells().len());
-        let mut hasher = DefaultHasher::new();
-        self.seen.iter().for_each(|seen| seen.hash(&mut hasher));
-        let moments = self.seen.iter().map(StraightView::moments).sum();
-        self.seen_year = session.seen_year(year, hasher.finish(), moments);
+        self.year = match &mut self.sky {
+            Seen::Behind(prepared, _) => session.sky_year(year, prepared.number(), prepared.count()),
+            Seen::Alike { patches, straight, year: seen_year } => {
+                let mut hasher = DefaultHasher::new();
+                straight.iter().for_each(|seen| seen.hash(&mut hasher));
+                let moments = straight.iter().map(StraightView::moments).sum();
+                *seen_year = session.seen_year(year, hasher.finish(), moments);
+                session.sky_year(year, patches.fingerprint, patches.samples.cells().len())
+            }
+        };
     }
 
-    /// Illuminance through every patch, then the luminances of ground and skyline.
+    /// Light by the columns of the tables: illuminance through every patch, then the luminances of ground and skyline; behind
+    /// boxes all luminances.
     fn light(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
-        let mut e = Vec::with_capacity(self.sky.samples.cells().len() + 2);
+        let sky = match &self.sky {
+            Seen::Alike { patches, .. } => patches,
+            Seen::Behind(prepared, _) => {
+                let all = behind::luminances(prepared, self.year.as_deref(), &[(outside, way)]).concat();
+                return all.into_iter().map(|luminance| self.clear * luminance).collect();
+            }
+        };
+        let mut e = Vec::with_capacity(sky.samples.cells().len() + 2);
         match (way, &self.year) {
-            (Way::Hour(hour), Some(year)) => {
+            (Way::Hour(hour, _), Some(year)) => {
                 let find = || {
                     let mut e = Vec::new();
-                    self.sky.samples.illuminances(outside, &mut e);
+                    sky.samples.illuminances(outside, &mut e);
                     e
                 };
                 e.extend(year.hour(hour, find));
             }
-            (Way::Fixed | Way::Hour(_), _) => self.sky.samples.illuminances(outside, &mut e),
+            (Way::Fixed | Way::Hour(..), _) => sky.samples.illuminances(outside, &mut e),
             (Way::Exact(session), _) => {
-                let find = || illuminances(outside, &self.sky.patches, &self.sky.frame, EXACT);
-                let all =
-                    session.map_or_else(|| Arc::new(find()), |s| s.exact_sky(outside, self.sky.fingerprint, find));
+                let find = || illuminances(outside, &sky.patches, &sky.frame, EXACT);
+                let all = session.map_or_else(|| Arc::new(find()), |s| s.exact_sky(outside, sky.fingerprint, find));
                 let ground = outside.ground_luminance();
-                e.extend(self.sky.samples.cells().iter().map(|&p| all[p] - ground * self.sky.ground[p]));
+                e.extend(sky.samples.cells().iter().map(|&p| all[p] - ground * sky.ground[p]));
             }
         }
         let smooth = !matches!(way, Way::Exact(_));
@@ -251,19 +263,19 @@ impl AperturePart {
     }
 
     fn add_seen(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
-        let Some(tau) = &self.regular else { return };
+        let (Some(tau), Seen::Alike { straight, year, .. }) = (&self.regular, &self.sky) else { return };
         if !matches!(way, Way::Exact(_)) {
             let find = || {
                 let mut moments = Vec::new();
-                self.seen.iter().for_each(|seen| seen.gather(outside, &mut moments));
+                straight.iter().for_each(|seen| seen.gather(outside, &mut moments));
                 moments
             };
-            let moments: Vec<f64> = match (way, &self.seen_year) {
-                (Way::Hour(hour), Some(year)) => year.hour(hour, find).collect(),
+            let moments: Vec<f64> = match (way, year) {
+                (Way::Hour(hour, _), Some(year)) => year.hour(hour, find).collect(),
                 _ => find(),
             };
             let mut moments = moments.into_iter();
-            for (sum, seen) in out.iter_mut().zip(&self.seen) {
+            for (sum, seen) in out.iter_mut().zip(straight) {
                 *sum += self.clear * seen.light(outside, &mut moments);
             }
         } else {
@@ -282,8 +294,14 @@ impl AperturePart {
         for (skies, sums) in skies.chunks(TOGETHER).zip(sums.chunks_mut(TOGETHER)) {
             // As many columns whatever is asked, so that no sky's sums hang on the others'.
             let mut light = Mat::zeros(self.tables.ncols(), TOGETHER);
-            for (column, (outside, way)) in light.col_iter_mut().zip(skies) {
-                column.iter_mut().zip(self.light(outside, *way)).for_each(|(to, e)| *to = e as f32);
+            let lights = match &self.sky {
+                // Together they cost less.
+                Seen::Behind(prepared, _) => behind::luminances(prepared, self.year.as_deref(), skies),
+                Seen::Alike { .. } => skies.iter().map(|(outside, way)| self.light(outside, *way)).collect(),
+            };
+            let factor = if self.past().is_some() { self.clear } else { 1.0 };
+            for (column, light) in light.col_iter_mut().zip(lights) {
+                column.iter_mut().zip(light).for_each(|(to, e)| *to = (factor * e) as f32);
             }
             let mut all: Mat<f32> = Mat::zeros(self.tables.nrows(), TOGETHER);
             matmul(all.as_mut(), Accum::Replace, &self.tables, &light, 1.0, Par::Seq);
@@ -298,18 +316,76 @@ impl AperturePart {
     }
 }
 
-/// What the sensors see of a system known by its description.
-fn described_views(
+/// An aperture's system whose description answers for the sky, and what it makes of it.
+fn described_through<'a>(
     session: &Session,
-    scene: &Scene,
+    scene: &'a Scene,
     index: usize,
-    very: &VerySystem,
-    room: Option<&Responses>,
-    progress: &dyn Progress,
-) -> Result<DescribedViews, StudyError> {
+) -> Option<(&'a VerySystem, Arc<(VerySystem, SkyThrough)>)> {
+    let very = scene.apertures[index].system.very.as_ref().filter(|very| scene.beams && very.answers_for_the_sky())?;
+    Some((very, session.sky_through(very)))
+}
+
+/// Light through all patches at the sensors, without what of the regular part comes straight; and the gap of flux of that.
+fn columns(
+    opening: &Opening<'_>,
+    transport: &Transport,
+    patches: &RingBasis,
+    regular: Option<&AngularTransmittance>,
+) -> Result<(Vec<Column>, f64), StudyError> {
+    // What goes straight to the sensors is found by itself: here is what the room makes of that light.
+    let straight = match (regular, opening.room) {
+        (Some(tau), Some(_)) => Some((tau, Views::new(opening, Arc::new(patches.clone()), Want::Reflected)?)),
+        _ => None,
+    };
+    let across = gauss_legendre(ACROSS);
+    let column = |p: usize| {
+        let cell = patches.cell(p);
+        let mut column = transport.through_patch(p, &cell, opening.places());
+        if let Some((tau, views)) = &straight {
+            // What goes straight leaves by the patch that it came through, as a luminance even over it.
+            let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
+            views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
+        }
+        column
+    };
+    let columns = (0..patches.len()).into_par_iter().map(column).collect();
+    Ok((columns, straight.map_or(0.0, |(_, views)| views.gap)))
+}
+
+/// The tables of an aperture that sees patches alike from all of its points.
+fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
+    // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
+    let open = sky.samples.cells();
+    let width = open.len() + 2;
+    // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
+    let doubts = columns.iter().any(|column| !column.doubt.is_empty());
+    let rows = places * if doubts { 4 } else { 3 };
+    let mut tables = Mat::zeros(rows, width);
+    let mut put = |to: usize, light: &mut dyn Iterator<Item = f64>| {
+        tables.col_as_slice_mut(to).iter_mut().zip(light).for_each(|(to, e): (&mut f32, f64)| *to = e as f32);
+    };
+    for (to, &p) in open.iter().enumerate() {
+        put(to, &mut columns[p].light.iter().chain(&columns[p].doubt).copied());
+    }
+    // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
+    for (to, share) in [(width - 2, &sky.ground), (width - 1, &sky.skyline)] {
+        let mut sum = vec![0.0; rows];
+        for (column, share) in columns.iter().zip(share) {
+            let (light, doubt) = sum.split_at_mut(3 * places);
+            add_scaled(light, &column.light, *share);
+            add_scaled(doubt, &column.doubt, *share);
+        }
+        put(to, &mut sum.into_iter());
+    }
+    tables
+}
+
+/// What the sensors see of a system known by its description.
+fn described_views(opening: &Opening<'_>, very: &VerySystem) -> Result<DescribedViews, StudyError> {
     let normal = Dir::from_unit(DVec3::Z);
     let bands = very.0.profile_light(normal, Side::Front).map(|light| (light.upright, light.q.len()));
-    DescribedViews::new(session, scene, index, bands, room, progress)
+    DescribedViews::new(opening, bands)
 }
 
 /// Accuracy of what is not done by fixed directions.

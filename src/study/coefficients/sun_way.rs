@@ -2,16 +2,12 @@
 //! own cells and directions have it.
 
 use super::described::{ByAngle, DescribedViews, Lattice, relative_error};
-use super::views::{Views, Want};
+use super::views::{Opening, Views, Want};
 use crate::compute::btdf::{Btdf, CellMatrix, Scattered};
-use crate::compute::estimate::Progress;
 use crate::compute::lid::peaks::{MOST_CELLS, Peaks};
 use crate::compute::lid::{BeamLight, Facing, SunThrough};
 use crate::study::error::StudyError;
-use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
-use crate::study::session::Session;
-use crate::study::session::responses::Responses;
 use crate::study::system::VerySystem;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -64,14 +60,11 @@ impl SunWay {
 
     /// Of one aperture; `bands`: how a described system scatters, where that is by profile angle.
     pub fn new(
-        session: &Session,
-        scene: &Scene,
-        index: usize,
+        opening: &Opening<'_>,
         btdf: &Btdf,
         described: Option<(VerySystem, DescribedViews, Option<Arc<ByAngle>>)>,
-        room: Option<&Responses>,
-        progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
+        let scene = opening.scene;
         if let Some((very, views, by_angle)) = described {
             let lattice = Lattice::of(very.0.as_ref());
             return Ok(Self::Described(Box::new(ByDescription { very, views, by_angle, lattice })));
@@ -79,7 +72,7 @@ impl SunWay {
         match &btdf.scattered {
             Some(Scattered::Cells(matrix)) if scene.beams && scene.interpolation != Interpolation::Patch => {
                 let basis = Arc::new(matrix.emergent().clone());
-                let views = Views::new(session, scene, index, basis, room, Want::All, progress)?;
+                let views = Views::new(opening, basis, Want::All)?;
                 let matrix: &CellMatrix = matrix;
                 Ok(Self::Peaks(Box::new(InCells { matrix: matrix.clone(), views, known: Mutex::default() })))
             }

@@ -1,19 +1,15 @@
 //! V·T: what every sensor receives per illuminance of an aperture from one incident direction or cell.
 
 use super::described::Described;
-use super::views::{SensorRows, Views, Want, even};
+use super::views::{Opening, SensorRows, Views, Want, even};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered, TensorTree};
 use crate::compute::direction::{Dir, Facade, Incident};
-use crate::compute::estimate::Progress;
 use crate::compute::incidence::superpose::{REST, sub_patches};
 use crate::compute::lid::Interpolator;
 use crate::compute::quadrature::gauss_legendre;
 use crate::study::error::StudyError;
-use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
-use crate::study::session::Session;
-use crate::study::session::responses::Responses;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -23,7 +19,7 @@ const PATCH: f64 = 4.5 * PI / 180.0;
 /// Trees of more incident cells are asked by sub-patches instead of their own cells, ...
 const TREE_CELLS: usize = 4096;
 /// ... and those of more than this at the middle of each alone.
-const TREE_SAMPLED: usize = 1024;
+pub(super) const TREE_SAMPLED: usize = 1024;
 /// Sub-patches where the light of lobes is interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 /// Directions in cells that are as wide as a dataset's. \[rad\]
@@ -84,6 +80,12 @@ pub(in crate::study) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (R
     }
 }
 
+/// A direction in a cell: shares of its range of sin²θ and of its width.
+pub(super) fn within(cell: &Cell, (s, t): (f64, f64)) -> Dir<Facade> {
+    let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
+    Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width)
+}
+
 /// The light at the sensors by every row of a system's data.
 fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -> Vec<SensorRows> {
     let light = |i: usize| {
@@ -96,20 +98,12 @@ fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -
 
 impl Transport {
     /// Of one aperture's system.
-    pub fn new(
-        session: &Session,
-        scene: &Scene,
-        index: usize,
-        btdf: &Btdf,
-        room: Option<&Responses>,
-        progress: &dyn Progress,
-    ) -> Result<Self, StudyError> {
-        let views = |basis: &RingBasis, want: Want| {
-            Views::new(session, scene, index, Arc::new(basis.clone()), room, want, progress)
-        };
+    pub fn new(opening: &Opening<'_>, btdf: &Btdf) -> Result<Self, StudyError> {
+        let Opening { session, scene, .. } = *opening;
+        let views = |basis: &RingBasis, want: Want| Views::new(opening, Arc::new(basis.clone()), want);
         Ok(match &btdf.scattered {
             None => Self::Straight,
-            Some(Scattered::Lambert(tau)) => Self::Even(tau.clone(), even(session, scene, index, room, progress)?),
+            Some(Scattered::Lambert(tau)) => Self::Even(tau.clone(), even(opening)?),
             Some(Scattered::Cells(matrix)) => {
                 let matrix: &CellMatrix = matrix;
                 let views = views(matrix.emergent(), Want::All)?;
@@ -167,9 +161,7 @@ impl Transport {
                 let mut column = Column::dark(sensors);
                 let four = [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)];
                 let points = if tree.incident_grid().len() > TREE_SAMPLED { &[(0.5, 0.0)][..] } else { &four };
-                for &(s, t) in points {
-                    let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
-                    let d = Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width);
+                for d in points.iter().map(|point| within(cell, *point)) {
                     let mut q = tree.indicatrix(Incident(d)).q;
                     q.iter_mut().for_each(|q| *q /= points.len() as f64);
                     views.add_all(&q, &mut column.light);

@@ -5,12 +5,13 @@ use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Progress;
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::first_bounce::from_even;
+use crate::compute::room::nodes::Nodes;
 use crate::compute::room::patch_weights::{MOST_CELLS, merged_cells, merging};
 use crate::compute::system::measure::ProfileLight;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
-use crate::study::session::responses::Responses;
+use crate::study::session::responses::{Reflected, Responses};
 use crate::study::session::seen_cells::SeenCells;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -74,22 +75,37 @@ pub(super) enum Want {
     Reflected,
 }
 
+/// An aperture of a scene, and what its light comes to.
+#[derive(Clone, Copy)]
+pub(super) struct Opening<'a> {
+    pub session: &'a Session,
+    pub scene: &'a Scene,
+    /// Number of the aperture, from 0.
+    pub index: usize,
+    /// Where there is interreflection.
+    pub room: Option<&'a Responses>,
+    /// With nodes, node by node what the room makes of light that is 1 at one of them and 0 at the others; nothing is seen
+    /// straight then.
+    pub nodes: Option<&'a Nodes>,
+    pub progress: &'a dyn Progress,
+}
+
+impl Opening<'_> {
+    /// Number of sensors, times that of nodes: node by node, sensor by sensor.
+    pub fn places(&self) -> usize {
+        self.scene.sensors.len() * self.nodes.map_or(1, Nodes::count)
+    }
+}
+
 impl Views {
-    /// Of an aperture of the scene; `room` where there is interreflection.
-    pub fn new(
-        session: &Session,
-        scene: &Scene,
-        index: usize,
-        basis: Arc<RingBasis>,
-        room: Option<&Responses>,
-        want: Want,
-        progress: &dyn Progress,
-    ) -> Result<Self, StudyError> {
-        let sensors = scene.sensors.len();
+    /// Of the cells of a basis.
+    pub fn new(opening: &Opening<'_>, basis: Arc<RingBasis>, want: Want) -> Result<Self, StudyError> {
+        let Opening { session, scene, index, room, nodes, progress } = *opening;
+        let sensors = opening.places();
         let width = if want == Want::Sum { sensors } else { 3 * sensors };
         let straight = match want {
-            Want::Reflected => None,
-            Want::All | Want::Sum => Some(session.seen_cells(scene, index, &basis, progress)?),
+            Want::All | Want::Sum if nodes.is_none() => Some(session.seen_cells(scene, index, &basis, progress)?),
+            _ => None,
         };
         let mut gap = 0.0;
         let reflected = room.map(|room| {
@@ -99,7 +115,7 @@ impl Views {
             let doubts = width > sensors;
             let width = if doubts { 2 * sensors } else { sensors };
             let mut rows = vec![0.0_f32; merged.len() * width];
-            for (s, by_cell) in room.of_cells(session, index, merged, doubts).iter().enumerate() {
+            for (s, by_cell) in room.of_cells(session, index, merged, doubts, nodes).iter().enumerate() {
                 for (row, light) in rows.chunks_exact_mut(width).zip(by_cell) {
                     row[s] = light.value as f32;
                     if doubts {
@@ -114,24 +130,22 @@ impl Views {
     }
 
     /// Of the bands of a profile angle instead of cells: upright or not, and how many.
-    pub fn of_bands(
-        session: &Session,
-        scene: &Scene,
-        index: usize,
-        (upright, bands): (bool, usize),
-        room: Option<&Responses>,
-        progress: &dyn Progress,
-    ) -> Result<Self, StudyError> {
-        let sensors = scene.sensors.len();
-        let seen = session.kept_bands(scene, index, (upright, bands), progress)?;
-        let straight = Some(Arc::new(SeenCells::new(bands, seen.iter().map(BandWeights::each))));
+    pub fn of_bands(opening: &Opening<'_>, (upright, bands): (bool, usize)) -> Result<Self, StudyError> {
+        let Opening { session, scene, index, room, nodes, progress } = *opening;
+        let sensors = opening.places();
+        let straight = if nodes.is_none() {
+            let seen = session.kept_bands(scene, index, (upright, bands), progress)?;
+            Some(Arc::new(SeenCells::new(bands, seen.iter().map(BandWeights::each))))
+        } else {
+            None
+        };
         let mut gap = 0.0;
         let reflected = room.map(|room| {
             let merged = merged_cells();
             gap = room.weights(session, index, merged).gap();
             let width = 2 * sensors;
             let mut rows = vec![0.0_f32; bands * width];
-            let by_sensor = room.of_cells(session, index, merged, true);
+            let by_sensor = room.of_cells(session, index, merged, true, nodes);
             for (cell, shares) in band_shares(upright, bands).iter().enumerate() {
                 for &(band, share) in shares {
                     let row = &mut rows[band * width..(band + 1) * width];
@@ -215,25 +229,27 @@ fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
 }
 
 /// The light of an aperture of even luminance 1.
-pub(super) fn even(
-    session: &Session,
-    scene: &Scene,
-    index: usize,
-    room: Option<&Responses>,
-    progress: &dyn Progress,
-) -> Result<SensorRows, StudyError> {
-    let sensors = scene.sensors.len();
-    let mut light = vec![0.0; 3 * sensors];
-    let receptions = session.receptions(scene, index, None, progress)?;
-    light.iter_mut().zip(receptions.iter()).for_each(|(to, reception)| *to = reception.uniform);
-    if let Some(room) = room {
+pub(super) fn even(opening: &Opening<'_>) -> Result<SensorRows, StudyError> {
+    let Opening { session, scene, index, room, nodes, progress } = *opening;
+    let places = opening.places();
+    let mut light = vec![0.0; 3 * places];
+    if nodes.is_none() {
+        let receptions = session.receptions(scene, index, None, progress)?;
+        light.iter_mut().zip(receptions.iter()).for_each(|(to, reception)| *to = reception.uniform);
+    }
+    let Some(room) = room else { return Ok(light) };
+    let found: Vec<Reflected> = if nodes.is_some() {
+        let all = room.of_cells(session, index, &Arc::new(RingBasis::hemisphere()), true, nodes);
+        all.into_iter().map(|by_cell| by_cell[0]).collect()
+    } else {
         let mut first = from_even(&room.radiosity, index, &scene.apertures[index].aperture);
         first.iter_mut().for_each(|e| *e *= std::f64::consts::PI);
-        for (s, reflected) in room.of(&first).into_iter().enumerate() {
-            light[s] += reflected.value;
-            light[sensors + s] = reflected.value;
-            light[2 * sensors + s] = reflected.doubt();
-        }
+        room.of(&first)
+    };
+    for (place, reflected) in found.into_iter().enumerate() {
+        light[place] += reflected.value;
+        light[places + place] = reflected.value;
+        light[2 * places + place] = reflected.doubt();
     }
     Ok(light)
 }

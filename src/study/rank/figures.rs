@@ -10,7 +10,7 @@ use crate::study::error::StudyError;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Dgp, Light, SHADE, Settings, Way, Year, figures, metrics, year_in};
+use crate::study::year::{Climate, Dgp, Light, SHADE, Settings, Year, figures, metrics, year_in};
 use serde_json::Value;
 
 /// Figures of a product: valid whatever weights and anchors are.
@@ -157,7 +157,6 @@ fn dark(climate: &Climate) -> Year {
             values: nothing.clone(),
             errors: nothing.clone(),
             sun: Some(nothing),
-            way: Way::Coefficients,
             sets: 0,
             dark: steps,
         },

@@ -64,12 +64,22 @@ impl Session {
         Ok(Shining::of(scene, self.lights(scene)?.emissions))
     }
 
-    /// The same of the sun alone, before an outside that is dark but for it and holds no boxes.
+    /// The same of the sun alone, before an outside that is dark but for it; past boxes what is scattered is the mean over the
+    /// aperture.
     pub(in crate::study) fn sunshine(&self, scene: &Scene) -> Shining {
         let emission = |index: usize| {
             let facing = scene.facing(index);
-            let shines = facing.sun_illuminance() > 0.0;
-            if shines { self.emission_under(scene, index, &facing) } else { Emission::dark() }
+            if facing.sun_illuminance() <= 0.0 {
+                return Emission::dark();
+            }
+            let around = scene.outside.surroundings();
+            let share = around.map_or(1.0, |around| lit(&scene.apertures[index].aperture, &facing, around).1);
+            let emission = self.emission_under(scene, index, &facing);
+            if share >= 1.0 {
+                return emission;
+            }
+            let beams = emission.beams.clone();
+            Emission { beams, ..emission.scaled(share) }
         };
         Shining::of(scene, (0..scene.apertures.len()).map(emission).collect())
     }

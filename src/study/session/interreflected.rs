@@ -113,23 +113,20 @@ impl Session {
         })
     }
 
-    /// What the patches receive from an aperture by the cells of a basis; `key` is the mesh's.
+    /// What the patches receive from an aperture, or a part of one, by the cells of a basis; `key` is the mesh's.
     pub(super) fn patch_weights(
         &self,
         key: &Key,
         mesh: &Mesh,
-        index: usize,
-        geometry: &[Aperture],
+        aperture: &Aperture,
         basis: &Arc<RingBasis>,
     ) -> Arc<PatchWeights> {
         let mut key = key.clone();
-        key.push(index as u64);
+        key.extend(bits(aperture.corner.to_array()).chain(bits(aperture.size)));
+        key.push(aperture.surface as u64);
         key.extend(basis_key(Some(basis)));
-        let compute = || {
-            let weights = PatchWeights::new(mesh, &geometry[index], Arc::clone(basis));
-            Ok::<_, std::convert::Infallible>(weights)
-        };
-        match self.patches.get(key, compute) {
+        let weights = || Ok::<_, std::convert::Infallible>(PatchWeights::new(mesh, aperture, Arc::clone(basis)));
+        match self.patches.get(key, weights) {
             Ok(weights) => weights,
             Err(never) => match never {},
         }
@@ -150,28 +147,15 @@ impl Session {
         let mut first = FirstLight::dark(mesh.patches.len());
         for (index, split) in lights.splits.iter().enumerate() {
             check(progress)?;
-            let of_part = |part: &Aperture, basis: &Arc<RingBasis>| self.weights_of_part(&key, mesh, part, basis);
+            let of_part = |part: &Aperture, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, part, basis);
             split.add_to(&mut first, mesh, &geometry[index], &scene.facing(index), &of_part);
         }
         for (index, emission) in lights.emissions.iter().enumerate().filter(|_| lights.splits.is_empty()) {
             check(progress)?;
-            let weights = |basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
+            let weights = |basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, &geometry[index], basis);
             first.add(&radiosity, index, &geometry[index], emission, &scene.facing(index), &weights);
         }
         Ok(first)
-    }
-
-    /// The same of a part of an aperture.
-    fn weights_of_part(&self, key: &Key, mesh: &Mesh, part: &Aperture, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
-        let mut key = key.clone();
-        key.extend(bits(part.corner.to_array()).chain(bits(part.size)));
-        key.push(part.surface as u64);
-        key.extend(basis_key(Some(basis)));
-        let weights = || Ok::<_, std::convert::Infallible>(PatchWeights::new(mesh, part, Arc::clone(basis)));
-        match self.patches.get(key, weights) {
-            Ok(weights) => weights,
-            Err(never) => match never {},
-        }
     }
 
     /// With about so many fine patches.
@@ -188,7 +172,7 @@ impl Session {
         check(progress)?;
         let mesh = &radiosity.nested.fine;
         let gather = self.gathered(scene, count, &radiosity)?;
-        let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, index, &geometry, basis);
+        let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, &geometry[index], basis);
         let first = self.first_light(scene, lights, count, progress)?;
         check(progress)?;
         // What the beams light reflects as the sharp outlines that they are, to sensors and patches; the balance begins

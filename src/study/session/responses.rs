@@ -8,13 +8,14 @@ use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::thrown_back::ThrownBack;
 use super::unit_beams::UnitBeams;
-use super::weights::{Response, TOGETHER, by_walls};
+use super::weights::{ByCells, Response, TOGETHER, by_walls};
 use super::{Session, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::dot::dot;
 use crate::compute::estimate::Progress;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::mesh::Patch;
+use crate::compute::room::nodes::Nodes;
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::{Radiosity, enough_is_absorbed};
 use crate::study::cache::Key;
@@ -147,29 +148,37 @@ impl Responses {
         self.room.weights(session, index, basis)
     }
 
-    /// Sensor by sensor, cell by cell, what light of luminance 1 from an aperture's cells gives after reflection.
+    /// Sensor by sensor, cell by cell, what light of luminance 1 from an aperture's cells gives after reflection; with nodes,
+    /// node by node the same of light that is 1 at one of them and 0 at the others.
     pub fn of_cells(
         &self,
         session: &Session,
         index: usize,
         basis: &Arc<RingBasis>,
         doubts: bool,
+        nodes: Option<&Nodes>,
     ) -> Vec<Vec<Reflected>> {
-        let room = self.room.through_room(session, index, basis, doubts);
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of_cells(session, &self.room, index, basis));
-        let sensor = |s: usize| {
+        let sensor = |room: &ByCells, share: f64, s: usize| {
             let added = mirrored.as_ref().map(|all| &all[s]);
             let cell = |c: usize| {
-                let value = room.value[s][c] + added.map_or(0.0, |added| added.value[c]);
+                let value = room.value[s][c] + added.map_or(0.0, |added| share * added.value[c]);
                 let walls = room.walls.get(s).map_or(&[][..], |walls| walls);
-                let gap = |(w, wall): (usize, &Vec<f64>)| wall[c] + added.map_or(0.0, |added| added.walls[w][c]);
+                let gap =
+                    |(w, wall): (usize, &Vec<f64>)| wall[c] + added.map_or(0.0, |added| share * added.walls[w][c]);
                 let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
-                let thrown_back = added.map_or(0.0, |added| added.straight[c]);
+                let thrown_back = added.map_or(0.0, |added| share * added.straight[c]);
                 Reflected { value, difference: squares.sqrt(), thrown_back }
             };
             (0..basis.len()).map(cell).collect()
         };
-        (0..self.room.sensors.len()).into_par_iter().map(sensor).collect()
+        let all = |room: &ByCells, share: f64| -> Vec<Vec<Reflected>> {
+            (0..self.room.sensors.len()).into_par_iter().map(|s| sensor(room, share, s)).collect()
+        };
+        let Some(nodes) = nodes else { return all(&self.room.through_room(session, index, basis, doubts), 1.0) };
+        // What apertures throw back hardly hangs on where in one of them the light came through.
+        let by_node = self.room.through_room_by_node(session, index, basis, doubts, nodes);
+        by_node.iter().zip(nodes.parts()).flat_map(|(room, part)| all(room, part)).collect()
     }
 
     /// What every sensor gets of a first illuminance of the patches.

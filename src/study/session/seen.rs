@@ -42,7 +42,7 @@ pub(super) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError
 }
 
 /// A sensor where light is to be found for it: one in an opening just inside of it.
-pub(super) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
+pub(in crate::study) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
     let enter = |position, one: &SceneAperture| one.aperture.entered(position, sensor.normal);
     Sensor { position: scene.apertures.iter().fold(sensor.position, enter), ..*sensor }
 }
@@ -108,7 +108,7 @@ impl SeenBands<'_> {
 }
 
 /// Of one sensor.
-pub(super) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
+pub(in crate::study) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
     let view = aperture.view(sensor.position, sensor.normal);
     view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count))
 }

@@ -9,16 +9,18 @@ use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Orientation, World};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::sky::{Outside, Prepared};
+use crate::compute::sky::{Counts, Frame, Outside, Prepared};
 use crate::study::cache::{Cache, Key, bits};
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
+use glam::DVec3;
+use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
-/// Most numbers of a year that are kept: 1,200 in each of 8,784 hours. Half of these are dark, which leaves 21 MB.
-const MOST_NUMBERS: usize = 1200 * 8784;
+/// Most numbers of a year that are kept: 8,000 in each of 8,784 hours. Half of these are dark, which leaves 140 MB.
+const MOST_NUMBERS: usize = 8000 * 8784;
 
 /// The hours of a year that has a number of its own, for a list of some fingerprint that gives so many numbers; `None` for
 /// more than are worth keeping.
@@ -74,6 +76,27 @@ impl Session {
         format!("{setting:?} {viewpoints:?} {:?} {far:?}", orientation.turn()).hash(&mut hasher);
         let find = || Prepared::new(outside, setting, orientation.turn(), viewpoints, progress);
         self.standing.get(vec![hasher.finish()], find).map(Some)
+    }
+
+    /// Returns what points of an aperture see through every patch of the luminances of a moment, computed or kept.
+    pub(in crate::study) fn seen_patches(
+        &self,
+        prepared: &Prepared,
+        eyes: &[DVec3],
+        frame: &Frame,
+        patches: &RingBasis,
+    ) -> Arc<Vec<Vec<Counts>>> {
+        let mut key = vec![prepared.number()];
+        key.extend(eyes.iter().flat_map(|eye| bits(eye.to_array())));
+        key.extend(basis_key(Some(patches)));
+        let find = || {
+            let of = |eye: &DVec3| prepared.patches(*eye, frame, patches);
+            Ok::<_, std::convert::Infallible>(eyes.par_iter().map(of).collect())
+        };
+        match self.seen_patches.get(key, find) {
+            Ok(kept) => kept,
+            Err(never) => match never {},
+        }
     }
 
     /// The hours of a year on so many patches.

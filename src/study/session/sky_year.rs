@@ -11,6 +11,11 @@ impl SkyYear {
         Self((0..hours).map(|_| OnceLock::new()).collect())
     }
 
+    /// Is an hour known?
+    pub fn holds(&self, hour: usize) -> bool {
+        self.0[hour].get().is_some()
+    }
+
     /// Of an hour.
     pub fn hour(&self, hour: usize, find: impl FnOnce() -> Vec<f64>) -> impl Iterator<Item = f64> {
         let kept = self.0[hour].get_or_init(|| find().into_iter().map(|e| e as f32).collect());

@@ -83,7 +83,7 @@ impl Session {
             }
             let key = mesh_key(scene, count);
             let mirrors = mirrors(scene, |index: usize, basis: &Arc<RingBasis>| {
-                self.patch_weights(&key, mesh, index, &geometry, basis)
+                self.patch_weights(&key, mesh, &geometry[index], basis)
             });
             if !mirrors.is_empty() {
                 let mut exitance = radiosity.exitance(&all);

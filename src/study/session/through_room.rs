@@ -4,6 +4,7 @@ use super::weights::{ByCells, Response, TOGETHER};
 use super::{Session, basis_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::room::aperture::Aperture;
+use crate::compute::room::nodes::Nodes;
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::Key;
@@ -34,35 +35,59 @@ fn lists(sensor: &Response, doubts: bool) -> impl Iterator<Item = &[f64]> {
 impl ThroughRoom {
     /// What the patches receive from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
-        session.patch_weights(&self.mesh_key, &self.radiosity.nested.fine, index, &self.geometry, basis)
+        session.patch_weights(&self.mesh_key, &self.radiosity.nested.fine, &self.geometry[index], basis)
     }
 
     /// The sensors' weights of the luminance of an aperture's cells, by way of the room alone; without `doubts` values
     /// only.
     pub fn through_room(&self, session: &Session, index: usize, basis: &Arc<RingBasis>, doubts: bool) -> Arc<ByCells> {
-        let mut key = [&self.key[..], &self.sensor_key].concat();
-        key.extend([index as u64, u64::from(doubts)]);
-        key.extend(basis_key(Some(basis)));
-        let compute = || {
-            let weights = self.weights(session, index, basis);
-            let block = |sensors: &[Response]| {
-                let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, doubts)).collect();
-                weights.gathered(&all)
-            };
-            let found: Vec<Vec<Vec<f64>>> = self.sensors.par_chunks(TOGETHER).map(block).collect();
-            let mut found = found.into_iter().flatten();
-            let (mut value, mut walls) = (Vec::new(), Vec::new());
-            for sensor in self.sensors.iter() {
-                value.extend(found.next());
-                if doubts {
-                    walls.push(found.by_ref().take(sensor.walls.len()).collect());
-                }
-            }
-            Ok::<_, std::convert::Infallible>(ByCells { value, walls })
-        };
-        match session.by_cells.get(key, compute) {
+        let find = || Ok::<_, std::convert::Infallible>(self.by_cells(&self.weights(session, index, basis), doubts));
+        match session.by_cells.get(self.cells_key(index, basis, doubts), find) {
             Ok(by_cells) => by_cells,
             Err(never) => match never {},
         }
+    }
+
+    /// The same of light that is 1 at one of the aperture's nodes and 0 at the others, node by node.
+    pub fn through_room_by_node(
+        &self,
+        session: &Session,
+        index: usize,
+        basis: &Arc<RingBasis>,
+        doubts: bool,
+        nodes: &Nodes,
+    ) -> Arc<Vec<ByCells>> {
+        let find = || {
+            let all = PatchWeights::by_node(&self.radiosity.nested.fine, &self.geometry[index], basis, nodes);
+            Ok::<_, std::convert::Infallible>(all.iter().map(|weights| self.by_cells(weights, doubts)).collect())
+        };
+        match session.by_nodes.get(self.cells_key(index, basis, doubts), find) {
+            Ok(by_nodes) => by_nodes,
+            Err(never) => match never {},
+        }
+    }
+
+    fn cells_key(&self, index: usize, basis: &RingBasis, doubts: bool) -> Key {
+        let mut key = [&self.key[..], &self.sensor_key].concat();
+        key.extend([index as u64, u64::from(doubts)]);
+        key.extend(basis_key(Some(basis)));
+        key
+    }
+
+    fn by_cells(&self, weights: &PatchWeights, doubts: bool) -> ByCells {
+        let block = |sensors: &[Response]| {
+            let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, doubts)).collect();
+            weights.gathered(&all)
+        };
+        let found: Vec<Vec<Vec<f64>>> = self.sensors.par_chunks(TOGETHER).map(block).collect();
+        let mut found = found.into_iter().flatten();
+        let (mut value, mut walls) = (Vec::new(), Vec::new());
+        for sensor in self.sensors.iter() {
+            value.extend(found.next());
+            if doubts {
+                walls.push(found.by_ref().take(sensor.walls.len()).collect());
+            }
+        }
+        ByCells { value, walls }
     }
 }

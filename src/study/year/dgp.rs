@@ -1,8 +1,7 @@
 //! Daylight glare probability of every lit occupied step at every eye, from the illuminances that are there already.
 //!
 //! What does not change between steps is found once for each set of states: the patches that an eye sees, and what each
-//! emergent cell makes of the outside. Behind boxes, and with data that are interpolated by another scheme, every step asks the
-//! systems anew.
+//! emergent cell makes of the outside. With data that are interpolated by another scheme every step asks the systems anew.
 
 use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
@@ -107,7 +106,7 @@ struct Engine {
     fields: Vec<Field>,
     /// Of every aperture; empty where they are asked step by step.
     tables: Vec<EyeLight>,
-    /// The outside without light; with its skyline.
+    /// The outside without light; with its skyline and boxes.
     dark: Option<Outside>,
 }
 
@@ -121,13 +120,16 @@ impl Engine {
         let before = Before::of(question.file, &scene.room, &apertures)?;
         let prepared = question.session.standing(&before, &scene.outside, scene.orientation, progress)?;
         let fields: Vec<Field> = question.settings.eyes.iter().map(|eye| eye_field(&scene, eye)).collect();
-        let dark = far::dark(&scene.outside);
-        let tabled =
-            prepared.is_none() && dark.is_some() && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
+        let dark = far::dark(&scene.outside).map(|dark| match before.dark(&dark, scene.orientation) {
+            Some(boxes) => dark.open().behind(boxes),
+            None => dark,
+        });
+        let tabled = dark.is_some() && (0..scene.apertures.len()).all(|index| is_tabled(&scene, index));
         let year = (question.steps.number(), question.steps.list.len());
         let table = |index: usize| {
             let btdf = scene.apertures[index].transmission()?;
-            Some(EyeLight::new(question.session, &scene, index, btdf, &fields, year))
+            let eyes = (&question.settings.eyes[..], &fields[..]);
+            Some(EyeLight::new(question.session, (&scene, index), btdf, eyes, prepared.as_ref(), year))
         };
         let tables = if tabled { (0..scene.apertures.len()).filter_map(table).collect() } else { Vec::new() };
         Ok(Self { scene, prepared, fields, tables, dark })
@@ -158,7 +160,8 @@ impl Engine {
         sun: Option<&Sun>,
         vertical: &[Estimate],
     ) -> Vec<EyeGlare> {
-        let cells: Vec<Vec<f64>> = self.tables.iter().map(|table| table.cells(hour, outside)).collect();
+        let light: Vec<Vec<f64>> = self.tables.iter().map(|table| table.light(hour, outside, sun)).collect();
+        let cells: Vec<Vec<f64>> = self.tables.iter().zip(&light).map(|(table, light)| table.cells(light)).collect();
         let sunlit = self.dark.clone().zip(sun).map(|(outside, &sun)| {
             let scene = Scene { outside, sun: Some(sun), ..self.scene.clone() };
             (question.session.sunshine(&scene), scene)
@@ -169,7 +172,7 @@ impl Engine {
             let (mut luminance, discs) =
                 sunlit.as_ref().map_or_else(dark, |(sunshine, scene)| sunshine.seen(scene, field, eye));
             for (index, table) in self.tables.iter().enumerate() {
-                table.add(number, &cells[index], outside, &mut luminance[field.of[index].clone()]);
+                table.add(number, &light[index], &cells[index], outside, &mut luminance[field.of[index].clone()]);
             }
             evaluated(field, eye, &luminance, discs, vertical[number], Threshold::default())
         };

@@ -1,49 +1,57 @@
 //! The diffuse light of an aperture for eyes, hour by hour at the cost of a small product: luminance of the emergent cells
 //! that an eye sees by what comes through each incident cell; and the outside straight through by fixed directions.
 //!
-//! For systems by their description, and those whose data are a pane's, even light, cells, single directions or a tree, before
-//! an outside without boxes.
+//! For systems by their description, and those whose data are a pane's, even light, cells, single directions or a tree. Behind
+//! boxes what a system scatters is the mean over the aperture.
 
-use crate::compute::basis::{Cell, RingBasis};
+use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
-use crate::compute::direction::{Dir, Facade, Incident, World};
-use crate::compute::dot::{add_scaled, dot};
+use crate::compute::direction::{Dir, World};
+use crate::compute::dot::dot;
 use crate::compute::glare::Field;
 use crate::compute::incidence::schemes::DiffuseScheme;
-use crate::compute::lid::SkyThrough;
-use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows};
-use crate::compute::quadrature::gauss_legendre;
-use crate::compute::sky::Outside;
-use crate::study::coefficients::{SPACING, incident_patches};
+use crate::compute::room::direct::Sensor;
+use crate::compute::room::grid::Grid;
+use crate::compute::sky::{Counts, Outside, Prepared, Sun};
+use crate::study::coefficients::{SPACING, Sent, incident_patches, seen_by_points};
 use crate::study::scene::Scene;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::session::far;
+use crate::study::session::seen::inside;
 use crate::study::session::sky_patches::SkyPatches;
 use crate::study::session::sky_year::SkyYear;
 use crate::study::system::VerySystem;
 use rayon::prelude::*;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
 /// One aperture, for some eyes.
 pub(super) struct EyeLight {
-    sky: Arc<SkyPatches>,
+    sky: Sky,
     /// What it is in the hours of the year, where that is kept.
     year: Option<Arc<SkyYear>>,
-    /// A row for each emergent cell that any eye sees: open incident cells, then ground, then skyline.
+    /// A row for each emergent cell that any eye sees: open incident cells, then ground, then skyline; behind boxes the
+    /// luminances of a moment.
     rows: Vec<f64>,
     width: usize,
     eyes: Vec<OfEye>,
     clear: f64,
 }
 
+/// What the outside is known by.
+enum Sky {
+    Patches(Arc<SkyPatches>),
+    Behind(Arc<Prepared>),
+}
+
 /// What one eye sees.
 struct OfEye {
     /// For every patch of the aperture, in the field's order, its rows.
     row: Vec<[Option<usize>; 2]>,
-    /// The same for what is seen straight through: transmittance and direction; empty where nothing is.
-    through: Vec<(f64, Dir<World>)>,
+    /// The same for what is seen straight through: transmittance, direction, and behind boxes the luminances that are seen
+    /// there; empty where nothing is.
+    through: Vec<(f64, Dir<World>, Counts)>,
 }
 
 /// Can an aperture's diffuse light be had this way?
@@ -63,13 +71,14 @@ fn described(scene: &Scene, index: usize) -> Option<&VerySystem> {
 }
 
 impl EyeLight {
-    /// `fields`: what each eye sees of all apertures; `year`: its number, and how many hours it has.
+    /// `eyes`: of each what it sees of all apertures; `prepared`: what stands outside; `year`: its number, and how many hours
+    /// it has.
     pub fn new(
         session: &Session,
-        scene: &Scene,
-        index: usize,
+        (scene, index): (&Scene, usize),
         btdf: &Btdf,
-        fields: &[Field],
+        eyes: (&[Sensor], &[Field]),
+        prepared: Option<&Arc<Prepared>>,
         year: (u64, usize),
     ) -> Self {
         let own = described(scene, index).map(|very| session.sky_through(very));
@@ -77,18 +86,19 @@ impl EyeLight {
             Some(own) => (RingBasis::clone(own.1.basis()), SPACING),
             None => incident_patches(btdf, scene.interpolation),
         };
-        let sky = session.sky_patches(scene, index, patches, spacing);
-        let emergent = match &own {
-            Some(own) => Emergents::Described(&own.1, own.1.by_patch()),
-            None => Emergents::new(session, scene, btdf),
+        let sent = match &own {
+            Some(own) => Some(Sent::described(&own.1)),
+            None => Sent::of_data(session, btdf, scene.interpolation, &patches),
         };
         let regular = btdf.regular.as_ref().filter(|_| own.is_none());
         // The emergent cells that eyes see, each once.
-        let mut number = vec![None; emergent.count()];
+        let mut number = vec![None; sent.as_ref().map_or(0, Sent::count)];
         let mut seen = Vec::new();
-        let eyes = fields
+        let eyes = eyes
+            .0
             .iter()
-            .map(|field| {
+            .zip(eyes.1)
+            .map(|(eye, field)| {
                 let own = &field.patches[field.of[index].clone()];
                 let mut row_of = |cell: usize| {
                     *number[cell].get_or_insert_with(|| {
@@ -96,186 +106,103 @@ impl EyeLight {
                         seen.len() - 1
                     })
                 };
-                let row =
-                    own.iter().map(|patch| emergent.index(patch.through).map(|cell| cell.map(&mut row_of))).collect();
+                let row = |through| {
+                    sent.as_ref().map_or([None; 2], |sent| sent.index(through).map(|cell| cell.map(&mut row_of)))
+                };
+                let row = own.iter().map(|patch| patch.through).map(row).collect();
                 let through = regular.map_or_else(Vec::new, |tau: &AngularTransmittance| {
                     own.iter()
                         .map(|patch| {
                             let room = scene.apertures[index].aperture.surface.room_dir(patch.through);
-                            (tau.at(patch.through.theta().min(FRAC_PI_2)), scene.orientation.world_from_room(room))
+                            let (tau, to) =
+                                (tau.at(patch.through.theta().min(FRAC_PI_2)), scene.orientation.world_from_room(room));
+                            let mut seen = Counts::new();
+                            if let Some(prepared) = prepared {
+                                let eye = scene.orientation.to_world(inside(scene, eye).position);
+                                prepared.look(eye, to.vector(), |place, share| seen.push((place as u32, share as f32)));
+                            }
+                            (tau, to, seen)
                         })
                         .collect()
                 });
                 OfEye { row, through }
             })
             .collect();
-        let columns: Vec<Vec<f64>> = if seen.is_empty() {
-            Vec::new()
-        } else {
-            let of = |p: usize| {
-                let all = emergent.through(p, &sky.patches.cell(p));
-                seen.iter().map(|&cell| all[cell]).collect()
-            };
-            (0..sky.patches.len()).into_par_iter().map(of).collect()
+        let of = |p: usize| {
+            let all = sent.as_ref().map_or_else(Vec::new, |sent| sent.through(p));
+            seen.iter().map(|&cell| all[cell]).collect()
         };
+        let count = if seen.is_empty() { 0 } else { patches.len() };
+        let columns: Vec<Vec<f64>> = (0..count).into_par_iter().map(of).collect();
+        let clear = scene.apertures[index].clear;
+        if let Some(prepared) = prepared {
+            let width = prepared.count();
+            let mut rows = vec![0.0; seen.len() * width];
+            let grid = Grid::of(&scene.apertures[index].aperture);
+            let by_point = seen_by_points(session, scene, index, prepared, (grid.places(), &patches));
+            for (part, by_patch) in grid.parts().into_iter().zip(by_point.iter()).filter(|_| count > 0) {
+                for (column, counts) in columns.iter().zip(by_patch) {
+                    for (row, q) in rows.chunks_exact_mut(width).zip(column) {
+                        counts.iter().for_each(|(place, counts)| row[*place as usize] += part * q * f64::from(*counts));
+                    }
+                }
+            }
+            let year = session.sky_year(year, prepared.number(), width);
+            return Self { sky: Sky::Behind(Arc::clone(prepared)), year, rows, width, eyes, clear };
+        }
+        let sky = session.sky_patches(scene, index, patches, spacing);
         let width = sky.samples.cells().len() + 2;
         let mut rows = vec![0.0; seen.len() * width];
-        if !columns.is_empty() {
-            for (at, row) in rows.chunks_exact_mut(width).enumerate() {
-                for (to, &p) in row.iter_mut().zip(sky.samples.cells()) {
-                    *to = columns[p][at];
-                }
-                row[width - 2] = columns.iter().zip(&sky.ground).map(|(column, e)| column[at] * e).sum();
-                row[width - 1] = columns.iter().zip(&sky.skyline).map(|(column, e)| column[at] * e).sum();
+        for (at, row) in rows.chunks_exact_mut(width).enumerate() {
+            for (to, &p) in row.iter_mut().zip(sky.samples.cells()) {
+                *to = columns[p][at];
             }
+            row[width - 2] = columns.iter().zip(&sky.ground).map(|(column, e)| column[at] * e).sum();
+            row[width - 1] = columns.iter().zip(&sky.skyline).map(|(column, e)| column[at] * e).sum();
         }
         let year = session.sky_year(year, sky.fingerprint, sky.samples.cells().len());
-        Self { sky, year, rows, width, eyes, clear: scene.apertures[index].clear }
+        Self { sky: Sky::Patches(sky), year, rows, width, eyes, clear }
     }
 
-    /// Luminances of the emergent cells in an hour of the year, whose outside this is. \[cd/m²\]
-    pub fn cells(&self, hour: usize, outside: &Outside) -> Vec<f64> {
-        if self.rows.is_empty() {
+    /// What an hour of the year, whose outside and sun these are, is on the columns of the rows.
+    pub fn light(&self, hour: usize, outside: &Outside, sun: Option<&Sun>) -> Vec<f64> {
+        let find = || match &self.sky {
+            Sky::Behind(prepared) => {
+                prepared.luminances(&[(outside, sun)]).concat().into_iter().map(f64::from).collect()
+            }
+            Sky::Patches(sky) => {
+                let mut light = Vec::with_capacity(self.width);
+                sky.samples.illuminances(outside, &mut light);
+                light
+            }
+        };
+        if self.rows.is_empty() && matches!(self.sky, Sky::Patches(_)) {
             return Vec::new();
         }
-        let find = || {
-            let mut light = Vec::with_capacity(self.width);
-            self.sky.samples.illuminances(outside, &mut light);
-            light
-        };
-        let mut light = self.year.as_ref().map_or_else(find, |year| year.hour(hour, find).collect());
-        light.extend([outside.ground_luminance(), far::luminance(outside)]);
-        self.rows.chunks_exact(self.width).map(|row| self.clear * dot(row, &light)).collect()
+        let mut light: Vec<f64> = self.year.as_ref().map_or_else(find, |year| year.hour(hour, find).collect());
+        if let Sky::Patches(_) = self.sky {
+            light.extend([outside.ground_luminance(), far::luminance(outside)]);
+        }
+        light
     }
 
-    /// Adds what an eye sees to its patches of this aperture, given [`Self::cells`].
-    pub fn add(&self, eye: usize, cells: &[f64], outside: &Outside, luminance: &mut [f64]) {
+    /// Luminances of the emergent cells, given [`Self::light`]. \[cd/m²\]
+    pub fn cells(&self, light: &[f64]) -> Vec<f64> {
+        self.rows.chunks_exact(self.width.max(1)).map(|row| self.clear * dot(row, light)).collect()
+    }
+
+    /// Adds what an eye sees to its patches of this aperture, given [`Self::light`] and [`Self::cells`].
+    pub fn add(&self, eye: usize, light: &[f64], cells: &[f64], outside: &Outside, luminance: &mut [f64]) {
         let own = &self.eyes[eye];
         for (sum, row) in luminance.iter_mut().zip(&own.row) {
             *sum += row.iter().flatten().map(|&row| cells[row]).sum::<f64>();
         }
-        for (sum, (tau, direction)) in luminance.iter_mut().zip(&own.through) {
-            *sum += self.clear * tau * outside.luminance(*direction);
-        }
-    }
-}
-
-/// What a system makes of light from a patch of the hemisphere, on emergent cells.
-enum Emergents<'a> {
-    /// Nothing is scattered.
-    None,
-    /// The same in all directions.
-    Even(&'a AngularTransmittance),
-    /// By cells of a basis: how to get there.
-    Cells(RingBasis, Rows<'a>),
-    /// By a description: on cells, and behind these in bands of a profile angle.
-    Described(&'a SkyThrough, Vec<PatchLight>),
-}
-
-/// Luminance of the cells per illuminance through an incident patch.
-type Rows<'a> = Box<dyn Fn(usize, &Cell) -> Vec<f64> + Sync + 'a>;
-
-impl<'a> Emergents<'a> {
-    fn new(session: &Session, scene: &Scene, btdf: &'a Btdf) -> Self {
-        match &btdf.scattered {
-            None => Self::None,
-            Some(Scattered::Lambert(tau)) => Self::Even(tau),
-            Some(Scattered::Cells(matrix)) => {
-                Self::Cells(matrix.emergent().clone(), Box::new(|i, _| matrix.row(i).into_owned()))
-            }
-            Some(Scattered::Directions(data)) if scene.interpolation == Interpolation::Patch => {
-                let dark = vec![0.0; data.emergent().len()];
-                let row = move |_: usize, cell: &Cell| {
-                    data.standing_for(cell.centre()).map_or_else(|| dark.clone(), |i| data.row(i).into_owned())
-                };
-                Self::Cells(data.emergent().clone(), Box::new(row))
-            }
-            Some(Scattered::Directions(data)) => {
-                let interpolator = session.interpolator(data);
-                let bases: Vec<Vec<f64>> =
-                    (0..data.incident().len()).map(|vertex| interpolator.model().base(vertex)).collect();
-                let basis = interpolator.model().grid().basis().clone();
-                let row = move |_: usize, cell: &Cell| {
-                    let model = interpolator.model();
-                    let recipe = model.recipe(cell.centre());
-                    let mut q = vec![0.0; model.grid().basis().len()];
-                    for base in &recipe.bases {
-                        q.iter_mut().zip(&bases[base.vertex]).for_each(|(sum, q)| *sum += base.factor * q);
-                    }
-                    let mut lobe = Vec::new();
-                    for copy in &recipe.copies {
-                        model.moved(copy, model.grid(), 1, &mut lobe);
-                        lobe.iter().for_each(|&(cell, value)| q[cell as usize] += value);
-                    }
-                    q
-                };
-                Self::Cells(basis, Box::new(row))
-            }
-            Some(Scattered::Tree(tree)) => {
-                let row = move |_: usize, cell: &Cell| {
-                    let mut sum = Vec::new();
-                    for (s, t) in [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)] {
-                        let [a, b] = [cell.theta_min, cell.theta_max].map(|theta| theta.sin().powi(2));
-                        let d = Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width);
-                        let q = tree.indicatrix(Incident(d)).q;
-                        sum.resize(q.len(), 0.0);
-                        sum.iter_mut().zip(&q).for_each(|(sum, q)| *sum += 0.25 * q);
-                    }
-                    sum
-                };
-                Self::Cells(tree.incident_grid().rings(), Box::new(row))
-            }
-        }
-    }
-
-    fn count(&self) -> usize {
-        match self {
-            Self::None => 0,
-            Self::Even(_) => 1,
-            Self::Cells(basis, _) => basis.len(),
-            Self::Described(system, _) => match system.rows() {
-                ScatteredRows::Bands([first, ..]) => system.basis().len() + first.q.len(),
-                _ => system.basis().len(),
-            },
-        }
-    }
-
-    /// What a direction is seen by.
-    fn index(&self, through: Dir<Facade>) -> [Option<usize>; 2] {
-        match self {
-            Self::None => [None; 2],
-            Self::Even(_) => [Some(0), None],
-            Self::Cells(basis, _) => [basis.index(through), None],
-            Self::Described(system, _) => {
-                let cells = system.basis();
-                let band = match system.rows() {
-                    ScatteredRows::Bands([first, ..]) => Some(cells.len() + first.band_of(through)),
-                    _ => None,
-                };
-                [cells.index(through), band]
-            }
-        }
-    }
-
-    fn through(&self, patch: usize, cell: &Cell) -> Vec<f64> {
-        match self {
-            Self::None => Vec::new(),
-            Self::Even(tau) => vec![tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(3)) / PI],
-            Self::Cells(_, rows) => rows(patch, cell),
-            Self::Described(system, patches) => {
-                let mut light = vec![0.0; self.count()];
-                let (cells, bands) = light.split_at_mut(system.basis().len());
-                let patch = &patches[patch];
-                patch.cells.iter().for_each(|&(cell, luminance)| cells[cell] += luminance);
-                for &(row, share) in &patch.rows {
-                    match system.rows() {
-                        ScatteredRows::None => {}
-                        ScatteredRows::Bands(rows) => add_scaled(bands, &rows[row].q, share),
-                        ScatteredRows::Cells(rows) => add_scaled(cells, &rows[row], share),
-                    }
-                }
-                light
-            }
+        for (sum, (tau, direction, seen)) in luminance.iter_mut().zip(&own.through) {
+            let seen = match &self.sky {
+                Sky::Patches(_) => outside.luminance(*direction),
+                Sky::Behind(_) => seen.iter().map(|(place, share)| f64::from(*share) * light[*place as usize]).sum(),
+            };
+            *sum += self.clear * tau * seen;
         }
     }
 }

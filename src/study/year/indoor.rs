@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
             self.engines.insert(set.to_vec(), Engine::new(&self.question, scene, 0, progress)?);
         }
         let engine = &self.engines[set];
-        let light = engine.at(self.question.session, k, self.question.steps.outside(k)?)?.light;
+        let light = engine.at(k, self.question.steps.outside(k)?).light;
         let at = |index: &usize| self.asked.binary_search(index).map_or(Estimate::default(), |place| light[place]);
         let mean = |list: &Vec<usize>| list.iter().map(at).sum::<Estimate>() * (1.0 / list.len().max(1) as f64);
         Ok(self.sensors.iter().map(|one| one.as_ref().map_or(Estimate::default(), mean)).collect())

@@ -1,15 +1,14 @@
 //! Illuminances of the steps of a year.
 //!
-//! Steps are grouped by the states of the moving apertures, and what the room makes of light is found once for each group.
-//! Where all that comes through is known by cells or in closed form, that is coefficients for sky and sun; else every
-//! step is a room of its own, with geometry and room kept by the session.
+//! Steps are grouped by the states of the moving apertures, and what the room makes of light is found once for each group:
+//! coefficients for sky and sun.
 
 use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, with_states};
 use super::settings::Settings;
 use super::steps::{Step, Steps};
-use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
-use crate::compute::sky::{Outside, Prepared, Sun};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::sky::{Outside, Sun};
 use crate::study::coefficients::{Coefficients, TOGETHER};
 use crate::study::control::settings;
 use crate::study::control::year::Moving;
@@ -25,15 +24,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How the light of the steps was found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// Products with coefficients, prepared once for each set of states.
-    Coefficients,
-    /// Every step as a room.
-    Rooms,
-}
-
 /// Illuminances of the chosen steps: rows of steps, columns of places, sensors first, then eyes. \[lx\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
@@ -45,8 +35,6 @@ pub struct Light {
     pub errors: Vec<f64>,
     /// Of it the sun that comes through unscattered and unreflected; `None` where nothing lets it, or nobody asks.
     pub sun: Option<Vec<f64>>,
-    /// How it was found.
-    pub way: Way,
     /// Sets of states that occur with light.
     pub sets: usize,
     /// Steps without light, or without people where nobody asks for these: not computed.
@@ -75,7 +63,6 @@ pub(super) fn light(
     question: &Question<'_>,
     states: &[Vec<usize>],
     chosen: &[usize],
-    notes: &mut Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Light, StudyError> {
     let places = question.settings.sensors + question.settings.eyes.len();
@@ -91,7 +78,6 @@ pub(super) fn light(
         values: vec![0.0; places * chosen.len()],
         errors: vec![0.0; places * chosen.len()],
         sun: None,
-        way: Way::Coefficients,
         sets: groups.len(),
         dark: chosen.len() - lit,
     };
@@ -99,24 +85,16 @@ pub(super) fn light(
     for (set, rows) in groups {
         let scene = prepared(question, set)?;
         let engine = Engine::new(question, scene, rows.len(), progress)?;
-        if let All::Rooms(..) = engine.all {
-            light.way = Way::Rooms;
-        }
         let block = |rows: &[usize]| {
             if progress.cancelled() {
                 return Err(StudyError::from(Cancelled));
             }
             let hour = |&row: &usize| Ok((chosen[row], question.steps.outside(chosen[row])?));
-            let found =
-                engine.all(question.session, &rows.iter().map(hour).collect::<Result<Vec<_>, StudyError>>()?)?;
+            let found = engine.all(&rows.iter().map(hour).collect::<Result<Vec<_>, StudyError>>()?);
             progress.advance("hours", done.fetch_add(rows.len(), Ordering::Relaxed) + rows.len(), lit);
             Ok(rows.iter().copied().zip(found).collect::<Vec<_>>())
         };
-        // A room takes long enough to be told, and ended, by itself.
-        let together = match engine.all {
-            All::Coefficients(..) => rows.len().div_ceil(PIECES).min(TOGETHER),
-            All::Rooms(..) => 1,
-        };
+        let together = rows.len().div_ceil(PIECES).min(TOGETHER);
         let found: Vec<Vec<(usize, Found)>> =
             rows.par_chunks(together).map(block).collect::<Result<_, StudyError>>()?;
         for (row, found) in found.into_iter().flatten() {
@@ -131,15 +109,7 @@ pub(super) fn light(
             }
         }
     }
-    tell(&light, notes);
     Ok(light)
-}
-
-/// How the light was found, where that is out of the ordinary.
-pub(super) fn tell(light: &Light, notes: &mut Vec<String>) {
-    if light.way == Way::Rooms {
-        notes.push("every hour was computed as a room: boxes outside are not known by coefficients".to_owned());
-    }
 }
 
 /// The sun alone straight at the places in all steps, with every moving aperture in the open state of its control: rows of
@@ -192,15 +162,9 @@ type Hour = (usize, (Outside, Option<Sun>));
 
 /// Ready for any sky and sun.
 pub(super) struct Engine {
-    all: All,
+    coefficients: Coefficients,
     /// Beside it the sun alone, where that is asked for and comes through.
     sun: Option<DirectSun>,
-}
-
-/// How all light is found.
-enum All {
-    Coefficients(Box<Coefficients>),
-    Rooms(Arc<Scene>, Arc<Prepared>),
 }
 
 impl Engine {
@@ -219,46 +183,30 @@ impl Engine {
             &scene.room,
             &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
         )?;
-        if let Some(prepared) = question.session.standing(&before, &scene.outside, scene.orientation, progress)? {
-            return Ok(Self { all: All::Rooms(scene, prepared), sun });
-        }
-        let mut coefficients = Coefficients::new(question.session, &scene, progress)?;
+        let prepared = question.session.standing(&before, &scene.outside, scene.orientation, progress)?;
+        let mut coefficients = Coefficients::past(question.session, &scene, prepared.as_ref(), progress)?;
         let year = (question.steps.number(), question.steps.list.len());
         coefficients.keep_year(question.session, year, steps);
-        Ok(Self { all: All::Coefficients(Box::new(coefficients)), sun })
+        Ok(Self { coefficients, sun })
     }
 
     /// Of one hour of the year.
-    pub fn at(&self, session: &Session, hour: usize, outside: (Outside, Option<Sun>)) -> Result<Found, StudyError> {
-        Ok(self.all(session, &[(hour, outside)])?.swap_remove(0))
+    pub fn at(&self, hour: usize, outside: (Outside, Option<Sun>)) -> Found {
+        self.all(&[(hour, outside)]).swap_remove(0)
     }
 
     /// Of many.
-    fn all(&self, session: &Session, hours: &[Hour]) -> Result<Vec<Found>, StudyError> {
+    fn all(&self, hours: &[Hour]) -> Vec<Found> {
         let direct = |sun: Option<&Sun>| {
             self.sun.as_ref().map(|all| sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(sun)))
         };
-        match &self.all {
-            All::Coefficients(coefficients) => {
-                let skies: Vec<_> = hours.iter().map(|(hour, (outside, _))| (*hour, outside)).collect();
-                let whole = |(mut light, (_, (_, sun))): (Vec<Estimate>, &Hour)| {
-                    if let Some(sun) = sun {
-                        light.iter_mut().zip(coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
-                    }
-                    Found { light, sun: direct(sun.as_ref()) }
-                };
-                Ok(coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect())
+        let skies: Vec<_> = hours.iter().map(|(hour, (outside, sun))| (*hour, outside, sun.as_ref())).collect();
+        let whole = |(mut light, (_, (_, sun))): (Vec<Estimate>, &Hour)| {
+            if let Some(sun) = sun {
+                light.iter_mut().zip(self.coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
             }
-            All::Rooms(scene, prepared) => {
-                let hour = |(_, (outside, sun)): &Hour| {
-                    let outside = prepared.under(outside, sun.as_ref());
-                    let scene = Scene { outside, sun: *sun, ..Scene::clone(scene) };
-                    let result = session.room(&scene, &Silent)?;
-                    let light = result.sensors.iter().map(|one| one.total()).collect();
-                    Ok(Found { light, sun: direct(sun.as_ref()) })
-                };
-                hours.iter().map(hour).collect()
-            }
-        }
+            Found { light, sun: direct(sun.as_ref()) }
+        };
+        self.coefficients.hours_estimate(&skies).into_iter().zip(hours).map(whole).collect()
     }
 }

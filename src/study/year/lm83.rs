@@ -131,7 +131,7 @@ pub(super) fn lm83(
         let chosen: Vec<usize> = rest.iter().map(|&row| question.chosen[row]).collect();
         let nothing = vec![Vec::new(); steps.list.len()];
         // How the light is found has been told of the year.
-        let light = light::light(&asked, &nothing, &chosen, &mut Vec::new(), progress)?;
+        let light = light::light(&asked, &nothing, &chosen, progress)?;
         rest.iter().enumerate().for_each(|(from, &row)| put(row, &light, from));
     }
     Ok(Lm83 { groups, worked: all, values, errors })

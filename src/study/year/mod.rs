@@ -55,7 +55,7 @@ pub use dgp::Dgp;
 pub use figures::{Figures, SolarFigures, figures};
 pub use indoor::Indoor;
 pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
-pub use light::{Light, Way};
+pub use light::Light;
 pub use lm83::{Group, Lm83, SHADE};
 pub use look::{Look, Page, Shows};
 pub use maps::{choices, error, map, title, weather_map};
@@ -222,8 +222,8 @@ fn computed(
     let question =
         light::Question { file, base, library, session, settings: &settings, steps: &steps, moving: &moving };
     let light = match kept {
-        Some(kept) => resume::light(&question, &states, &chosen, kept, &mut notes, progress)?,
-        None => light::light(&question, &states, &chosen, &mut notes, progress)?,
+        Some(kept) => resume::light(&question, &states, &chosen, kept, progress)?,
+        None => light::light(&question, &states, &chosen, progress)?,
     };
     lap("light");
     let whole = steps.whole && chosen.len() == steps.list.len();

@@ -5,7 +5,7 @@
 //! [`PATIENCE`], and goes when the table is there. A line that was being written when the run ended is written anew.
 //! What is found from the hours (glare, solar energy, figures) is not kept.
 
-use super::light::{self, Light, Question, Way};
+use super::light::{self, Light, Question};
 use crate::compute::estimate::Progress;
 use crate::study::error::StudyError;
 use std::collections::BTreeMap;
@@ -22,12 +22,11 @@ const BLOCK: Duration = Duration::from_secs(10);
 /// Hours at first, before it is known how long they take.
 const FIRST: usize = 64;
 /// The first word of a part, with its version.
-const HEAD: &str = "cfs-year-part-1";
+const HEAD: &str = "cfs-year-part-2";
 
 /// One hour.
 #[derive(Debug, Clone, PartialEq)]
 struct Hour {
-    way: Way,
     values: Vec<f64>,
     errors: Vec<f64>,
     sun: Option<Vec<f64>>,
@@ -58,9 +57,8 @@ fn numbers(text: &mut String, values: &[f64]) {
 
 impl Hour {
     fn line(&self, step: usize) -> String {
-        let way = if self.way == Way::Rooms { 'r' } else { 'c' };
         let sun = if self.sun.is_some() { 's' } else { '-' };
-        let mut text = format!("{step} {} {way}{sun}", self.values.len());
+        let mut text = format!("{step} {} {sun}", self.values.len());
         numbers(&mut text, &self.values);
         numbers(&mut text, &self.errors);
         numbers(&mut text, self.sun.as_deref().unwrap_or_default());
@@ -72,11 +70,9 @@ impl Hour {
         let mut words = line.split(' ');
         let step = words.next()?.parse().ok()?;
         let places: usize = words.next()?.parse().ok()?;
-        let (way, sun) = match words.next()? {
-            "c-" => (Way::Coefficients, false),
-            "cs" => (Way::Coefficients, true),
-            "r-" => (Way::Rooms, false),
-            "rs" => (Way::Rooms, true),
+        let sun = match words.next()? {
+            "-" => false,
+            "s" => true,
             _ => return None,
         };
         let all: Vec<f64> = words
@@ -86,7 +82,7 @@ impl Hour {
             return None;
         }
         let part = |k: usize| all[k * places..][..places].to_vec();
-        Some((step, Self { way, values: part(0), errors: part(1), sun: sun.then(|| part(2)) }))
+        Some((step, Self { values: part(0), errors: part(1), sun: sun.then(|| part(2)) }))
     }
 }
 
@@ -238,7 +234,6 @@ pub(super) fn light(
     states: &[Vec<usize>],
     chosen: &[usize],
     kept: &mut Kept,
-    notes: &mut Vec<String>,
     progress: &dyn Progress,
 ) -> Result<Light, StudyError> {
     let places = question.settings.sensors + question.settings.eyes.len();
@@ -254,17 +249,11 @@ pub(super) fn light(
         while at < missing.len() {
             let part = &missing[at..(at + block).min(missing.len())];
             let clock = Instant::now();
-            // What is to be said of the hours is said of all of them, below.
-            let found =
-                light::light(question, states, part, &mut Vec::new(), &Counted { inner: progress, before: done, all })?;
+            let found = light::light(question, states, part, &Counted { inner: progress, before: done, all })?;
             for (row, &k) in part.iter().enumerate() {
                 let own = |all: &[f64]| all[row * places..][..places].to_vec();
-                let hour = Hour {
-                    way: found.way,
-                    values: own(&found.values),
-                    errors: own(&found.errors),
-                    sun: found.sun.as_deref().map(own),
-                };
+                let hour =
+                    Hour { values: own(&found.values), errors: own(&found.errors), sun: found.sun.as_deref().map(own) };
                 kept.keep(k, hour);
             }
             kept.write()?;
@@ -278,7 +267,6 @@ pub(super) fn light(
         values: vec![0.0; places * chosen.len()],
         errors: vec![0.0; places * chosen.len()],
         sun: None,
-        way: Way::Coefficients,
         sets: sets.len(),
         dark: chosen.len() - all,
     };
@@ -290,11 +278,7 @@ pub(super) fn light(
         if let Some(sun) = &hour.sun {
             light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()])[at].copy_from_slice(sun);
         }
-        if hour.way == Way::Rooms {
-            light.way = Way::Rooms;
-        }
     }
-    light::tell(&light, notes);
     Ok(light)
 }
 
@@ -304,7 +288,7 @@ mod tests {
 
     fn hour(sun: bool) -> Hour {
         let sun = sun.then(|| vec![0.0, 1e-300]);
-        Hour { way: Way::Rooms, values: vec![0.1, 12345.678901234567], errors: vec![f64::MIN_POSITIVE, 2.0], sun }
+        Hour { values: vec![0.1, 12345.678901234567], errors: vec![f64::MIN_POSITIVE, 2.0], sun }
     }
 
     #[test]

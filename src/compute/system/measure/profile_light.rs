@@ -31,13 +31,13 @@ impl ProfileLight {
     }
 
     /// Profile angle of a name. \[rad\]
-    fn angle_of(upright: bool, name: Dir<Facade>) -> f64 {
+    pub fn angle_of(upright: bool, name: Dir<Facade>) -> f64 {
         let v = name.vector();
         if upright { v.x } else { v.y }.atan2(v.z)
     }
 
     /// The band of so many that a profile angle lies in.
-    fn band(angle: f64, bands: usize) -> usize {
+    pub fn band(angle: f64, bands: usize) -> usize {
         ((angle + FRAC_PI_2) / PI * (bands - 1) as f64).round().max(0.0) as usize
     }
 

@@ -1,0 +1,195 @@
+//! Light that differs from place to place of an aperture, on a grid of points with parabolas between each three of them.
+
+use super::aperture::{Aperture, View};
+use super::through;
+use crate::compute::quadrature::gauss_legendre;
+use crate::compute::sequence::net;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Lines along each side: an odd number.
+const LINES: usize = 13;
+/// Distance of the outermost lines from the borders, relative to the side: a point on the border may lie in a box that touches it.
+const INSET: f64 = 5e-4;
+/// Gauss points between three lines: exact for a parabola times a polynomial of degree five.
+const RULE: usize = 4;
+/// Directions in which a sensor looks at an aperture for where its light comes from.
+const DIRECTIONS: u32 = 4096;
+/// Points of an aperture that are asked whether the sun reaches them.
+const POINTS: u32 = 4096;
+
+/// Points of an aperture, close together along its borders, where light changes fast beside what stands there.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    aperture: Aperture,
+    /// Shares of a side.
+    lines: Vec<f64>,
+}
+
+/// Points of a grid with their weights.
+pub type Weights = Vec<(u16, f32)>;
+
+impl Grid {
+    /// Of an aperture: Chebyshev's points along each side.
+    pub fn of(aperture: &Aperture) -> Self {
+        let line = |k: usize| 0.5 - (0.5 - INSET) * (PI * k as f64 / (LINES - 1) as f64).cos();
+        Self { aperture: *aperture, lines: (0..LINES).map(line).collect() }
+    }
+
+    /// Returns the share of the aperture that each point stands for.
+    pub fn parts(&self) -> Vec<f64> {
+        self.integrals(|_| 1.0, |_| 1.0)
+    }
+
+    /// Integrals of the interpolation weights of all points times a function of each side.
+    pub fn integrals(&self, of_x: impl Fn(f64) -> f64, of_y: impl Fn(f64) -> f64) -> Vec<f64> {
+        let side = |of: &dyn Fn(f64) -> f64| {
+            let mut sums = vec![0.0; self.lines.len()];
+            let last = self.lines.len() - 1;
+            for first in (0..last).step_by(2) {
+                let low = if first == 0 { 0.0 } else { self.lines[first] };
+                let high = if first + 2 == last { 1.0 } else { self.lines[first + 2] };
+                for (s, weight) in gauss_legendre(RULE) {
+                    let at = low + (high - low) * s;
+                    self.along(at).into_iter().for_each(|(k, value)| sums[k] += weight * (high - low) * of(at) * value);
+                }
+            }
+            sums
+        };
+        let (x, y) = (side(&of_x), side(&of_y));
+        y.iter().flat_map(|y| x.iter().map(move |x| x * y)).collect()
+    }
+
+    /// Returns the points as shares of the sides.
+    pub fn shares(&self) -> Vec<[f64; 2]> {
+        self.lines.iter().flat_map(|y| self.lines.iter().map(|x| [*x, *y])).collect()
+    }
+
+    /// Returns the number of points.
+    pub fn count(&self) -> usize {
+        self.lines.len().pow(2)
+    }
+
+    /// Returns the points in the room frame. \[m\]
+    pub fn places(&self) -> Vec<DVec3> {
+        let [u, v] = [DVec3::X, DVec3::Y].map(|axis| self.aperture.surface.room_from_facade(axis));
+        let [u, v] = [self.aperture.size[0] * u, self.aperture.size[1] * v];
+        self.shares().into_iter().map(|[x, y]| self.aperture.corner + x * u + y * v).collect()
+    }
+
+    /// The three lines around a place on a side with their weights.
+    fn along(&self, at: f64) -> [(usize, f64); 3] {
+        let first = (self.lines.partition_point(|line| *line <= at).clamp(1, self.lines.len() - 2) - 1) / 2 * 2;
+        let [a, b, c] = [0, 1, 2].map(|k| self.lines[first + k]);
+        [
+            (first, (at - b) * (at - c) / ((a - b) * (a - c))),
+            (first + 1, (at - a) * (at - c) / ((b - a) * (b - c))),
+            (first + 2, (at - a) * (at - b) / ((c - a) * (c - b))),
+        ]
+    }
+
+    /// Points around a place, shares of the sides, with their weights.
+    fn around(&self, place: [f64; 2]) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let ([along, across], count) = (place.map(|at| self.along(at)), self.lines.len());
+        across.into_iter().flat_map(move |(k, b)| along.map(|(i, a)| (k * count + i, a * b)))
+    }
+
+    /// Returns cell by cell on which points the light hangs that a sensor sees of it. `cells`: projected solid angle of each that
+    /// it sees; `cell`: the one of a direction of the façade frame; `middle`: a direction in it. \[sr\]
+    pub fn by_cell(
+        &self,
+        view: &View,
+        cells: impl Iterator<Item = (usize, f64)>,
+        cell: impl Fn(DVec3) -> Option<usize>,
+        middle: impl Fn(usize) -> DVec3,
+    ) -> Vec<(usize, Weights)> {
+        let mut seen: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
+        let add = |sums: &mut BTreeMap<usize, f64>, place, counts| {
+            self.around(place).for_each(|(point, share)| *sums.entry(point).or_default() += counts * share);
+        };
+        through::spread(view, DIRECTIONS, |towards, counts, place| {
+            if let Some(cell) = cell(towards).filter(|_| counts > 0.0) {
+                add(seen.entry(cell).or_default(), place, counts);
+            }
+        });
+        let one = |(cell, counts): (usize, f64)| {
+            let sums = seen.entry(cell).or_insert_with(|| {
+                // None of the directions: its middle, or what of the aperture is nearest to that.
+                let (towards, mut sums) = (middle(cell), BTreeMap::new());
+                let share = |at: f64, [low, high]: [f64; 2]| {
+                    ((at / towards.z.max(1e-9) * view.distance - low) / (high - low)).clamp(0.0, 1.0)
+                };
+                add(&mut sums, [share(towards.x, view.x), share(towards.y, view.y)], 1.0);
+                sums
+            });
+            let sum: f64 = sums.values().sum();
+            (cell, sums.iter().map(|(point, share)| (*point as u16, (counts * share / sum) as f32)).collect())
+        };
+        cells.filter(|(_, counts)| *counts != 0.0).map(one).collect()
+    }
+
+    /// The point nearest to a place, shares of the sides.
+    fn near(&self, place: [f64; 2]) -> usize {
+        let [i, k] = place.map(|at| {
+            let after = self.lines.partition_point(|line| *line <= at).clamp(1, self.lines.len() - 1);
+            if at - self.lines[after - 1] < self.lines[after] - at { after - 1 } else { after }
+        });
+        k * self.lines.len() + i
+    }
+
+    /// Returns the shares of what is nearest to each point that convex pieces of the aperture cover, given in the room frame.
+    pub fn lit(&self, pieces: &[Vec<DVec3>]) -> Vec<f64> {
+        let flat = |corner: &DVec3| {
+            let to = self.aperture.surface.facade_from_room(*corner - self.aperture.corner);
+            DVec2::new(to.x / self.aperture.size[0], to.y / self.aperture.size[1])
+        };
+        let pieces: Vec<Vec<DVec2>> = pieces.iter().map(|piece| piece.iter().map(flat).collect()).collect();
+        let holds = |piece: &Vec<DVec2>, at: DVec2| {
+            let sides = || piece.iter().zip(piece.iter().cycle().skip(1)).map(|(a, b)| (*b - *a).perp_dot(at - *a));
+            sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0)
+        };
+        let (mut lit, mut all) = (vec![0.0; self.count()], vec![0.0; self.count()]);
+        for number in 0..POINTS {
+            let place = net(number, 1);
+            let reached = pieces.iter().any(|piece| holds(piece, DVec2::from_array(place)));
+            let near = self.near(place);
+            all[near] += 1.0;
+            lit[near] += if reached { 1.0 } else { 0.0 };
+        }
+        lit.iter().zip(all).map(|(lit, all)| if all > 0.0 { lit / all } else { 0.0 }).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::direction::Surface;
+    use crate::compute::polygon::projected_solid_angle;
+
+    #[test]
+    fn a_sensor_sees_what_the_aperture_shows_there() {
+        let aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [3.0, 1.8] };
+        let grid = Grid::of(&aperture);
+        assert!((grid.parts().iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        let light = |p: DVec3| 2.0 + (p.x - 0.45).sqrt() - 0.2 * p.z * p.z;
+        let values: Vec<f64> = grid.places().into_iter().map(light).collect();
+        let view = aperture.view(DVec3::new(1.0, 0.8, 0.85), DVec3::Z).unwrap();
+        let whole = projected_solid_angle(&view.corners(), view.normal);
+        let seen = grid.by_cell(&view, std::iter::once((0, whole)), |_| Some(0), |_| DVec3::Z);
+        let seen: f64 = seen[0].1.iter().map(|(point, counts)| f64::from(*counts) * values[usize::from(*point)]).sum();
+        let (mut exact, count) = (0.0, 400);
+        for (i, k) in (0..count).flat_map(|i| (0..count).map(move |k| (i, k))) {
+            let [x, y] = [i, k].map(|k| (f64::from(k) + 0.5) / f64::from(count));
+            let point = DVec3::new(0.5 + 3.0 * x, 0.0, 0.9 + 1.8 * y);
+            let to = point - DVec3::new(1.0, 0.8, 0.85);
+            let area = 3.0 * 1.8 / f64::from(count * count);
+            exact += light(point) * area * to.z.max(0.0) * -to.y / to.length_squared().powi(2);
+        }
+        assert!((seen / exact - 1.0).abs() < 2e-3, "{seen} {exact}");
+        // Half of it in the sun.
+        let [a, b, c, _] = aperture.corners();
+        let lit = grid.lit(&[vec![a, b, c]]);
+        assert!((lit[12] - 1.0).abs() < 1e-12 && lit[156] == 0.0, "{lit:?}");
+    }
+}

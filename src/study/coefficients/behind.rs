@@ -1,0 +1,320 @@
+//! V·T·D of an aperture behind boxes: columns for the luminances of which all that is seen outside consists.
+//!
+//! What comes straight to a sensor is followed back: to the point of the aperture that it sees in a direction, to the patches
+//! that the system sends light on from there, to what that point sees through these. The room takes less notice of where light
+//! comes through: it gets that of few nodes.
+
+use super::part::Way;
+use super::sent::{Luminances, Sent};
+use super::transport::Column;
+use super::views::Opening;
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::AngularTransmittance;
+use crate::compute::direction::{Dir, Surface};
+use crate::compute::lid::Facing;
+use crate::compute::room::aperture::{Aperture, View};
+use crate::compute::room::band_weights::BandWeights;
+use crate::compute::room::beams_past::{lit, lit_by_rim};
+use crate::compute::room::direct::{Reception, Sensor};
+use crate::compute::room::grid::{Grid, Weights};
+use crate::compute::room::nodes::Nodes;
+use crate::compute::room::through;
+use crate::compute::sky::{Counts, Frame, Outside, Prepared, SparseSum};
+use crate::compute::surroundings::Surroundings;
+use crate::compute::system::measure::ProfileLight;
+use crate::study::scene::Scene;
+use crate::study::session::Session;
+use crate::study::session::seen::{bands_of, inside};
+use crate::study::session::sky_year::SkyYear;
+use faer::Mat;
+use glam::DVec3;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// Directions in which a sensor looks straight through an aperture, below the horizon and above.
+const THROUGH: u32 = 4096;
+/// Nodes along each side for the room.
+const NODES: usize = 3;
+
+/// What stands before all apertures of a scene.
+pub(super) struct Behind {
+    pub prepared: Arc<Prepared>,
+    /// The boxes alone, dark.
+    pub around: Surroundings,
+}
+
+/// One aperture behind it.
+pub(super) struct Past {
+    aperture: Aperture,
+    grid: Grid,
+    nodes: Nodes,
+    patches: RingBasis,
+    sent: Option<Sent>,
+    /// Of every sensor.
+    seen: Vec<CellsSeen>,
+    /// Patch by patch, node by node, sensor by sensor what the room makes of light, per illuminance.
+    reflected: Vec<Vec<f32>>,
+}
+
+/// What a sensor sees per luminance of a cell of the light on single points of a grid. \[sr\]
+#[derive(Default)]
+struct CellsSeen {
+    /// By emergent cell, and by band.
+    cells: Vec<(usize, Weights)>,
+    bands: Vec<(usize, Weights)>,
+}
+
+/// What of an aperture the sun reaches.
+pub(super) struct Sunlit {
+    /// Convex pieces in the room frame. \[m\]
+    pub pieces: Vec<Vec<DVec3>>,
+    /// The same for points of the sun's rim.
+    pub rim: Vec<Vec<Vec<DVec3>>>,
+    /// The share of the scattered light of all the aperture that reaches every sensor straight, and by way of the room.
+    pub shares: Vec<[f64; 2]>,
+}
+
+/// Places in a list of those that a list names.
+fn places(named: &[(usize, Weights)], count: usize) -> Vec<Option<usize>> {
+    let mut places = vec![None; count];
+    named.iter().enumerate().for_each(|(place, (cell, _))| places[*cell] = Some(place));
+    places
+}
+
+/// Light on the points of a grid.
+fn add(light: &Luminances, seen: &[(usize, Weights)], places: &[Option<usize>], factor: f64, points: &mut [f64]) {
+    for (cell, q) in light {
+        let Some(place) = places[*cell] else { continue };
+        seen[place].1.iter().for_each(|(point, counts)| points[usize::from(*point)] += factor * q * f64::from(*counts));
+    }
+}
+
+impl Behind {
+    pub fn new(prepared: Arc<Prepared>) -> Self {
+        Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
+    }
+
+    /// What the sun reaches of an aperture past boxes: `None` where that is nothing, no pieces where it is all.
+    pub fn sunlit(&self, past: &Past, facing: &Facing<'_>) -> Option<Sunlit> {
+        let (pieces, share) = lit(&past.aperture, facing, &self.around);
+        if share <= 1e-9 {
+            return None;
+        }
+        if share >= 1.0 - 1e-9 {
+            return Some(Sunlit { pieces: Vec::new(), rim: Vec::new(), shares: vec![[1.0; 2]; past.seen.len()] });
+        }
+        let shares = past.shares(facing, &pieces, share);
+        Some(Sunlit { rim: lit_by_rim(&past.aperture, facing, &self.around), pieces, shares })
+    }
+
+    /// Prepares an aperture, and makes columns of the luminances of a moment: rows of all sensors for the parts of
+    /// [`super::part::Sums`]. `columns`: of every patch what the room makes of light, node by node.
+    pub fn past(
+        &self,
+        opening: &Opening<'_>,
+        nodes: Nodes,
+        (patches, columns): (&RingBasis, &[Column]),
+        sent: Option<Sent>,
+        regular: Option<&AngularTransmittance>,
+    ) -> (Past, Mat<f32>) {
+        let (scene, sensors) = (opening.scene, opening.scene.sensors.len());
+        let aperture = scene.apertures[opening.index].aperture;
+        let grid = Grid::of(&aperture);
+        let by_point = seen_by_points(opening.session, scene, opening.index, &self.prepared, (grid.places(), patches));
+        let mut tables: Mat<f32> = Mat::zeros(3 * sensors, self.prepared.count());
+        // By way of the room.
+        let places = sensors * nodes.count();
+        let on_nodes = nodes.of_grid(&grid);
+        let mut seen = SparseSum::new(self.prepared.count());
+        for (p, column) in columns.iter().enumerate() {
+            for (node, on_node) in on_nodes.iter().enumerate() {
+                for (by_patch, share) in by_point.iter().zip(on_node) {
+                    by_patch[p].iter().for_each(|(k, counts)| seen.add(*k as usize, share * f64::from(*counts)));
+                }
+                let rows: Vec<&[f64]> =
+                    column.light.chunks_exact(places).map(|row| &row[node * sensors..][..sensors]).collect();
+                for (place, counts) in seen.take() {
+                    let to = tables.col_as_slice_mut(place as usize);
+                    for (to, e) in to.iter_mut().zip(rows.iter().copied().flatten()) {
+                        *to += counts * *e as f32;
+                    }
+                }
+            }
+        }
+        let reflected = |column: &Column| {
+            column.light.get(places..2 * places).unwrap_or_default().iter().map(|e| *e as f32).collect()
+        };
+        let mut past = Past {
+            aperture,
+            grid,
+            nodes,
+            patches: patches.clone(),
+            seen: Vec::new(),
+            reflected: columns.iter().map(reflected).collect(),
+            sent,
+        };
+        past.seen = scene.sensors.par_iter().map(|sensor| past.cells_seen(&inside(scene, sensor))).collect();
+        // Straight.
+        let straight = |(s, sensor): (usize, &Sensor)| {
+            let mut row = vec![0.0; self.prepared.count()];
+            past.add_scattered(&past.seen[s], &by_point, &mut row);
+            if let Some(tau) = regular {
+                self.add_regular(opening, &inside(scene, sensor), tau, &mut row);
+            }
+            row
+        };
+        let rows: Vec<Vec<f64>> = scene.sensors.par_iter().enumerate().map(straight).collect();
+        for (s, row) in rows.iter().enumerate() {
+            row.iter().enumerate().for_each(|(place, counts)| tables[(s, place)] += *counts as f32);
+        }
+        (past, tables)
+    }
+
+    /// Adds what the luminances of a moment count for at a sensor straight through a regular transmittance. \[sr\]
+    fn add_regular(&self, opening: &Opening<'_>, sensor: &Sensor, tau: &AngularTransmittance, row: &mut [f64]) {
+        let scene = opening.scene;
+        let aperture = &scene.apertures[opening.index].aperture;
+        let surface = aperture.surface;
+        let Some(view) = aperture.view(sensor.position, sensor.normal) else { return };
+        let eye = scene.orientation.to_world(sensor.position);
+        let [low, high] = view.y;
+        let level = if surface == Surface::Facade { 0.0_f64.clamp(low, high) } else { high };
+        for y in [[low, level], [level, high]].into_iter().filter(|[low, high]| high > low) {
+            through::spread(&View { y, ..view }, THROUGH, |towards, counts, _| {
+                let counts = counts * tau.at(towards.z.clamp(-1.0, 1.0).acos());
+                let towards = scene.orientation.to_world(surface.room_from_facade(towards));
+                self.prepared.look(eye, towards, |place, share| row[place] += counts * share);
+            });
+        }
+    }
+}
+
+impl Past {
+    /// Of a sensor.
+    fn cells_seen(&self, sensor: &Sensor) -> CellsSeen {
+        let Some((sent, view)) = self.sent.as_ref().zip(self.aperture.view(sensor.position, sensor.normal)) else {
+            return CellsSeen::default();
+        };
+        let basis = &*sent.cells;
+        let reception = Reception::new(sensor, &self.aperture, Some(basis));
+        let cell = |towards: DVec3| basis.index(Dir::from_unit(towards));
+        let middle = |cell: usize| basis.cell(cell).centre().vector();
+        let cells = self.grid.by_cell(&view, reception.cells.into_iter().enumerate(), cell, middle);
+        let by_band = |(upright, count): (bool, usize)| {
+            let borders: Vec<f64> = ProfileLight::borders(count).collect();
+            let band = |towards: DVec3| {
+                let angle = ProfileLight::angle_of(upright, Dir::from_unit(towards));
+                Some(ProfileLight::band(angle, count).min(count - 1))
+            };
+            let middle = |band: usize| {
+                let (sin, cos) = (0.5 * (borders[band] + borders[band + 1])).sin_cos();
+                if upright { DVec3::new(sin, 0.0, cos) } else { DVec3::new(0.0, sin, cos) }
+            };
+            let weights: BandWeights = bands_of(sensor, &self.aperture, upright, count);
+            self.grid.by_cell(&view, weights.each(), band, middle)
+        };
+        CellsSeen { cells, bands: sent.bands.map(by_band).unwrap_or_default() }
+    }
+
+    /// Adds what the luminances of a moment count for at a sensor by scattered light. `by_point`: what the points of the grid see of
+    /// them through every patch. \[sr\]
+    fn add_scattered(&self, seen: &CellsSeen, by_point: &[Vec<Counts>], row: &mut [f64]) {
+        let Some(sent) = &self.sent else { return };
+        let by_cell = places(&seen.cells, sent.cells.len());
+        let by_row = self.rows_seen(sent, seen, &by_cell, &(0..sent.rows.len()).collect::<Vec<_>>());
+        let mut points = vec![0.0; self.grid.count()];
+        for (p, patch) in sent.patches.iter().enumerate() {
+            points.fill(0.0);
+            add(&patch.own, &seen.cells, &by_cell, 1.0, &mut points);
+            for (from, share) in &patch.rows {
+                points.iter_mut().zip(&by_row[*from]).for_each(|(sum, e)| *sum += share * e);
+            }
+            for (point, light) in points.iter().enumerate().filter(|(_, light)| **light != 0.0) {
+                for (place, counts) in &by_point[point][p] {
+                    row[*place as usize] += light * f64::from(*counts);
+                }
+            }
+        }
+    }
+
+    /// What a sensor sees of rows on the points of the grid.
+    fn rows_seen(&self, sent: &Sent, seen: &CellsSeen, by_cell: &[Option<usize>], rows: &[usize]) -> Vec<Vec<f64>> {
+        let by_band = sent.bands.map(|(_, count)| places(&seen.bands, count));
+        let of = |row: &usize| {
+            let mut points = vec![0.0; self.grid.count()];
+            match &by_band {
+                Some(by_band) => add(&sent.rows[*row], &seen.bands, by_band, 1.0, &mut points),
+                None => add(&sent.rows[*row], &seen.cells, by_cell, 1.0, &mut points),
+            }
+            points
+        };
+        rows.iter().map(of).collect()
+    }
+
+    /// Of the sun's scattered light on a part of the aperture, the share of it on all the aperture that reaches every sensor
+    /// straight, and by way of the room: as that of its patch, without what this sends on by itself.
+    fn shares(&self, facing: &Facing<'_>, pieces: &[Vec<DVec3>], share: f64) -> Vec<[f64; 2]> {
+        let patch = facing.sun_entering().and_then(|sun| self.patches.index(sun));
+        let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[share; 2]; self.seen.len()] };
+        let (on_points, on_nodes) = (self.grid.lit(pieces), self.nodes.lit(pieces));
+        let patch = &sent.patches[p];
+        let rows: Vec<usize> = patch.rows.iter().map(|(row, _)| *row).collect();
+        let of = |(s, seen): (usize, &CellsSeen)| {
+            let by_cell = places(&seen.cells, sent.cells.len());
+            let mut points = vec![0.0; self.grid.count()];
+            for (light, (_, share)) in self.rows_seen(sent, seen, &by_cell, &rows).iter().zip(&patch.rows) {
+                points.iter_mut().zip(light).for_each(|(sum, e)| *sum += share * e);
+            }
+            if rows.is_empty() {
+                add(&patch.own, &seen.cells, &by_cell, 1.0, &mut points);
+            }
+            let ratio = |light: &mut dyn Iterator<Item = (f64, f64)>| {
+                let (part, all) = light.fold((0.0, 0.0), |(part, all), (e, lit)| (part + e * lit, all + e));
+                if all > 0.0 { (part / all).clamp(0.0, 1.0) } else { share }
+            };
+            let reflected =
+                self.reflected.get(p).into_iter().flatten().skip(s).step_by(self.seen.len()).map(|e| f64::from(*e));
+            [
+                ratio(&mut points.iter().copied().zip(on_points.iter().copied())),
+                ratio(&mut reflected.zip(on_nodes.iter().copied())),
+            ]
+        };
+        self.seen.iter().enumerate().map(of).collect()
+    }
+}
+
+/// What points of an aperture, in the room frame, see through every patch of the luminances of a moment, computed or kept.
+pub(in crate::study) fn seen_by_points(
+    session: &Session,
+    scene: &Scene,
+    index: usize,
+    prepared: &Prepared,
+    (points, patches): (Vec<DVec3>, &RingBasis),
+) -> Arc<Vec<Vec<Counts>>> {
+    let eyes: Vec<DVec3> = points.into_iter().map(|point| scene.orientation.to_world(point)).collect();
+    let frame = Frame::of_aperture(scene.orientation, scene.apertures[index].aperture.surface);
+    session.seen_patches(prepared, &eyes, &frame, patches)
+}
+
+/// The luminances of moments, computed together or kept.
+pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, skies: &[(&Outside, Way<'_>)]) -> Vec<Vec<f64>> {
+    let kept: Vec<Option<(&SkyYear, usize)>> = skies.iter().map(|(_, way)| Some((year?, way.hour()?))).collect();
+    let missing: Vec<bool> = kept.iter().map(|kept| kept.is_none_or(|(year, hour)| !year.holds(hour))).collect();
+    let asked = skies.iter().zip(&missing).filter(|(_, missing)| **missing);
+    let asked: Vec<_> = asked.map(|((outside, way), _)| (*outside, way.sun())).collect();
+    let mut found = prepared.luminances(&asked).into_iter();
+    let wide = |light: Vec<f32>| light.into_iter().map(f64::from).collect();
+    let one = |(kept, missing): (Option<(&SkyYear, usize)>, bool)| {
+        let own: Vec<f64> = if missing { found.next().map(wide).unwrap_or_default() } else { Vec::new() };
+        match kept {
+            Some((year, hour)) => year.hour(hour, || own).collect(),
+            None => own,
+        }
+    };
+    kept.into_iter().zip(missing).map(one).collect()
+}
+
+/// Nodes of an aperture for the room.
+pub(super) fn nodes(aperture: &Aperture) -> Nodes {
+    Nodes::new(aperture, NODES, NODES)
+}

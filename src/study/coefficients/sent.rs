@@ -1,0 +1,143 @@
+//! What a system sends on of light through patches of its incident hemisphere, in the directions that data or description have
+//! for it.
+
+use super::transport::{ACROSS, TREE_SAMPLED};
+use crate::compute::basis::RingBasis;
+use crate::compute::btdf::{Btdf, Scattered};
+use crate::compute::direction::{Dir, Facade, Incident};
+use crate::compute::lid::SkyThrough;
+use crate::compute::lid::sky_columns::ScatteredRows;
+use crate::compute::quadrature::gauss_legendre;
+use crate::compute::system::measure::ProfileLight;
+use crate::study::scene_file::Interpolation;
+use crate::study::session::Session;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+/// Cells or bands with their luminance per illuminance. \[1/sr\]
+pub(in crate::study) type Luminances = Vec<(usize, f64)>;
+
+/// The light of all patches.
+pub(in crate::study) struct Sent {
+    /// Emergent cells.
+    pub cells: Arc<RingBasis>,
+    /// Where rows are by bands of the profile angle instead: upright or not, and how many.
+    pub bands: Option<(bool, usize)>,
+    /// What many patches send on alike.
+    pub rows: Vec<Luminances>,
+    /// Of every patch.
+    pub patches: Vec<Patch>,
+}
+
+/// The light of one patch.
+#[derive(Default)]
+pub(in crate::study) struct Patch {
+    /// On cells.
+    pub own: Luminances,
+    /// Rows, with the illuminance that each stands for.
+    pub rows: Vec<(usize, f64)>,
+}
+
+/// Those that are not dark.
+fn lit(row: &[f64]) -> Luminances {
+    row.iter().copied().enumerate().filter(|(_, q)| *q != 0.0).collect()
+}
+
+impl Sent {
+    /// Returns the number of cells and bands.
+    pub fn count(&self) -> usize {
+        self.cells.len() + self.bands.map_or(0, |(_, count)| count)
+    }
+
+    /// Returns the cell and the band that a direction is seen by, these numbered after the cells.
+    pub fn index(&self, through: Dir<Facade>) -> [Option<usize>; 2] {
+        let band = |(upright, count)| {
+            self.cells.len() + ProfileLight::band(ProfileLight::angle_of(upright, through), count).min(count - 1)
+        };
+        [self.cells.index(through), self.bands.map(band)]
+    }
+
+    /// Returns the luminance of all cells and bands per illuminance through a patch. \[1/sr\]
+    pub fn through(&self, patch: usize) -> Vec<f64> {
+        let mut all = vec![0.0; self.count()];
+        let first = if self.bands.is_some() { self.cells.len() } else { 0 };
+        let Patch { own, rows } = &self.patches[patch];
+        own.iter().for_each(|(cell, q)| all[*cell] += q);
+        for (row, share) in rows {
+            self.rows[*row].iter().for_each(|(place, q)| all[first + place] += share * q);
+        }
+        all
+    }
+
+    /// Of a described system.
+    pub fn described(through: &SkyThrough) -> Self {
+        let (bands, rows) = match through.rows() {
+            ScatteredRows::None => (None, Vec::new()),
+            ScatteredRows::Bands(rows) => {
+                (rows.first().map(|row| (row.upright, row.q.len())), rows.iter().map(|row| lit(&row.q)).collect())
+            }
+            ScatteredRows::Cells(rows) => (None, rows.iter().map(|row| lit(row)).collect()),
+        };
+        let patches = through.by_patch().into_iter().map(|patch| Patch { own: patch.cells, rows: patch.rows });
+        Self { cells: Arc::clone(through.basis()), bands, rows, patches: patches.collect() }
+    }
+
+    /// By data, on the patches that suit them ([`super::transport::patches`]); `None` where nothing is scattered.
+    pub fn of_data(session: &Session, btdf: &Btdf, interpolation: Interpolation, patches: &RingBasis) -> Option<Self> {
+        let single = |row: usize, share: f64| Patch { own: Vec::new(), rows: vec![(row, share)] };
+        let sent = |cells: &RingBasis, rows: Vec<Luminances>, patches: Vec<Patch>| {
+            Some(Self { cells: Arc::new(cells.clone()), bands: None, rows, patches })
+        };
+        match btdf.scattered.as_ref()? {
+            Scattered::Lambert(tau) => {
+                let rule = gauss_legendre(ACROSS);
+                let share = |cell: crate::compute::basis::Cell| tau.ring_mean(cell.theta_min, cell.theta_max, &rule);
+                let patches = patches.cells().map(|cell| single(0, share(cell))).collect();
+                sent(&RingBasis::hemisphere(), vec![vec![(0, 1.0 / PI)]], patches)
+            }
+            Scattered::Cells(matrix) => {
+                let count = matrix.incident().len();
+                let rows = (0..count).map(|i| lit(&matrix.row(i))).collect();
+                sent(matrix.emergent(), rows, (0..count).map(|i| single(i, 1.0)).collect())
+            }
+            Scattered::Directions(data) if interpolation == Interpolation::Patch => {
+                let rows = (0..data.incident().len()).map(|i| lit(&data.row(i))).collect();
+                let near = |cell: crate::compute::basis::Cell| data.standing_for(cell.centre());
+                let patches = patches.cells().map(|cell| near(cell).map_or_else(Patch::default, |i| single(i, 1.0)));
+                sent(data.emergent(), rows, patches.collect())
+            }
+            Scattered::Directions(data) => {
+                let interpolator = session.interpolator(data);
+                let (model, grid) = (interpolator.model(), interpolator.model().grid());
+                let rows = (0..data.incident().len()).map(|i| lit(&model.base(i))).collect();
+                let of = |p: usize| {
+                    let recipe = model.recipe(patches.cell(p).centre());
+                    let (mut own, mut scratch) = (Vec::new(), Vec::new());
+                    for copy in &recipe.copies {
+                        model.moved(copy, grid, 1, &mut scratch);
+                        own.extend(scratch.iter().map(|&(cell, q)| (cell as usize, q)));
+                    }
+                    Patch { own, rows: recipe.bases.iter().map(|base| (base.vertex, base.factor)).collect() }
+                };
+                let patches = (0..patches.len()).into_par_iter().map(of).collect();
+                sent(grid.basis(), rows, patches)
+            }
+            Scattered::Tree(tree) => {
+                let four = [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)];
+                let points = if tree.incident_grid().len() > TREE_SAMPLED { &[(0.5, 0.0)][..] } else { &four };
+                let of = |p: usize| {
+                    let cell = patches.cell(p);
+                    let mut sum = vec![0.0; tree.incident_grid().len()];
+                    for d in points.iter().map(|point| super::transport::within(&cell, *point)) {
+                        let q = tree.indicatrix(Incident(d)).q;
+                        sum.iter_mut().zip(q).for_each(|(sum, q)| *sum += q / points.len() as f64);
+                    }
+                    Patch { own: lit(&sum), rows: Vec::new() }
+                };
+                let patches = (0..patches.len()).into_par_iter().map(of).collect();
+                sent(&tree.incident_grid().rings(), Vec::new(), patches)
+            }
+        }
+    }
+}
