@@ -293,9 +293,9 @@ impl Prepared {
                 let hidden =
                     self.skyline.as_ref().is_some_and(|skyline| skyline.covers(towards)) || towards.z < self.flat;
                 if hidden {
-                    add(sources.skyline(), 1.0)
+                    add(sources.skyline(), 1.0);
                 } else {
-                    sources.dome.spread(towards, add)
+                    sources.dome.spread(towards, add);
                 }
                 return;
             }

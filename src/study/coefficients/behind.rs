@@ -12,6 +12,7 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Surface};
 use crate::compute::lid::Facing;
+use crate::compute::polygon::projected_solid_angle;
 use crate::compute::room::aperture::{Aperture, View};
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::beams_past::{lit, lit_by_rim};
@@ -50,7 +51,8 @@ pub(super) struct Past {
     nodes: Nodes,
     patches: RingBasis,
     sent: Option<Sent>,
-    /// Of every sensor.
+    /// The sensors, with what each sees.
+    sensors: Vec<Sensor>,
     seen: Vec<CellsSeen>,
     /// Patch by patch, node by node, sensor by sensor what the room makes of light, per illuminance.
     reflected: Vec<Vec<f32>>,
@@ -101,7 +103,7 @@ impl Behind {
             return None;
         }
         if share >= 1.0 - 1e-9 {
-            return Some(Sunlit { pieces: Vec::new(), rim: Vec::new(), shares: vec![[1.0; 2]; past.seen.len()] });
+            return Some(Sunlit { pieces: Vec::new(), rim: Vec::new(), shares: vec![[1.0; 2]; past.sensors.len()] });
         }
         let shares = past.shares(facing, &pieces, share);
         Some(Sunlit { rim: lit_by_rim(&past.aperture, facing, &self.around), pieces, shares })
@@ -149,21 +151,22 @@ impl Behind {
             grid,
             nodes,
             patches: patches.clone(),
+            sensors: scene.sensors.iter().map(|sensor| inside(scene, sensor)).collect(),
             seen: Vec::new(),
             reflected: columns.iter().map(reflected).collect(),
             sent,
         };
-        past.seen = scene.sensors.par_iter().map(|sensor| past.cells_seen(&inside(scene, sensor))).collect();
+        past.seen = past.sensors.par_iter().map(|sensor| past.cells_seen(sensor)).collect();
         // Straight.
-        let straight = |(s, sensor): (usize, &Sensor)| {
+        let straight = |(sensor, seen): (&Sensor, &CellsSeen)| {
             let mut row = vec![0.0; self.prepared.count()];
-            past.add_scattered(&past.seen[s], &by_point, &mut row);
+            past.add_scattered(seen, &by_point, &mut row);
             if let Some(tau) = regular {
-                self.add_regular(opening, &inside(scene, sensor), tau, &mut row);
+                self.add_regular(opening, sensor, tau, &mut row);
             }
             row
         };
-        let rows: Vec<Vec<f64>> = scene.sensors.par_iter().enumerate().map(straight).collect();
+        let rows: Vec<Vec<f64>> = past.sensors.par_iter().zip(&past.seen).map(straight).collect();
         for (s, row) in rows.iter().enumerate() {
             row.iter().enumerate().for_each(|(place, counts)| tables[(s, place)] += *counts as f32);
         }
@@ -255,11 +258,23 @@ impl Past {
     /// straight, and by way of the room: as that of its patch, without what this sends on by itself.
     fn shares(&self, facing: &Facing<'_>, pieces: &[Vec<DVec3>], share: f64) -> Vec<[f64; 2]> {
         let patch = facing.sun_entering().and_then(|sun| self.patches.index(sun));
-        let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[share; 2]; self.seen.len()] };
+        let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[share; 2]; self.sensors.len()] };
         let (on_points, on_nodes) = (self.grid.lit(pieces), self.nodes.lit(pieces));
         let patch = &sent.patches[p];
         let rows: Vec<usize> = patch.rows.iter().map(|(row, _)| *row).collect();
-        let of = |(s, seen): (usize, &CellsSeen)| {
+        let even = |sensor: &Sensor| {
+            let seen = |corners: &[DVec3]| {
+                let corners: Vec<DVec3> = corners.iter().map(|corner| *corner - sensor.position).collect();
+                projected_solid_angle(&corners, sensor.normal)
+            };
+            let (part, all) = (pieces.iter().map(|piece| seen(piece)).sum::<f64>(), seen(&self.aperture.corners()));
+            if all == 0.0 { 0.0 } else { (part / all).abs() }
+        };
+        let ratio = |light: &mut dyn Iterator<Item = (f64, f64)>| {
+            let (part, all) = light.fold((0.0, 0.0), |(part, all), (e, lit)| (part + e * lit, all + e));
+            if all > 0.0 { (part / all).clamp(0.0, 1.0) } else { share }
+        };
+        let by_points = |seen: &CellsSeen| {
             let by_cell = places(&seen.cells, sent.cells.len());
             let mut points = vec![0.0; self.grid.count()];
             for (light, (_, share)) in self.rows_seen(sent, seen, &by_cell, &rows).iter().zip(&patch.rows) {
@@ -268,18 +283,15 @@ impl Past {
             if rows.is_empty() {
                 add(&patch.own, &seen.cells, &by_cell, 1.0, &mut points);
             }
-            let ratio = |light: &mut dyn Iterator<Item = (f64, f64)>| {
-                let (part, all) = light.fold((0.0, 0.0), |(part, all), (e, lit)| (part + e * lit, all + e));
-                if all > 0.0 { (part / all).clamp(0.0, 1.0) } else { share }
-            };
-            let reflected =
-                self.reflected.get(p).into_iter().flatten().skip(s).step_by(self.seen.len()).map(|e| f64::from(*e));
-            [
-                ratio(&mut points.iter().copied().zip(on_points.iter().copied())),
-                ratio(&mut reflected.zip(on_nodes.iter().copied())),
-            ]
+            ratio(&mut points.into_iter().zip(on_points.iter().copied()))
         };
-        self.seen.iter().enumerate().map(of).collect()
+        let of = |s: usize| {
+            let (sensor, seen) = (&self.sensors[s], &self.seen[s]);
+            let reflected = self.reflected.get(p).into_iter().flatten().skip(s).step_by(self.sensors.len());
+            let by_room = ratio(&mut reflected.map(|e| f64::from(*e)).zip(on_nodes.iter().copied()));
+            [if sent.cells.len() == 1 { even(sensor) } else { by_points(seen) }, by_room]
+        };
+        (0..self.sensors.len()).map(of).collect()
     }
 }
 
