@@ -122,7 +122,7 @@ fn hours(bencher: Bencher<'_, '_>) {
     let lit: Vec<_> = (0..steps.list.len()).filter(|&k| steps.list[k].hour.is_lit()).collect();
     let skies: Vec<_> = lit.iter().map(|&k| (k, steps.outside(k).expect("an hour of the weather"))).collect();
     bencher.bench(|| {
-        let hours: Vec<_> = skies.iter().map(|(k, (outside, _))| (*k, outside)).collect();
+        let hours: Vec<_> = skies.iter().map(|(k, (outside, sun))| (*k, outside, sun.as_ref())).collect();
         let sky: f64 = prepared.hours_estimate(&hours).iter().flatten().map(|e| e.value).sum();
         let suns = skies.iter().flat_map(|(_, (_, sun))| sun).flat_map(|sun| prepared.sun_estimate(sun));
         sky + suns.map(|e| e.value).sum::<f64>()

@@ -23,9 +23,10 @@ use crate::compute::room::through;
 use crate::compute::sky::{Counts, Frame, Outside, Prepared, SparseSum};
 use crate::compute::surroundings::Surroundings;
 use crate::compute::system::measure::ProfileLight;
+use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
-use crate::study::session::seen::{bands_of, inside};
+use crate::study::session::seen::{bands_of, check, inside, within_budget};
 use crate::study::session::sky_year::SkyYear;
 use faer::Mat;
 use glam::DVec3;
@@ -34,6 +35,8 @@ use std::sync::Arc;
 
 /// Directions in which a sensor looks straight through an aperture, below the horizon and above.
 const THROUGH: u32 = 4096;
+/// Memory that a sensor takes for a cell that it sees. \[bytes\]
+const CELL_SEEN: usize = 128;
 /// Nodes along each side for the room.
 const NODES: usize = 3;
 
@@ -111,6 +114,9 @@ impl Behind {
 
     /// Prepares an aperture, and makes columns of the luminances of a moment: rows of all sensors for the parts of
     /// [`super::part::Sums`]. `columns`: of every patch what the room makes of light, node by node.
+    ///
+    /// # Errors
+    /// More sensors than this is made for; cancelled.
     pub fn past(
         &self,
         opening: &Opening<'_>,
@@ -118,11 +124,13 @@ impl Behind {
         (patches, columns): (&RingBasis, &[Column]),
         sent: Option<Sent>,
         regular: Option<&AngularTransmittance>,
-    ) -> (Past, Mat<f32>) {
+    ) -> Result<(Past, Mat<f32>), StudyError> {
         let (scene, sensors) = (opening.scene, opening.scene.sensors.len());
         let aperture = scene.apertures[opening.index].aperture;
         let grid = Grid::of(&aperture);
         let by_point = seen_by_points(opening.session, scene, opening.index, &self.prepared, (grid.places(), patches));
+        let cells = sent.as_ref().map_or(0, Sent::count);
+        within_budget(scene, 3 * size_of::<f32>() * self.prepared.count() + CELL_SEEN * cells)?;
         let mut tables: Mat<f32> = Mat::zeros(3 * sensors, self.prepared.count());
         // By way of the room.
         let places = sensors * nodes.count();
@@ -159,18 +167,20 @@ impl Behind {
         past.seen = past.sensors.par_iter().map(|sensor| past.cells_seen(sensor)).collect();
         // Straight.
         let straight = |(sensor, seen): (&Sensor, &CellsSeen)| {
+            check(opening.progress)?;
             let mut row = vec![0.0; self.prepared.count()];
             past.add_scattered(seen, &by_point, &mut row);
             if let Some(tau) = regular {
                 self.add_regular(opening, sensor, tau, &mut row);
             }
-            row
+            Ok(row)
         };
-        let rows: Vec<Vec<f64>> = past.sensors.par_iter().zip(&past.seen).map(straight).collect();
+        let rows = past.sensors.par_iter().zip(&past.seen).map(straight);
+        let rows: Vec<Vec<f64>> = rows.collect::<Result<_, StudyError>>()?;
         for (s, row) in rows.iter().enumerate() {
             row.iter().enumerate().for_each(|(place, counts)| tables[(s, place)] += *counts as f32);
         }
-        (past, tables)
+        Ok((past, tables))
     }
 
     /// Adds what the luminances of a moment count for at a sensor straight through a regular transmittance. \[sr\]

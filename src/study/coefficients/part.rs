@@ -154,7 +154,7 @@ impl AperturePart {
                     Some((_, through)) => Some(Sent::described(&through.1)),
                     None => Sent::of_data(session, btdf, scene.interpolation, &patches),
                 };
-                let (past, tables) = behind.past(opening, nodes, (&patches, &columns), sent, regular);
+                let (past, tables) = behind.past(opening, nodes, (&patches, &columns), sent, regular)?;
                 (Seen::Behind(Arc::clone(&behind.prepared), Box::new(past)), tables, gap)
             }
             None => {

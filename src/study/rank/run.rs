@@ -131,9 +131,9 @@ fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
     worth().unwrap_or(f64::NEG_INFINITY)
 }
 
-/// Do data on cells come sooner than what the scene asks for? With boxes outside every hour is a room either way.
+/// Whether data on cells come sooner than what the scene asks for.
 fn is_quicker_by_cells(file: &SceneFile) -> bool {
-    file.compute.interpolation != Interpolation::Patch && !file.has_outside()
+    file.compute.interpolation != Interpolation::Patch
 }
 
 /// Threads of their own, each of which shares the computing of its product with all processors: work that waits for a lock

@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Stops what is no longer wanted.
-pub(super) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
+pub(in crate::study) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
     if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
 }
 
@@ -32,7 +32,7 @@ pub(super) fn keeps(scene: &Scene, numbers: usize) -> bool {
 ///
 /// # Errors
 /// More sensors than they are made for.
-pub(super) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
+pub(in crate::study) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
     let (count, most) = (scene.sensors.len(), limits::RESPONSE_BYTES / each.max(1));
     if count > most {
         let message = format!("{count} sensors (through a year, in this room and with this system, at most {most})");
