@@ -4,7 +4,6 @@
 //! that the system sends light on from there, to what that point sees through these. The room takes less notice of where light
 //! comes through: it gets that of few nodes.
 
-use super::part::Way;
 use super::sent::{Luminances, Sent};
 use super::transport::Column;
 use super::views::Opening;
@@ -20,7 +19,7 @@ use crate::compute::room::direct::{Reception, Sensor};
 use crate::compute::room::grid::{Grid, Weights};
 use crate::compute::room::nodes::Nodes;
 use crate::compute::room::through;
-use crate::compute::sky::{Counts, Frame, Outside, Prepared, SparseSum};
+use crate::compute::sky::{Counts, Frame, Outside, Prepared, SparseSum, Sun};
 use crate::compute::surroundings::Surroundings;
 use crate::compute::system::measure::ProfileLight;
 use crate::study::error::StudyError;
@@ -67,6 +66,13 @@ struct CellsSeen {
     /// By emergent cell, and by band.
     cells: Vec<(usize, Weights)>,
     bands: Vec<(usize, Weights)>,
+}
+
+/// What is outside at a time, which may be an hour of a year.
+pub(super) struct Moment<'a> {
+    pub outside: &'a Outside,
+    pub sun: Option<&'a Sun>,
+    pub hour: Option<usize>,
 }
 
 /// What of an aperture the sun reaches.
@@ -318,12 +324,12 @@ pub(in crate::study) fn seen_by_points(
     session.seen_patches(prepared, &eyes, &frame, patches)
 }
 
-/// The luminances of moments, computed together or kept.
-pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, skies: &[(&Outside, Way<'_>)]) -> Vec<Vec<f64>> {
-    let kept: Vec<Option<(&SkyYear, usize)>> = skies.iter().map(|(_, way)| Some((year?, way.hour()?))).collect();
+/// Luminances of moments, computed together, or kept for the hours of a year.
+pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, moments: &[Moment<'_>]) -> Vec<Vec<f64>> {
+    let kept: Vec<Option<(&SkyYear, usize)>> = moments.iter().map(|moment| Some((year?, moment.hour?))).collect();
     let missing: Vec<bool> = kept.iter().map(|kept| kept.is_none_or(|(year, hour)| !year.holds(hour))).collect();
-    let asked = skies.iter().zip(&missing).filter(|(_, missing)| **missing);
-    let asked: Vec<_> = asked.map(|((outside, way), _)| (*outside, way.sun())).collect();
+    let asked = moments.iter().zip(&missing).filter(|(_, missing)| **missing);
+    let asked: Vec<_> = asked.map(|(moment, _)| (moment.outside, moment.sun)).collect();
     let mut found = prepared.luminances(&asked).into_iter();
     let wide = |light: Vec<f32>| light.into_iter().map(f64::from).collect();
     let one = |(kept, missing): (Option<(&SkyYear, usize)>, bool)| {

@@ -1,7 +1,7 @@
 //! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
 //! is seen straight through, by directions of every sensor's own.
 
-use super::behind::{self, Behind, Past, nodes};
+use super::behind::{Behind, Moment, Past, luminances, nodes};
 use super::described::{Described, DescribedViews};
 use super::sent::Sent;
 use super::straight::{StraightView, seen_exactly};
@@ -81,14 +81,9 @@ pub(super) enum Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    /// The hour of the year.
-    pub const fn hour(self) -> Option<usize> {
-        if let Self::Hour(hour, _) = self { Some(hour) } else { None }
-    }
-
-    /// Its sun.
-    pub const fn sun(self) -> Option<&'a Sun> {
-        if let Self::Hour(_, sun) = self { sun } else { None }
+    const fn moment(self, outside: &'a Outside) -> Moment<'a> {
+        let (hour, sun) = if let Self::Hour(hour, sun) = self { (Some(hour), sun) } else { (None, None) };
+        Moment { outside, sun, hour }
     }
 }
 
@@ -223,7 +218,7 @@ impl AperturePart {
         let sky = match &self.sky {
             Seen::Alike { patches, .. } => patches,
             Seen::Behind(prepared, _) => {
-                let all = behind::luminances(prepared, self.year.as_deref(), &[(outside, way)]).concat();
+                let all = luminances(prepared, self.year.as_deref(), &[way.moment(outside)]).concat();
                 return all.into_iter().map(|luminance| self.clear * luminance).collect();
             }
         };
@@ -296,7 +291,10 @@ impl AperturePart {
             let mut light = Mat::zeros(self.tables.ncols(), TOGETHER);
             let lights = match &self.sky {
                 // Together they cost less.
-                Seen::Behind(prepared, _) => behind::luminances(prepared, self.year.as_deref(), skies),
+                Seen::Behind(prepared, _) => {
+                    let moments: Vec<_> = skies.iter().map(|(outside, way)| way.moment(outside)).collect();
+                    luminances(prepared, self.year.as_deref(), &moments)
+                }
                 Seen::Alike { .. } => skies.iter().map(|(outside, way)| self.light(outside, *way)).collect(),
             };
             let factor = if self.past().is_some() { self.clear } else { 1.0 };
