@@ -150,14 +150,14 @@ impl Grid {
             sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0)
         };
         let (mut lit, mut all) = (vec![0.0; self.count()], vec![0.0; self.count()]);
-        for number in 0..POINTS {
-            let place = net(number, 1);
+        // The points themselves, too: little is nearest to one in a corner.
+        for place in (0..POINTS).map(|number| net(number, 1)).chain(self.shares()) {
             let reached = pieces.iter().any(|piece| holds(piece, DVec2::from_array(place)));
             let near = self.near(place);
             all[near] += 1.0;
             lit[near] += if reached { 1.0 } else { 0.0 };
         }
-        lit.iter().zip(all).map(|(lit, all)| if all > 0.0 { lit / all } else { 0.0 }).collect()
+        lit.iter().zip(all).map(|(lit, all)| lit / all).collect()
     }
 }
 

@@ -432,7 +432,7 @@ mod tests {
             let [all, sum]: [f64; 2] = [exact.iter().map(|e| e.value).sum(), by_patch.iter().sum()];
             let off: f64 = exact.iter().zip(&by_patch).map(|(exact, e)| (exact.value - e).abs()).sum();
             most_of_patches = most_of_patches.max(off / all);
-            assert!((sum / all - 1.0).abs() < 3e-3, "{altitude} {bearing}: {sum} {all}");
+            assert!((sum / all - 1.0).abs() < 8e-3, "{altitude} {bearing}: {sum} {all}");
         }
         assert!(most < 5e-3 && most_of_patches < 2e-2, "{most:.2e} {most_of_patches:.2e}");
     }
