@@ -36,9 +36,9 @@ const SEEN: [f64; 3] = [0.05, 0.15, 0.1];
 const PANELS: (usize, f64) = (4, 1.0);
 /// Reflectance of the ground while weights are found: it reflects.
 const GROUND: f64 = 0.2;
-/// Error of the panels under other skies and suns, relative to the luminance of a surface without the sun's own: several times
-/// the mean error in the test of this file.
-const OTHERS: f64 = 1e-2;
+/// Error of the panels and of the cells that light them, relative to the luminance of a surface without the sun's own: twice the
+/// mean error in the test of this file.
+const OTHERS: f64 = 2e-2;
 /// Directions of one point's patches together, and of a patch at least and at most.
 const DIRECTIONS: usize = 20_000;
 const OF_A_PATCH: [usize; 2] = [8, 256];
@@ -434,6 +434,6 @@ mod tests {
             most_of_patches = most_of_patches.max(off / all);
             assert!((sum / all - 1.0).abs() < 8e-3, "{altitude} {bearing}: {sum} {all}");
         }
-        assert!(most < 5e-3 && most_of_patches < 2e-2, "{most:.2e} {most_of_patches:.2e}");
+        assert!(most < 1.2e-2 && most_of_patches < 2.5e-2, "{most:.2e} {most_of_patches:.2e}");
     }
 }
