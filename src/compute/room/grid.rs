@@ -95,8 +95,9 @@ impl Grid {
         across.into_iter().flat_map(move |(k, b)| along.map(|(i, a)| (k * count + i, a * b)))
     }
 
-    /// Returns cell by cell on which points the light hangs that a sensor sees of it. `cells`: projected solid angle of each that
-    /// it sees; `cell`: the one of a direction of the façade frame; `middle`: a direction in it. \[sr\]
+    /// Returns for every cell of the light that a sensor sees the points where it leaves the aperture, with weights that sum to
+    /// the cell's projected solid angle. `cells`: these; `cell`: number of the cell that holds a direction of the façade frame;
+    /// `middle`: direction in the middle of a cell. \[sr\]
     pub fn by_cell(
         &self,
         view: &View,
@@ -187,7 +188,7 @@ mod tests {
             exact += light(point) * area * to.z.max(0.0) * -to.y / to.length_squared().powi(2);
         }
         assert!((seen / exact - 1.0).abs() < 2e-3, "{seen} {exact}");
-        // Half of it in the sun.
+        // The sun on one half.
         let [a, b, c, _] = aperture.corners();
         let lit = grid.lit(&[vec![a, b, c]]);
         assert!((lit[12] - 1.0).abs() < 1e-12 && lit[156] == 0.0, "{lit:?}");

@@ -15,7 +15,7 @@ const DIRECTIONS: u32 = 256;
 #[derive(Debug, Clone)]
 pub struct Nodes {
     aperture: Aperture,
-    /// Along both sides: places, shares of the side, with the shares of it that they stand for.
+    /// Along both sides: Gauss's points and weights, relative to the side.
     sides: [Vec<(f64, f64)>; 2],
 }
 
@@ -30,8 +30,8 @@ fn values(side: &[(f64, f64)], at: f64) -> impl Iterator<Item = f64> + '_ {
 impl Nodes {
     /// `long` nodes along the longer side of an aperture and `short` ones along the other.
     pub fn new(aperture: &Aperture, long: usize, short: usize) -> Self {
-        let upright = aperture.size[1] > aperture.size[0];
-        let counts = if upright { [short, long] } else { [long, short] };
+        let tall = aperture.size[1] > aperture.size[0];
+        let counts = if tall { [short, long] } else { [long, short] };
         Self { aperture: *aperture, sides: counts.map(gauss_legendre) }
     }
 
@@ -59,8 +59,8 @@ impl Nodes {
         });
     }
 
-    /// Returns node by node what the points of a grid of the same aperture count for in its luminance: those of the polynomials
-    /// nearest by the square of the distance.
+    /// Returns weights of a grid's points on the same aperture in the luminance of each node, by least squares between the light
+    /// of the grid and the polynomials.
     pub fn of_grid(&self, grid: &Grid) -> Vec<Vec<f64>> {
         let value = |side: usize, k: usize| move |at: f64| values(&self.sides[side], at).nth(k).unwrap_or_default();
         let of = |(node, part): (usize, f64)| {
@@ -75,8 +75,8 @@ impl Nodes {
         self.sides[1].iter().flat_map(|(_, b)| self.sides[0].iter().map(move |(_, a)| a * b)).collect()
     }
 
-    /// Returns the luminances of the nodes that stand for light of luminance 1 on convex pieces of the aperture, in the room
-    /// frame, and darkness beside them: the polynomial nearest by the square of the distance.
+    /// Returns the luminances of the nodes for light of luminance 1 on convex pieces of the aperture, in the room frame, and
+    /// darkness beside them, by least squares.
     pub fn lit(&self, pieces: &[Vec<DVec3>]) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         // Exact for the polynomials' degrees together and one more.

@@ -102,7 +102,7 @@ impl PatchWeights {
         Self { basis, rows, closure, received }
     }
 
-    /// Of the same for light that is 1 at one of an aperture's nodes and 0 at the others, node by node.
+    /// Returns weights of light that is 1 at one node of an aperture and 0 at the others, one set for each node.
     pub fn by_node(mesh: &Mesh, aperture: &Aperture, basis: &Arc<RingBasis>, nodes: &Nodes) -> Vec<Self> {
         let (rules, count) = (rules(3), nodes.count());
         let of = |patch: &Patch| {

@@ -13,9 +13,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Number of surfaces above which each has panels of one node in the equations.
 const MANY: usize = 100;
-/// Maximum number of panels of a face in the equations of a single moment, and maximum length of a panel of the ground relative to
-/// the size of the next body, or its distance.
-const COARSE: (usize, f64) = (4, 2.0);
+/// Maximum number of panels of a face in the equations.
+const MOST_COARSE: usize = 4;
+/// Maximum length of a panel of the ground relative to the size of the next body, or its distance.
+const COARSE_GROUND: f64 = 2.0;
 /// Relative accuracy of the solution.
 const SOLVED: f64 = 1e-6;
 
@@ -43,14 +44,13 @@ impl Panels {
         Self { lights, first, places }
     }
 
-    /// Makes a few dark panels for every reflecting surface, `most` of a face; `length`: of a panel of the ground, relative to the
-    /// size of the next body, or its distance.
-    pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround, (most, length): (usize, f64)) -> Self {
+    /// Makes a few dark panels for every reflecting surface.
+    pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround) -> Self {
         let many = scenery.surfaces.iter().filter(|surface| surface.reflects()).count() > MANY;
         let of = |(index, surface): (usize, &Surface)| match surface.stated {
             Some(luminance) => FaceLight::even(luminance),
             None if !surface.reflects() => FaceLight::even(0.0),
-            None => ground.panels(scenery, index, if many { 1 } else { most }, length, many),
+            None => ground.panels(scenery, index, if many { 1 } else { MOST_COARSE }, COARSE_GROUND, many),
         };
         Self::new(scenery.surfaces.iter().enumerate().map(of).collect())
     }
@@ -83,6 +83,16 @@ impl Panels {
         self.places.par_iter().map(one).collect()
     }
 
+    /// Returns for every node the one whose luminance it takes: itself, or where a body covers it the nearest free one of its
+    /// panel. Nodes of a panel that is wholly covered stay dark.
+    pub fn free(&self, is_free: impl Iterator<Item = bool>) -> Vec<usize> {
+        let name = |(node, free): (usize, bool)| if free { (node + 1) as f64 } else { f64::NAN };
+        let names: Vec<f64> = is_free.enumerate().map(name).collect();
+        let named = self.with(&names);
+        let own = |(node, name): (usize, &f64)| if *name > 0.0 { *name as usize - 1 } else { node };
+        named.iter().flat_map(FaceLight::values).enumerate().map(own).collect()
+    }
+
     /// Returns the panels with these luminances of all nodes; where one is `NaN`, because a body covers the node, that of the
     /// nearest free node of its panel. \[cd/m²\]
     pub fn with(&self, values: &[f64]) -> Vec<FaceLight> {
@@ -107,13 +117,7 @@ pub(super) struct Exchange {
 impl Exchange {
     /// Sets the equations up. `seen`: other nodes as seen from every node, `None` where a body covers it.
     pub fn new(panels: Panels, mut seen: Vec<Option<Counts>>) -> Self {
-        let name = |(node, seen): (usize, &Option<Counts>)| if seen.is_some() { (node + 1) as f64 } else { f64::NAN };
-        let names: Vec<f64> = seen.iter().enumerate().map(name).collect();
-        let named = panels.with(&names);
-        let names = named.iter().flat_map(FaceLight::values);
-        // The nodes of a panel that is wholly covered stay dark.
-        let own = |(node, name): (usize, &f64)| if *name > 0.0 { *name as usize - 1 } else { node };
-        let source: Vec<usize> = names.enumerate().map(own).collect();
+        let source = panels.free(seen.iter().map(Option::is_some));
         for (other, _) in seen.iter_mut().flatten().flatten() {
             *other = source[*other as usize] as u32;
         }
@@ -149,7 +153,7 @@ impl Exchange {
         self.source.iter().map(|node| light[*node]).collect()
     }
 
-    /// Solves the same for many sets of illuminances at once. `falling`: rows of nodes, a column for each set. \[lx\]
+    /// Solves x = ρ/π (e + K x) for many sets of illuminances e at once. `falling`: rows of nodes, a column for each set. \[lx\]
     pub fn solved_together(&self, scenery: &Scenery<'_>, falling: &Mat<f32>) -> Mat<f32> {
         let count = falling.nrows();
         let albedo: Vec<f32> = self
@@ -178,7 +182,7 @@ pub(super) fn coarse(
     ground: &OpenGround,
     progress: &dyn Progress,
 ) -> Result<Vec<FaceLight>, Cancelled> {
-    let panels = Panels::coarse(scenery, ground, COARSE);
+    let panels = Panels::coarse(scenery, ground);
     let rows = panels.each(scenery, progress, |vista| {
         let mut counts = vec![0.0; panels.places.len()];
         let mut beyond = 0.0;

@@ -20,19 +20,27 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Relative error of the light between nodes above which panels are halved.
-const BETWEEN: f64 = 1e-3;
-/// Panels of a face at most, and of all faces together as far as each has its [`FEWEST`].
+/// How finely light on surfaces is found.
+pub(super) struct Fineness {
+    /// Relative error of the light between nodes above which panels are halved.
+    pub between: f64,
+    /// Maximum number of panels of all faces together, as far as each has its [`FEWEST`].
+    pub most: usize,
+    /// Maximum number of times that light is gathered.
+    pub often: usize,
+}
+
+/// Of a single moment.
+const MOMENT: Fineness = Fineness { between: 1e-3, most: 300, often: 4 };
+/// Maximum number of panels of a face.
 const MOST: usize = 48;
-const MOST_OF_ALL: usize = 300;
 const FEWEST: usize = 1;
 /// Panels of the ground that is seen are no longer than this times the size of what stands near, or its distance.
 const FINE_GROUND: f64 = 1.0;
 /// Apertures count as so high above the ground at least. \[m\]
 const LOWEST_EYE: f64 = 0.5;
-/// Gathering is repeated until the light of every surface changes by less, relative, but no more often than this.
+/// Relative change of the light of every surface below which gathering ends.
 const SETTLED: f64 = 2e-3;
-const MOST_OFTEN: usize = 4;
 /// Relative error of the light on a face beside that between its nodes.
 const REST: f64 = 2e-4;
 
@@ -54,7 +62,7 @@ pub fn surroundings(
     let scenery = scenery(outside, skyline.as_ref(), direct_sun, setting, turn);
     let ground = OpenGround::of(&scenery, viewpoints);
     let wanted = wanted(&scenery, viewpoints);
-    let lights = lights(&scenery, &ground, &wanted, viewpoints, progress)?;
+    let lights = lights(&scenery, &ground, &wanted, viewpoints, &MOMENT, progress)?;
     Ok(assembled(&scenery, &ground, lights, &wanted, direct_sun.map(|(direction, _)| direction)))
 }
 
@@ -81,6 +89,7 @@ pub(super) fn lights(
     ground: &OpenGround,
     wanted: &[usize],
     viewpoints: &[DVec3],
+    fineness: &Fineness,
     progress: &dyn Progress,
 ) -> Result<Vec<FaceLight>, Cancelled> {
     let mut lights = coarse(scenery, ground, progress)?;
@@ -97,13 +106,13 @@ pub(super) fn lights(
             if ground { viewpoints.iter().map(seen).sum() } else { 1.0 }
         }
     };
-    let most = (MOST_OF_ALL / wanted.len().max(1)).clamp(FEWEST, MOST);
-    for _ in 0..MOST_OFTEN {
+    let most = (fineness.most / wanted.len().max(1)).clamp(FEWEST, MOST);
+    for _ in 0..fineness.often {
         let done = AtomicUsize::new(0);
         let gathered = wanted.par_iter().map(|&index| {
             let start = ground.panels(scenery, index, most, FINE_GROUND, false);
             let most = if index == scenery.ground() { start.panels().max(most) + MOST } else { most };
-            let light = start.fitted(BETWEEN, most, &weight(index), |places| {
+            let light = start.fitted(fineness.between, most, &weight(index), |places| {
                 places.par_iter().map(|place| ground.light_at(scenery, &lights, index, *place, progress)).collect()
             })?;
             progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, wanted.len());

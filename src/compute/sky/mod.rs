@@ -14,7 +14,7 @@
 //! | `on_dome` | regions swept by the bearing: skylines and measured skies behind what stands before them |
 //! | `scenery` | what stands there, and the ground: bodies and their surfaces |
 //! | `faces`, `vista`, `open_ground`, `equations` | the light on these |
-//! | `prepared`, `dome`, `sunlit` | the same for many skies and suns |
+//! | `prepared`, `dome`, `sunlit` | light on surfaces under many skies and suns |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |

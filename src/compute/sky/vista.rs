@@ -94,6 +94,10 @@ pub(super) trait Collector {
     fn place(&mut self, surface: usize, at: [f64; 2], counts: f64);
     /// Adds the sunlit part of a reflecting surface.
     fn sunlit(&mut self, surface: usize, counts: f64);
+    /// Returns the length along a bearing for which a surface has a point more. \[rad\]
+    fn step(&self) -> f64 {
+        ON_SURFACE
+    }
 }
 
 /// Illuminance at the point by sky, skyline, stated luminances and sunlit surfaces; the other light of surfaces is left to
@@ -336,7 +340,7 @@ impl<'a> Vista<'a> {
             surface.face.coordinates(self.eye + (distance * along).extend(above))
         };
         let level = self.normal.truncate().dot(along);
-        for &(x, share) in rule(2 + ((to - from) / ON_SURFACE) as usize) {
+        for &(x, share) in rule(2 + ((to - from) / collector.step()) as usize) {
             let altitude = from + (to - from) * x;
             let (sin, cos) = altitude.sin_cos();
             let counts = share * (to - from) * cos * (level * cos + self.normal.z * sin);

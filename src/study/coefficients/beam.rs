@@ -17,16 +17,19 @@ use crate::study::session::responses::Responses;
 use crate::study::session::unit_beams::{Together, UnitBeam};
 use std::sync::Arc;
 
-/// What a share of scattered light may be off that is taken as that of a whole patch, relative to what it leaves out or lets in.
+/// Share of an aperture in the sun below which none of it counts as sunlit.
+const NOTHING: f64 = 1e-9;
+
+/// Error of the share of scattered light that a part of an aperture sends, relative to the product of that share and the rest.
 const ALIKE: f64 = 0.1;
 
-/// Scattered light of the sun on a part of an aperture, given that of all the aperture, what of it the room reflects, and the
-/// shares of what comes straight and of that.
+/// Scattered sunlight of a part of an aperture. `all`: of the whole aperture; `reflected`: its interreflected part; `shares` of the
+/// part in direct and in interreflected light.
 fn of_part(all: Estimate, reflected: f64, shares: Option<[f64; 2]>) -> Estimate {
     let Some([straight, by_room]) = shares else { return all };
     let value = (all.value - reflected) * straight + reflected * by_room;
-    let doubt = ALIKE * ((all.value - reflected) * straight * (1.0 - straight) + reflected * by_room * (1.0 - by_room));
-    Estimate::new(value, all.error * straight.max(by_room) + doubt.abs())
+    let error = ALIKE * ((all.value - reflected) * straight * (1.0 - straight) + reflected * by_room * (1.0 - by_room));
+    Estimate::new(value, all.error * straight.max(by_room) + error.abs())
 }
 
 /// Beams that are seen as sharp as they are, the strongest of a fan.
@@ -56,13 +59,19 @@ impl Coefficients {
             if facing.sun_illuminance() <= 0.0 {
                 continue;
             }
-            let mut past = None;
-            if let Some((behind, part)) = self.behind.as_ref().zip(self.parts[index].past()) {
-                let Some(reached) = behind.sunlit(part, &facing) else { continue };
-                past = Some((behind, reached)).filter(|(_, reached)| !reached.pieces.is_empty());
+            let past = self.behind.as_ref().zip(self.parts[index].past());
+            let reached = past.map(|(behind, part)| behind.reached(part, &facing));
+            if reached.as_ref().is_some_and(|(_, share)| *share <= NOTHING) {
+                continue;
             }
-            let shares = past.as_ref().map(|(_, reached)| &*reached.shares);
-            let beams = match self.parts[index].sun.light(&facing, self.suns, sensors) {
+            let found = self.parts[index].sun.light(&facing, self.suns, sensors);
+            let past =
+                past.zip(reached.filter(|(_, share)| *share < 1.0 - NOTHING)).map(|((behind, part), reached)| {
+                    let cells = found.as_ref().map_or(&[][..], |found| &found.cells);
+                    (behind, behind.sunlit(part, &facing, reached, cells))
+                });
+            let shares = past.as_ref().map(|(_, sunlit)| &*sunlit.shares);
+            let beams = match found {
                 Some(found) => self.add_scattered(index, &facing, found, shares, &mut sums),
                 None => self.add_data(index, &facing, doubts, shares, &mut sums),
             };

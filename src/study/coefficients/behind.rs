@@ -1,10 +1,10 @@
-//! V·T·D of an aperture behind boxes: columns for the luminances of which all that is seen outside consists.
+//! V·T·D of an aperture behind boxes: columns for the luminances outside.
 //!
-//! What comes straight to a sensor is followed back: to the point of the aperture that it sees in a direction, to the patches
-//! that the system sends light on from there, to what that point sees through these. The room takes less notice of where light
-//! comes through: it gets that of few nodes.
+//! Direct light of a sensor is followed back: to the point of the aperture in every direction, to the patches from which the
+//! system sends light there, to the luminances that the point sees through these. Interreflected light depends less on
+//! where light enters: nine nodes of the aperture are enough.
 
-use super::sent::{Luminances, Sent};
+use super::sent::{Luminances, Sent, lit as lit_cells};
 use super::transport::Column;
 use super::views::Opening;
 use crate::compute::basis::RingBasis;
@@ -56,11 +56,11 @@ pub(super) struct Past {
     /// The sensors, with what each sees.
     sensors: Vec<Sensor>,
     seen: Vec<CellsSeen>,
-    /// Patch by patch, node by node, sensor by sensor what the room makes of light, per illuminance.
+    /// Interreflected light per illuminance by patch, node and sensor.
     reflected: Vec<Vec<f32>>,
 }
 
-/// What a sensor sees per luminance of a cell of the light on single points of a grid. \[sr\]
+/// Projected solid angles of cells as a sensor sees them through single points of a grid. \[sr\]
 #[derive(Default)]
 struct CellsSeen {
     /// By emergent cell, and by band.
@@ -79,20 +79,20 @@ pub(super) struct Moment<'a> {
 pub(super) struct Sunlit {
     /// Convex pieces in the room frame. \[m\]
     pub pieces: Vec<Vec<DVec3>>,
-    /// The same for points of the sun's rim.
+    /// Pieces for points of the sun's rim.
     pub rim: Vec<Vec<Vec<DVec3>>>,
-    /// The share of the scattered light of all the aperture that reaches every sensor straight, and by way of the room.
+    /// Shares of these pieces in the scattered light of the whole aperture, direct and interreflected, for every sensor.
     pub shares: Vec<[f64; 2]>,
 }
 
-/// Places in a list of those that a list names.
+/// Returns for every cell its place in a list; `None` where the list lacks it.
 fn places(named: &[(usize, Weights)], count: usize) -> Vec<Option<usize>> {
     let mut places = vec![None; count];
     named.iter().enumerate().for_each(|(place, (cell, _))| places[*cell] = Some(place));
     places
 }
 
-/// Light on the points of a grid.
+/// Adds what a sensor sees of cells to the points of a grid where it leaves the aperture.
 fn add(light: &Luminances, seen: &[(usize, Weights)], places: &[Option<usize>], factor: f64, points: &mut [f64]) {
     for (cell, q) in light {
         let Some(place) = places[*cell] else { continue };
@@ -105,21 +105,26 @@ impl Behind {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
     }
 
-    /// What the sun reaches of an aperture past boxes: `None` where that is nothing, no pieces where it is all.
-    pub fn sunlit(&self, past: &Past, facing: &Facing<'_>) -> Option<Sunlit> {
-        let (pieces, share) = lit(&past.aperture, facing, &self.around);
-        if share <= 1e-9 {
-            return None;
-        }
-        if share >= 1.0 - 1e-9 {
-            return Some(Sunlit { pieces: Vec::new(), rim: Vec::new(), shares: vec![[1.0; 2]; past.sensors.len()] });
-        }
-        let shares = past.shares(facing, &pieces, share);
-        Some(Sunlit { rim: lit_by_rim(&past.aperture, facing, &self.around), pieces, shares })
+    /// Returns the sunlit part of an aperture past boxes as convex pieces, and its share.
+    pub fn reached(&self, past: &Past, facing: &Facing<'_>) -> (Vec<Vec<DVec3>>, f64) {
+        lit(&past.aperture, facing, &self.around)
     }
 
-    /// Prepares an aperture, and makes columns of the luminances of a moment: rows of all sensors for the parts of
-    /// [`super::part::Sums`]. `columns`: of every patch what the room makes of light, node by node.
+    /// Returns what the sun does with an aperture of which it reaches some pieces, a share of it. `cells`: luminances of the
+    /// data's cells by its scattered light, where they are known. \[cd/m²\]
+    pub fn sunlit(
+        &self,
+        past: &Past,
+        facing: &Facing<'_>,
+        (pieces, share): (Vec<Vec<DVec3>>, f64),
+        cells: &[f64],
+    ) -> Sunlit {
+        let shares = past.shares(facing, &pieces, share, cells);
+        Sunlit { rim: lit_by_rim(&past.aperture, facing, &self.around), pieces, shares }
+    }
+
+    /// Prepares an aperture and returns its columns by luminance, with rows of all sensors as in [`super::part::Sums`].
+    /// `columns`: interreflected light of every patch, node by node.
     ///
     /// # Errors
     /// More sensors than this is made for; cancelled.
@@ -189,7 +194,7 @@ impl Behind {
         Ok((past, tables))
     }
 
-    /// Adds what the luminances of a moment count for at a sensor straight through a regular transmittance. \[sr\]
+    /// Adds the weights of luminances at a sensor that it sees through a regular transmittance. \[sr\]
     fn add_regular(&self, opening: &Opening<'_>, sensor: &Sensor, tau: &AngularTransmittance, row: &mut [f64]) {
         let scene = opening.scene;
         let aperture = &scene.apertures[opening.index].aperture;
@@ -235,8 +240,8 @@ impl Past {
         CellsSeen { cells, bands: sent.bands.map(by_band).unwrap_or_default() }
     }
 
-    /// Adds what the luminances of a moment count for at a sensor by scattered light. `by_point`: what the points of the grid see of
-    /// them through every patch. \[sr\]
+    /// Adds the weights of luminances at a sensor in scattered direct light. `by_point`: their weights at the grid's points by
+    /// patch. \[sr\]
     fn add_scattered(&self, seen: &CellsSeen, by_point: &[Vec<Counts>], row: &mut [f64]) {
         let Some(sent) = &self.sent else { return };
         let by_cell = places(&seen.cells, sent.cells.len());
@@ -256,7 +261,7 @@ impl Past {
         }
     }
 
-    /// What a sensor sees of rows on the points of the grid.
+    /// Returns what a sensor sees of rows through the points of the grid. \[sr\]
     fn rows_seen(&self, sent: &Sent, seen: &CellsSeen, by_cell: &[Option<usize>], rows: &[usize]) -> Vec<Vec<f64>> {
         let by_band = sent.bands.map(|(_, count)| places(&seen.bands, count));
         let of = |row: &usize| {
@@ -270,13 +275,14 @@ impl Past {
         rows.iter().map(of).collect()
     }
 
-    /// Of the sun's scattered light on a part of the aperture, the share of it on all the aperture that reaches every sensor
-    /// straight, and by way of the room: as that of its patch, without what this sends on by itself.
-    fn shares(&self, facing: &Facing<'_>, pieces: &[Vec<DVec3>], share: f64) -> Vec<[f64; 2]> {
+    /// Returns for every sensor the shares of some pieces in the aperture's scattered sunlight, direct and interreflected. The
+    /// light's distribution over directions is that of `cells`, or else that of the incident patch without its own beams.
+    fn shares(&self, facing: &Facing<'_>, pieces: &[Vec<DVec3>], share: f64, cells: &[f64]) -> Vec<[f64; 2]> {
         let patch = facing.sun_entering().and_then(|sun| self.patches.index(sun));
         let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[share; 2]; self.sensors.len()] };
         let (on_points, on_nodes) = (self.grid.lit(pieces), self.nodes.lit(pieces));
         let patch = &sent.patches[p];
+        let by_sun = lit_cells(cells);
         let rows: Vec<usize> = patch.rows.iter().map(|(row, _)| *row).collect();
         let even = |sensor: &Sensor| {
             let seen = |corners: &[DVec3]| {
@@ -293,11 +299,14 @@ impl Past {
         let by_points = |seen: &CellsSeen| {
             let by_cell = places(&seen.cells, sent.cells.len());
             let mut points = vec![0.0; self.grid.count()];
-            for (light, (_, share)) in self.rows_seen(sent, seen, &by_cell, &rows).iter().zip(&patch.rows) {
-                points.iter_mut().zip(light).for_each(|(sum, e)| *sum += share * e);
-            }
-            if rows.is_empty() {
+            if !cells.is_empty() {
+                add(&by_sun, &seen.cells, &by_cell, 1.0, &mut points);
+            } else if rows.is_empty() {
                 add(&patch.own, &seen.cells, &by_cell, 1.0, &mut points);
+            }
+            let by_row = if cells.is_empty() { self.rows_seen(sent, seen, &by_cell, &rows) } else { Vec::new() };
+            for (light, (_, share)) in by_row.iter().zip(&patch.rows) {
+                points.iter_mut().zip(light).for_each(|(sum, e)| *sum += share * e);
             }
             ratio(&mut points.into_iter().zip(on_points.iter().copied()))
         };
@@ -311,7 +320,7 @@ impl Past {
     }
 }
 
-/// What points of an aperture, in the room frame, see through every patch of the luminances of a moment, computed or kept.
+/// Returns weights of luminances by patch at points of an aperture in the room frame, computed or kept. \[sr\]
 pub(in crate::study) fn seen_by_points(
     session: &Session,
     scene: &Scene,
@@ -324,7 +333,7 @@ pub(in crate::study) fn seen_by_points(
     session.seen_patches(prepared, &eyes, &frame, patches)
 }
 
-/// Luminances of moments, computed together, or kept for the hours of a year.
+/// Returns luminances of moments, computed together, or kept for the hours of a year. \[cd/m²\]
 pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, moments: &[Moment<'_>]) -> Vec<Vec<f64>> {
     let kept: Vec<Option<(&SkyYear, usize)>> = moments.iter().map(|moment| Some((year?, moment.hour?))).collect();
     let missing: Vec<bool> = kept.iter().map(|kept| kept.is_none_or(|(year, hour)| !year.holds(hour))).collect();

@@ -7,7 +7,7 @@
 //! | `transport` | V·T: sensors by incident direction |
 //! | `described` | the same of systems known by their description |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
-//! | `behind`, `sent` | the same behind boxes |
+//! | `behind`, `sent` | V·T·D behind boxes: columns by luminance |
 //! | `straight` | the outside that is seen straight through |
 //! | `far` | what stands far away: its light, and what it hides |
 //! | `sun_way` | how the very sun comes through a system |
@@ -68,8 +68,8 @@ pub struct Coefficients {
     suns: usize,
 }
 
-/// What prepared obstructions cost, relative to all light: the bound in the test of [`Prepared`].
-const BEHIND: f64 = 8e-3;
+/// Error by prepared obstructions, relative to all light: the bound in the test of [`Prepared`], and a quarter more.
+const BEHIND: f64 = 4e-3;
 /// Safety on the error of the fixed directions, seen on some skies and stated for others.
 const OTHER_SKIES: f64 = 2.0;
 
@@ -100,7 +100,7 @@ impl Coefficients {
         Self::past(session, scene, None, progress)
     }
 
-    /// Prepares a scene, whose outside names no boxes, behind those that are prepared already.
+    /// Prepares a scene behind obstructions that are prepared already; its own outside names none.
     ///
     /// # Errors
     /// As [`Self::new`].

@@ -74,7 +74,7 @@ enum Seen {
 pub(super) enum Way<'a> {
     /// By the fixed directions.
     Fixed,
-    /// The same for an hour of the year that is kept, with its sun.
+    /// By the fixed directions, kept for an hour of the year; with its sun.
     Hour(usize, Option<&'a Sun>),
     /// By integrals; with a session as a trial of the fixed directions, and kept.
     Exact(Option<&'a Session>),
@@ -314,7 +314,7 @@ impl AperturePart {
     }
 }
 
-/// An aperture's system whose description answers for the sky, and what it makes of it.
+/// Returns an aperture's system if its description answers for the sky, with its transmission of the sky.
 fn described_through<'a>(
     session: &Session,
     scene: &'a Scene,
@@ -324,7 +324,7 @@ fn described_through<'a>(
     Some((very, session.sky_through(very)))
 }
 
-/// Light through all patches at the sensors, without what of the regular part comes straight; and the gap of flux of that.
+/// Returns light through all patches at the sensors, without direct light of the regular part, and the gap of its flux.
 fn columns(
     opening: &Opening<'_>,
     transport: &Transport,
@@ -351,7 +351,7 @@ fn columns(
     Ok((columns, straight.map_or(0.0, |(_, views)| views.gap)))
 }
 
-/// The tables of an aperture that sees patches alike from all of its points.
+/// Returns the tables of an aperture whose points all see the same patches.
 fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
     let open = sky.samples.cells();

@@ -1,5 +1,4 @@
-//! What a system sends on of light through patches of its incident hemisphere, in the directions that data or description have
-//! for it.
+//! Emergent light of a system by patch of its incident hemisphere, from data or description.
 
 use super::transport::{ACROSS, TREE_SAMPLED};
 use crate::compute::basis::RingBasis;
@@ -22,9 +21,9 @@ pub(in crate::study) type Luminances = Vec<(usize, f64)>;
 pub(in crate::study) struct Sent {
     /// Emergent cells.
     pub cells: Arc<RingBasis>,
-    /// Where rows are by bands of the profile angle instead: upright or not, and how many.
+    /// Bands of the profile angle, where rows are by these: whether in the horizontal plane, and how many.
     pub bands: Option<(bool, usize)>,
-    /// What many patches send on alike.
+    /// Light that many patches share.
     pub rows: Vec<Luminances>,
     /// Of every patch.
     pub patches: Vec<Patch>,
@@ -39,8 +38,8 @@ pub(in crate::study) struct Patch {
     pub rows: Vec<(usize, f64)>,
 }
 
-/// Those that are not dark.
-fn lit(row: &[f64]) -> Luminances {
+/// Returns cells that are not dark with their values.
+pub(super) fn lit(row: &[f64]) -> Luminances {
     row.iter().copied().enumerate().filter(|(_, q)| *q != 0.0).collect()
 }
 

@@ -46,6 +46,8 @@ pub(super) struct InCells {
 pub(super) struct SunLight {
     /// What goes on as beams.
     pub beams: Vec<BeamLight>,
+    /// Luminance of the data's cells by scattered light, where it was found for this very sun. \[cd/m²\]
+    pub cells: Vec<f64>,
     /// Scattered light at the sensors: a row of values and two of what they hang on, as views have them.
     pub light: Vec<f64>,
     /// Errors of the scattered light at the sensors. \[lx\]
@@ -131,9 +133,13 @@ impl ByDescription {
 }
 
 impl SunLight {
+    fn dark(sensors: usize) -> Self {
+        Self { beams: Vec::new(), cells: Vec::new(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] }
+    }
+
     /// The beams, and nothing scattered yet.
     fn of(through: &SunThrough, sensors: usize) -> Self {
-        Self { beams: through.beams().to_vec(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] }
+        Self { beams: through.beams().to_vec(), ..Self::dark(sensors) }
     }
 }
 
@@ -153,7 +159,7 @@ impl InCells {
     }
 
     fn light(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
-        let mut sum = SunLight { beams: Vec::new(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] };
+        let mut sum = SunLight::dark(sensors);
         let Some(sun) = self.peaks(facing).and_then(|peaks| peaks.sun(facing)) else { return sum };
         self.views.add_all(&sun.luminance, &mut sum.light);
         let mut squares = vec![0.0; sensors];
@@ -164,7 +170,7 @@ impl InCells {
             squares.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e * e);
         }
         sum.errors.iter_mut().zip(squares).for_each(|(error, square)| *error = square.sqrt());
-        sum.beams = sun.beams;
+        (sum.beams, sum.cells) = (sun.beams, sun.luminance);
         sum
     }
 }

@@ -75,7 +75,7 @@ pub(super) enum Want {
     Reflected,
 }
 
-/// An aperture of a scene, and what its light comes to.
+/// Aperture of a scene whose light is followed to the sensors.
 #[derive(Clone, Copy)]
 pub(super) struct Opening<'a> {
     pub session: &'a Session,
