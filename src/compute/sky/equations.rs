@@ -19,6 +19,8 @@ const MOST_COARSE: usize = 4;
 const COARSE_GROUND: f64 = 2.0;
 /// Relative accuracy of the solution.
 const SOLVED: f64 = 1e-6;
+/// Number of sets of illuminances that are solved together.
+const TOGETHER: usize = 128;
 
 /// Projected solid angles of panel nodes, or other luminances, as seen from a point: place in a list and weight. \[sr\]
 pub type Counts = Vec<(u32, f32)>;
@@ -153,8 +155,15 @@ impl Exchange {
         self.source.iter().map(|node| light[*node]).collect()
     }
 
-    /// Solves x = ρ/π (e + K x) for many sets of illuminances e at once. `falling`: rows of nodes, a column for each set. \[lx\]
-    pub fn solved_together(&self, scenery: &Scenery<'_>, falling: &Mat<f32>) -> Mat<f32> {
+    /// Solves x = ρ/π (e + K x) for many sets of illuminances e and returns what `of` makes of the luminances, set by set.
+    /// `falling`: rows of nodes, a column for each set. `of`: takes the number of the first of some sets and their luminances,
+    /// rows of nodes. \[lx, cd/m²\]
+    pub fn solved_together<T: Send>(
+        &self,
+        scenery: &Scenery<'_>,
+        falling: &Mat<f32>,
+        of: impl Fn(usize, Mat<f32>) -> T + Sync,
+    ) -> Vec<T> {
         let count = falling.nrows();
         let albedo: Vec<f32> = self
             .panels
@@ -168,11 +177,16 @@ impl Exchange {
                 system[(node, *other as usize)] -= albedo[node] * counts;
             }
         }
-        let right = Mat::from_fn(count, falling.ncols(), |node, set| albedo[node] * falling[(node, set)]);
-        // One thread: the result must not depend on their number.
+        // One thread each: the result must not depend on their number.
         faer::set_global_parallelism(faer::Par::Seq);
-        let solved = system.partial_piv_lu().solve(&right);
-        Mat::from_fn(count, falling.ncols(), |node, set| solved[(self.source[node], set)])
+        let factors = system.partial_piv_lu();
+        let some = |first: usize| {
+            let sets = TOGETHER.min(falling.ncols() - first);
+            let right = Mat::from_fn(count, sets, |node, set| albedo[node] * falling[(node, first + set)]);
+            let solved = factors.solve(&right);
+            of(first, Mat::from_fn(count, sets, |node, set| solved[(self.source[node], set)]))
+        };
+        (0..falling.ncols()).into_par_iter().step_by(TOGETHER).map(some).collect()
     }
 }
 

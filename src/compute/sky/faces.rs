@@ -3,11 +3,13 @@
 //! Every place sends ρE/π alike in all directions, E from all that it sees: sky, skyline, sun, and the light of the others.
 //! The sun's own light is exact at every point, by a ray, with sharp shadows. The rest is smooth: it is first found on few
 //! panels for all surfaces at once, as the solution of a system of linear equations, so that it does not matter how often
-//! light goes to and fro; what is seen from the apertures then gathers it again, on panels that are small where it is steep.
+//! light goes to and fro; what is seen from the apertures then gathers it on panels that are small where it is steep, between
+//! which the equations are solved once more.
 
-use super::equations::coarse;
+use super::equations::{Exchange, Panels, SparseSum, coarse};
 use super::open_ground::OpenGround;
 use super::outside::Outside;
+use super::received::Views;
 use super::scenery::{Scenery, Setting, scenery, share_above};
 use super::sun::Sun;
 use crate::compute::estimate::{Cancelled, Progress};
@@ -18,6 +20,7 @@ use crate::compute::surroundings::solid::{Face, Solid};
 use crate::compute::surroundings::{Ground, Line, Surroundings};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// How finely light on surfaces is found.
@@ -26,12 +29,10 @@ pub(super) struct Fineness {
     pub between: f64,
     /// Maximum number of panels of all faces together, as far as each has its [`FEWEST`].
     pub most: usize,
-    /// Maximum number of times that light is gathered.
-    pub often: usize,
 }
 
 /// Of a single moment.
-const MOMENT: Fineness = Fineness { between: 1e-3, most: 300, often: 4 };
+const MOMENT: Fineness = Fineness { between: 1e-3, most: 300 };
 /// Maximum number of panels of a face.
 const MOST: usize = 48;
 const FEWEST: usize = 1;
@@ -39,8 +40,6 @@ const FEWEST: usize = 1;
 const FINE_GROUND: f64 = 1.0;
 /// Apertures count as so high above the ground at least. \[m\]
 const LOWEST_EYE: f64 = 0.5;
-/// Relative change of the light of every surface below which gathering ends.
-const SETTLED: f64 = 2e-3;
 /// Relative error of the light on a face beside that between its nodes.
 const REST: f64 = 2e-4;
 
@@ -107,30 +106,46 @@ pub(super) fn lights(
         }
     };
     let most = (fineness.most / wanted.len().max(1)).clamp(FEWEST, MOST);
-    for _ in 0..fineness.often {
-        let done = AtomicUsize::new(0);
-        let gathered = wanted.par_iter().map(|&index| {
-            let start = ground.panels(scenery, index, most, FINE_GROUND, false);
-            let most = if index == scenery.ground() { start.panels().max(most) + MOST } else { most };
-            let light = start.fitted(fineness.between, most, &weight(index), |places| {
-                places.par_iter().map(|place| ground.light_at(scenery, &lights, index, *place, progress)).collect()
-            })?;
-            progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, wanted.len());
-            Ok((index, light))
-        });
-        let gathered = gathered.collect::<Result<Vec<_>, Cancelled>>()?;
-        let mut changed: f64 = 0.0;
-        for (index, mut light) in gathered {
-            let weight = weight(index);
-            let (before, after) = (lights[index].mean(&weight), light.mean(&weight));
-            let change = if after > 0.0 { ((after - before) / after).abs() } else { 0.0 };
-            changed = changed.max(change);
-            light.error = REST + 0.1 * change;
-            lights[index] = light;
-        }
-        if changed < SETTLED {
-            break;
-        }
+    let views = Views::new(scenery, ground);
+    let done = AtomicUsize::new(0);
+    let fitted = wanted.par_iter().map(|&index| {
+        let start = ground.panels(scenery, index, most, FINE_GROUND, false);
+        let most = if index == scenery.ground() { start.panels().max(most) + MOST } else { most };
+        let albedo = scenery.surfaces[index].reflectance / PI;
+        let light_at = |place: &[f64; 2]| {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            Ok(views.of(index, *place).map_or(f64::NAN, |view| albedo * view.illuminance(&lights)))
+        };
+        let light =
+            start.fitted(fineness.between, most, &weight(index), |places| places.par_iter().map(light_at).collect())?;
+        progress.advance("outside", done.fetch_add(1, Ordering::Relaxed) + 1, wanted.len());
+        Ok(light)
+    });
+    let fitted: Vec<FaceLight> = fitted.collect::<Result<_, Cancelled>>()?;
+    let before: Vec<f64> = wanted.iter().zip(&fitted).map(|(index, light)| light.mean(&weight(*index))).collect();
+    // Light goes to and fro between these panels; other surfaces keep what the few panels gave them.
+    let mut all: Vec<FaceLight> = lights.iter().map(|_| FaceLight::even(0.0)).collect();
+    let mut others: Vec<Option<&FaceLight>> = lights.iter().map(Some).collect();
+    for (index, light) in wanted.iter().zip(fitted) {
+        (all[*index], others[*index]) = (light, None);
+    }
+    let panels = Panels::new(all);
+    let rows = panels.places.par_iter().map_init(
+        || SparseSum::new(panels.places.len()),
+        |sum, (surface, at)| Some(views.of(*surface, *at)?.by_node(&panels, &others, sum)),
+    );
+    let (rest, seen): (Vec<_>, Vec<_>) = rows.map(Option::unzip).unzip();
+    let exchange = Exchange::new(panels, seen);
+    let falling: Vec<f64> = rest.into_iter().map(Option::unwrap_or_default).collect();
+    let mut solved = exchange.panels().with(&exchange.solved(scenery, &falling));
+    for (index, before) in wanted.iter().zip(before) {
+        let light = &mut solved[*index];
+        let after = light.mean(&weight(*index));
+        let change = if after > 0.0 { ((after - before) / after).abs() } else { 0.0 };
+        light.error = REST + 0.1 * change;
+        std::mem::swap(&mut lights[*index], light);
     }
     Ok(lights)
 }

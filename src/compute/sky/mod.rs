@@ -13,7 +13,7 @@
 //! | `prospect`, `opening` | what stands before sky and ground: seen from a point, through an opening |
 //! | `on_dome` | regions swept by the bearing: skylines and measured skies behind what stands before them |
 //! | `scenery` | what stands there, and the ground: bodies and their surfaces |
-//! | `faces`, `vista`, `open_ground`, `equations` | the light on these |
+//! | `faces`, `vista`, `received`, `open_ground`, `equations` | the light on these |
 //! | `prepared`, `dome`, `sunlit` | light on surfaces under many skies and suns |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
@@ -41,6 +41,7 @@ pub mod patches;
 pub mod perez;
 mod prepared;
 mod prospect;
+mod received;
 mod region;
 mod samples;
 mod scan;

@@ -1,12 +1,9 @@
 //! Where light on faces and on the ground is asked for: panels of faces, and the ground as far as it differs from open ground.
 
 use super::scenery::Scenery;
-use super::vista::Vista;
-use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::surroundings::face_light::{FaceLight, Limits};
 use crate::compute::surroundings::solid::{Face, Solid};
 use glam::DVec3;
-use std::f64::consts::PI;
 
 /// A body nearer to a face than this share of its size casts a steep gradient of light on it: its outline is a border of
 /// panels.
@@ -111,31 +108,6 @@ impl OpenGround {
     pub fn holds(&self, [u, v]: [f64; 2]) -> bool {
         let [[a, b], [c, d]] = self.limits;
         (a..=b).contains(&u) && (c..=d).contains(&v)
-    }
-
-    /// What a place of a surface sends but for its own direct sun; `NaN` where a body covers it. \[cd/m²\]
-    pub fn light_at(
-        &self,
-        scenery: &Scenery<'_>,
-        lights: &[FaceLight],
-        index: usize,
-        [u, v]: [f64; 2],
-        progress: &dyn Progress,
-    ) -> Result<f64, Cancelled> {
-        if progress.cancelled() {
-            return Err(Cancelled);
-        }
-        let surface = &scenery.surfaces[index];
-        let point = surface.face.point(u, v);
-        if scenery.is_covered(index, point) {
-            return Ok(f64::NAN);
-        }
-        let mut smooth = 0.0;
-        let rest = Vista::new(scenery, index, point).gather(|other, at, counts| {
-            let open = other == scenery.ground() && !self.holds(at);
-            smooth += counts * if open { self.luminance } else { lights[other].diffuse(at[0], at[1]) };
-        });
-        Ok(surface.reflectance / PI * (rest + smooth))
     }
 }
 

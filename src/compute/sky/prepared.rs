@@ -39,15 +39,17 @@ const SEEN: [f64; 3] = [0.05, 0.15, 0.1];
 /// part along the façade's normal; direct normal illuminance per horizontal illuminance of the sky.
 const TRIAL: [f64; 4] = [0.2, 0.8, 0.3, 3.0];
 /// Their fineness.
-const PANELS: Fineness = Fineness { between: 2e-3, most: 160, often: 1 };
+const PANELS: Fineness = Fineness { between: 2e-3, most: 160 };
 /// Length along a bearing for which a surface has a point more when what lights a node is collected: cells are small. \[rad\]
 const STEP: f64 = 0.12;
 /// Error of panels and cells under other skies and suns, relative to the luminance of a surface without the sun's own: twice the
 /// mean error in the test of this file.
 const OTHERS: f64 = 1e-2;
-/// Directions of one point's patches together, and of a patch at least and at most.
-const DIRECTIONS: usize = 20_000;
-const OF_A_PATCH: [usize; 2] = [8, 256];
+/// Directions of one point's patches together, and of a patch at least and at most: where the first of them meet one surface, and
+/// where they meet several. Each point has its own: between points that stand for each other errors cancel.
+const DIRECTIONS: [(usize, [usize; 2]); 2] = [(8_000, [8, 64]), (40_000, [64, 256])];
+/// Number of the sky among the surfaces; the skyline comes before it.
+const SKY: usize = usize::MAX;
 
 /// Boxes, building and ground ready for any sky behind the same skyline, any sun and any reflectance of the ground.
 pub struct Prepared {
@@ -175,7 +177,7 @@ fn trial(outside: &Outside, [cos, sin]: [f64; 2]) -> (Outside, Sun) {
 }
 
 impl Prepared {
-    /// Prepares `setting`, everything in the world's axes. `outside`: only the shape of its skyline counts. `turn`: cosine and
+    /// Prepares `setting`, everything in the world's axes. `outside`: only the shape of its skyline counts, and for which reflectance of the ground light is exchanged at once. `turn`: cosine and
     /// sine of the turn of the room's x axis. `viewpoints`: corners of the apertures. \[m\]
     ///
     /// # Errors
@@ -234,7 +236,7 @@ impl Prepared {
         }
         let exchange = Exchange::new(all, exchanged);
         static NUMBER: AtomicU64 = AtomicU64::new(0);
-        Ok(Self {
+        let prepared = Self {
             number: NUMBER.fetch_add(1, Ordering::Relaxed),
             boxes: scenery.bodies[..scenery.bodies.len() - 1].to_vec(),
             stated: scenery.surfaces.iter().map(|surface| surface.stated).collect(),
@@ -254,7 +256,9 @@ impl Prepared {
             viewpoints,
             wanted,
             lighting,
-        })
+        };
+        prepared.solved(&prepared.scenery(outside, None));
+        Ok(prepared)
     }
 
     /// Returns a number that no other prepared obstructions have.
@@ -276,17 +280,27 @@ impl Prepared {
     fn solved(&self, scenery: &Scenery<'_>) -> Arc<Mat<f32>> {
         let key = scenery.surfaces[scenery.ground()].reflectance.to_bits();
         // What is kept is whole even if another thread has failed while it held the lock.
-        let mut kept = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, found)) = kept.iter().find(|(known, _)| *known == key) {
+        let kept = || self.solved.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = kept().iter().find(|(known, _)| *known == key) {
             return Arc::clone(found);
         }
-        let all = self.exchange.solved_together(scenery, &self.lit);
-        let mut light = self.gathered.clone();
-        matmul(light.as_mut(), Accum::Add, self.from_exchange.as_ref(), all.as_ref(), 1.0, Par::Seq);
+        // Not under the lock: threads that do parts of this must not wait for it.
         let albedo = |node: usize| (scenery.surfaces[self.panels.places[node].0].reflectance / PI) as f32;
-        let own = |node: usize, source: usize| albedo(node) * light[(self.source[node], source)];
-        let seen = Arc::new(Mat::from_fn(light.nrows(), light.ncols(), own));
-        kept.push((key, Arc::clone(&seen)));
+        let gathered = |first: usize, all: Mat<f32>| {
+            let mut light = self.gathered.subcols(first, all.ncols()).to_owned();
+            matmul(light.as_mut(), Accum::Add, self.from_exchange.as_ref(), all.as_ref(), 1.0, Par::Seq);
+            light
+        };
+        let light = self.exchange.solved_together(scenery, &self.lit, gathered);
+        let mut seen = Mat::zeros(self.source.len(), self.lighting.len());
+        let columns = light.iter().flat_map(|some| some.col_iter());
+        for (mut to, from) in seen.col_iter_mut().zip(columns) {
+            for (node, source) in self.source.iter().enumerate() {
+                to[node] = albedo(node) * from[*source];
+            }
+        }
+        let seen = Arc::new(seen);
+        kept().push((key, Arc::clone(&seen)));
         seen
     }
 
@@ -320,8 +334,9 @@ impl Prepared {
         moments.iter().zip(surfaces).map(whole).collect()
     }
 
-    /// Calls `add` with the places of the luminances that are seen from a point in a direction, and what each counts for.
-    pub fn look(&self, eye: DVec3, towards: DVec3, mut add: impl FnMut(usize, f64)) {
+    /// Calls `add` with the places of the luminances that are seen from a point in a direction, and what each counts for; returns
+    /// a number of the surface that is seen.
+    pub fn look(&self, eye: DVec3, towards: DVec3, mut add: impl FnMut(usize, f64)) -> usize {
         let sources = &self.seen;
         let hit = first_hit(self.boxes.iter().enumerate(), eye, towards);
         let (face, ground) = &self.ground;
@@ -334,15 +349,16 @@ impl Prepared {
                     self.skyline.as_ref().is_some_and(|skyline| skyline.covers(towards)) || towards.z < self.flat;
                 if hidden {
                     add(sources.skyline(), 1.0);
-                } else {
-                    sources.dome.spread(towards, add);
+                    return SKY - 1;
                 }
-                return;
+                sources.dome.spread(towards, add);
+                return SKY;
             }
         };
         let point = eye + distance * towards;
         if let Some(luminance) = self.stated[surface] {
-            return add(sources.stated(), luminance);
+            add(sources.stated(), luminance);
+            return surface;
         }
         let at = if surface == self.stated.len() - 1 {
             face.coordinates(point)
@@ -350,29 +366,40 @@ impl Prepared {
             self.boxes[surface / 6].face(surface % 6).coordinates(point)
         };
         if surface == self.stated.len() - 1 && !ground.holds(at) {
-            return add(sources.beyond(), 1.0);
+            add(sources.beyond(), 1.0);
+            return surface;
         }
         sources.cells.at(surface, at, |cell| add(sources.first_cell() + cell, 1.0));
         self.panels.weigh(surface, at, |node, share| add(sources.len() + node, share));
+        surface
     }
 
     /// Returns what the luminances of a moment count for in the illuminance of the plane of `frame` at a point, through every
     /// patch of a division of its hemisphere. \[sr\]
     pub fn patches(&self, eye: DVec3, frame: &Frame, basis: &RingBasis) -> Vec<Counts> {
-        let [least, most] = OF_A_PATCH;
-        let count = (DIRECTIONS / basis.len()).next_power_of_two().clamp(least, most);
+        let [few, many] =
+            DIRECTIONS.map(|(all, [least, most])| (all / basis.len()).next_power_of_two().clamp(least, most));
         let mut row = SparseSum::new(self.count());
+        let own = eye.to_array().map(f64::to_bits).into_iter().fold(0, |own: u64, bits| own.rotate_left(21) ^ bits);
         let of = |index: usize| {
             let cell = basis.cell(index);
             let [inner, outer] = [cell.theta_min, cell.theta_max].map(|theta| theta.sin().powi(2));
-            let counts = cell.projected_solid_angle() / count as f64;
-            for number in 0..count {
-                let [s, t] = net(number as u32, index as u64);
+            let mut look = |number: usize| {
+                let [s, t] = net(number as u32, own.wrapping_add(index as u64));
                 let theta = (inner + (outer - inner) * s).sqrt().asin();
                 let towards = frame.direction(theta, cell.phi + (t - 0.5) * cell.width);
-                self.look(eye, towards, |place, share| row.add(place, counts * share));
-            }
-            row.take()
+                self.look(eye, towards, |place, share| row.add(place, share))
+            };
+            let first = look(0);
+            let alike = (1..few).fold(true, |alike, number| look(number) == first && alike);
+            let count = if alike { few } else { many };
+            (few..count).for_each(|number| {
+                look(number);
+            });
+            let counts = (cell.projected_solid_angle() / count as f64) as f32;
+            let mut seen = row.take();
+            seen.iter_mut().for_each(|(_, share)| *share *= counts);
+            seen
         };
         (0..basis.len()).map(of).collect()
     }
