@@ -85,12 +85,12 @@ pub fn irradiance_through(
             if !within(middle) {
                 continue;
             }
-            let met = prospect.met(&near, middle);
+            let mut met = prospect.met(&near, middle).map(|met| prospect.shown(met));
             for &(x, share) in rule(4 + (width / 0.12) as usize) {
                 let theta = from + width * x;
                 let d = frame.direction(theta, phi);
-                let [luminance, error] = match met {
-                    Some(met) => prospect.luminance(met, d),
+                let [luminance, error] = match &mut met {
+                    Some(met) => met.luminance(d),
                     None => [prospect.open_luminance(d), 0.0],
                 };
                 let counts = share * width * theta.sin() * normal.dot(d).max(0.0) * tau(d);

@@ -9,7 +9,7 @@ use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
 use super::region::{Cap, Frame, Region, Weight};
 use crate::compute::surroundings::solid::Solid;
-use crate::compute::surroundings::{Seen, Surroundings};
+use crate::compute::surroundings::{Seen, Shown, Surroundings};
 use crate::compute::sweep::{rule, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -24,6 +24,8 @@ pub(super) struct Prospect<'a> {
     edges: Vec<Edge>,
     /// What may be seen of every box.
     bounds: Vec<Cap>,
+    /// Normals of planes through the point between which every box is seen; none where it may be seen anywhere.
+    cones: Vec<Vec<DVec3>>,
     /// Where the sky's luminance has its peak.
     pub peak: Option<DVec3>,
 }
@@ -73,8 +75,10 @@ impl<'a> Prospect<'a> {
         });
         let bound = |eye: DVec3| surroundings.solids.iter().map(move |solid| bound(solid, eye)).collect();
         let (edges, bounds) = (edges.collect(), eye.map_or_else(Vec::new, bound));
+        let cones = |eye: DVec3| surroundings.solids.iter().map(move |solid| solid.cone(eye)).collect();
+        let cones = eye.map_or_else(Vec::new, cones);
         let peak = open.sun_direction().map(crate::compute::direction::Dir::vector);
-        Self { open, surroundings, eye, edges, bounds, peak }
+        Self { open, surroundings, eye, edges, bounds, cones, peak }
     }
 
     /// What of the foreground may be seen in a part of the sphere; `None` where nothing may.
@@ -96,12 +100,14 @@ impl<'a> Prospect<'a> {
 
     /// What a direction meets before sky and ground.
     pub fn met(&self, near: &Near, direction: DVec3) -> Option<Seen> {
-        self.surroundings.seen_among(near.solids.iter().copied(), self.eye, direction)
+        let solids = near.solids.iter().copied();
+        let solids = solids.filter(|solid| self.cones[*solid].iter().all(|normal| normal.dot(direction) > 0.0));
+        self.surroundings.seen_among(solids, self.eye, direction)
     }
 
-    /// Luminance of what is met, and how far it may be off. \[cd/m²\]
-    pub fn luminance(&self, met: Seen, direction: DVec3) -> [f64; 2] {
-        self.surroundings.luminance(met, self.eye, direction)
+    /// Returns what is met, to be looked at in directions that meet nothing else.
+    pub fn shown(&self, met: Seen) -> Shown<'_> {
+        self.surroundings.shown(met, self.eye)
     }
 
     /// Luminance of sky and ground. \[cd/m²\]
@@ -192,15 +198,15 @@ impl<'a> Prospect<'a> {
         sum: &mut [f64; 5],
     ) {
         let width = to - from;
-        let met = self.met(near, at(from + 0.5 * width));
+        let mut met = self.met(near, at(from + 0.5 * width)).map(|met| self.shown(met));
         let (mut before, mut uncertainty, mut open) = (0.0, 0.0, 0.0);
         for &(x, share) in rule(3 + (width / 0.15) as usize) {
             let theta = from + width * x;
             let direction = at(theta);
             let density = share * width * density(theta, direction);
             open += density * self.open_luminance(direction);
-            if let Some(met) = met {
-                let [luminance, error] = self.luminance(met, direction);
+            if let Some(met) = &mut met {
+                let [luminance, error] = met.luminance(direction);
                 before += density * luminance;
                 uncertainty += density * error;
             }

@@ -280,11 +280,15 @@ impl FaceLight {
 
     /// The part at a place.
     fn part(&self, at: [f64; 2]) -> &Part {
+        &self.parts[self.index(at)]
+    }
+
+    fn index(&self, at: [f64; 2]) -> usize {
         let mut index = 0;
         while let Part::Cut { axis, at: line, sides } = &self.parts[index] {
             index = sides[usize::from(at[*axis] > *line)];
         }
-        &self.parts[index]
+        index
     }
 
     /// What the values count for in the light at a place; nothing where it has no panel.
@@ -300,11 +304,20 @@ impl FaceLight {
 
     /// Smooth light at a point by its coordinates on the face, and how far it may be off. \[cd/m²\]
     pub fn at(&self, u: f64, v: f64) -> [f64; 2] {
-        let (light, off) = match self.part([u, v]) {
+        self.near(&mut 0, [u, v])
+    }
+
+    /// The same at points one after the other: `last` is where the one before was found, to begin with 0.
+    pub fn near(&self, last: &mut usize, at: [f64; 2]) -> [f64; 2] {
+        let inside = |limits: &Limits| (0..2).all(|axis| at[axis] > limits[axis][0] && at[axis] < limits[axis][1]);
+        if !matches!(&self.parts[*last], Part::Panel { limits, .. } if inside(limits)) {
+            *last = self.index(at);
+        }
+        let (light, off) = match &self.parts[*last] {
             Part::Even(luminance) => (*luminance, 0.0),
             Part::Panel { nodes: 1, first, off, .. } => (self.values[*first], *off),
             Part::Panel { limits, first, off, .. } => {
-                let [along, across] = both(limits, [u, v]);
+                let [along, across] = both(limits, at);
                 let rows = self.values[*first..].chunks_exact(NODES).zip(along);
                 let row = |row: &[f64]| across[0] * row[0] + across[1] * row[1] + across[2] * row[2];
                 let light: f64 = rows.map(|(values, weight)| weight * row(values)).sum();

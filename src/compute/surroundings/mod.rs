@@ -57,16 +57,67 @@ pub struct Ground {
     pub open: f64,
 }
 
-impl Ground {
-    /// Luminance without the sun's own light, and how far it may be off. \[cd/m²\]
-    fn diffuse(&self, point: DVec3) -> [f64; 2] {
-        let [u, v] = self.face.coordinates(point);
-        let [[a, b], [c, d]] = self.limits;
-        if (a..=b).contains(&u) && (c..=d).contains(&v) {
-            self.light.at(u, v)
-        } else {
-            [self.open, self.light.error * self.open]
+/// Part of a plane as seen from a point.
+#[derive(Debug)]
+pub struct Plane<'a> {
+    normal: DVec3,
+    /// Axes of its coordinates.
+    axes: [DVec3; 2],
+    /// Distance from the point along the normal, and the coordinates of the point. \[m\]
+    height: f64,
+    foot: [f64; 2],
+    light: &'a FaceLight,
+    /// What the sun adds. \[cd/m²\]
+    sun: f64,
+    /// Where in the light the last direction was found.
+    last: usize,
+}
+
+/// What is met from a point.
+#[derive(Debug)]
+pub enum Shown<'a> {
+    /// The same luminance in all directions. \[cd/m²\]
+    Even(f64),
+    /// A surface; of the ground its light beyond the panels, too.
+    Plane(Plane<'a>, Option<&'a Ground>),
+}
+
+impl<'a> Plane<'a> {
+    fn new(face: &Face, eye: DVec3, light: &'a FaceLight, sunlit: bool) -> Self {
+        Self {
+            normal: face.normal,
+            axes: [face.u, face.v],
+            height: face.normal.dot(face.origin - eye),
+            foot: face.coordinates(eye),
+            light,
+            sun: if sunlit { light.sun } else { 0.0 },
+            last: 0,
         }
+    }
+}
+
+impl Shown<'_> {
+    /// Luminance in a direction that meets it, and how far it may be off. \[cd/m²\]
+    pub fn luminance(&mut self, direction: DVec3) -> [f64; 2] {
+        let (plane, ground) = match self {
+            Self::Even(luminance) => return [*luminance, 0.0],
+            Self::Plane(plane, ground) => (plane, ground),
+        };
+        let distance = (plane.height / plane.normal.dot(direction)).max(0.0);
+        let [u, v] = [0, 1].map(|axis| plane.foot[axis] + distance * plane.axes[axis].dot(direction));
+        let [smooth, error] = match ground.filter(|ground| !ground.holds([u, v])) {
+            Some(ground) => [ground.open, ground.light.error * ground.open],
+            None => plane.light.near(&mut plane.last, [u, v]),
+        };
+        [smooth + plane.sun, error]
+    }
+}
+
+impl Ground {
+    /// Whether boxes change its light there.
+    fn holds(&self, [u, v]: [f64; 2]) -> bool {
+        let [[a, b], [c, d]] = self.limits;
+        (a..=b).contains(&u) && (c..=d).contains(&v)
     }
 }
 
@@ -167,22 +218,22 @@ impl Surroundings {
 
     /// Luminance of what is met, and how far it may be off. \[cd/m²\]
     pub fn luminance(&self, seen: Seen, eye: Option<DVec3>, direction: DVec3) -> [f64; 2] {
+        self.shown(seen, eye).luminance(direction)
+    }
+
+    /// Returns what is met from a point, to be looked at in directions that meet nothing else.
+    pub fn shown(&self, seen: Seen, eye: Option<DVec3>) -> Shown<'_> {
         match (seen, eye) {
-            (Seen::Skyline, _) => [self.skyline.as_ref().map_or(0.0, |skyline| skyline.luminance), 0.0],
+            (Seen::Skyline, _) => Shown::Even(self.skyline.as_ref().map_or(0.0, |skyline| skyline.luminance)),
             (Seen::Face { solid, face, sunlit }, Some(eye)) => {
-                let light = &self.faces[solid][face];
-                let own = &self.solids[solid].face(face);
-                let distance = own.normal.dot(own.origin - eye) / own.normal.dot(direction);
-                let [u, v] = own.coordinates(eye + distance * direction);
-                let [smooth, error] = light.at(u, v);
-                [smooth + if sunlit { light.sun } else { 0.0 }, error]
+                let plane = Plane::new(&self.solids[solid].face(face), eye, &self.faces[solid][face], sunlit);
+                Shown::Plane(plane, None)
             }
-            (Seen::Ground { sunlit }, Some(eye)) => {
-                let Some((distance, ground)) = self.ground_along(eye, direction) else { return [0.0; 2] };
-                let [light, error] = ground.diffuse(eye + distance * direction);
-                [light + if sunlit { ground.light.sun } else { 0.0 }, error]
-            }
-            (Seen::Face { .. } | Seen::Ground { .. }, None) => [0.0; 2],
+            (Seen::Ground { sunlit }, Some(eye)) => match &self.ground {
+                Some(ground) => Shown::Plane(Plane::new(&ground.face, eye, &ground.light, sunlit), Some(ground)),
+                None => Shown::Even(0.0),
+            },
+            (Seen::Face { .. } | Seen::Ground { .. }, None) => Shown::Even(0.0),
         }
     }
 
