@@ -3,14 +3,12 @@
 use crate::cli::output::print;
 use crate::cli::weather_info::{hour_json, weather_notes};
 use crate::cli::writing::Over;
-use crate::compute::angle::Bearing;
-use crate::compute::direction::{Dir, World};
-use crate::compute::estimate::Estimate;
+use crate::compute::estimate::Silent;
 use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
-use crate::compute::sky::{Outside, Sun, irradiance};
-use crate::compute::surroundings::skyline::Skyline;
+use crate::compute::sky::{Outside, Sun};
 use crate::formats::FileKind;
+use crate::study::facade::{FacadeLight, facade_light};
 use crate::study::sky::{hour_of_weather, illuminances, outside_from_keys};
 use anyhow::anyhow;
 use rayon::prelude::*;
@@ -33,7 +31,7 @@ Columns:
   L_mean_cdm2    mean luminance [cd/m²]
 
 Horizontal and façade illuminances are printed on standard error. Skyline and obstruction of [sky] count; boxes of \
-[[outside]] do not.")]
+[[outside]] and [building] count for the façade alone: its illuminance is then the mean over its apertures.")]
 pub struct SkyArgs {
     /// Scene file (.toml)
     pub scene: PathBuf,
@@ -68,13 +66,12 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
 
     let hour = hour_of_weather(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
     let rows = table(&outside);
-    let facade = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(scene.site.azimuth));
-    let vertical = irradiance(&outside, facade);
+    let facade = facade_light(&scene, &outside, sun.as_ref(), &Silent).map_err(|error| anyhow!("{name}: {error}"))?;
     if let Some(path) = &args.out {
         args.over.write(path, FileKind::Csv, csv(&rows).as_bytes())?;
     }
     if args.json {
-        let mut value = json(&rows, &outside, sun.as_ref(), vertical, facade);
+        let mut value = json(&rows, &outside, sun.as_ref(), &facade);
         value["weather"] = hour.as_ref().map(hour_json).into();
         print(&format!("{value:#}\n"))?;
     } else if args.out.is_none() {
@@ -84,15 +81,15 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     if let Some(note) = light.and_then(|light| light.note()) {
         tell!("note: {note}");
     }
-    if !scene.outside.is_empty() {
-        tell!("note: the boxes outside are left out here: this is the sky that stands behind them");
+    if facade.behind {
+        tell!("note: boxes and building count for the façade: mean over its apertures; the sky is the open one");
     }
     weather_notes(hour.as_ref());
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
     tell!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
-    let beam = facade_beam(&outside, sun.as_ref(), facade);
-    tell!("facade: diffuse {:.6} lx, direct {beam:.6} lx, global {:.6} lx", vertical.value, vertical.value + beam);
+    let (diffuse, direct) = (facade.diffuse.value, facade.direct);
+    tell!("facade: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
     Ok(())
 }
 
@@ -107,16 +104,6 @@ fn table(outside: &Outside) -> Vec<Row> {
             mean: mean_luminance(outside, patch).value,
         })
         .collect()
-}
-
-/// Beam on the façade: the disc's share above horizon and skyline, centre in front of the plane. \[lx\]
-fn facade_beam(outside: &Outside, sun: Option<&Sun>, facade: Dir<World>) -> f64 {
-    sun.map_or(0.0, |sun| {
-        let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
-        let own = |skyline: &Skyline| skyline.altitude(sun.direction.bearing().radians());
-        let altitude = skyline.map_or(outside.skyline_altitude(), own);
-        sun.direct_normal * sun.direction.dot(facade).max(0.0) * sun.share_above(altitude)
-    })
 }
 
 fn csv(rows: &[Row]) -> String {
@@ -134,16 +121,9 @@ fn tidy(degrees: f64) -> f64 {
     (degrees * 1e9).round() / 1e9
 }
 
-fn json(
-    rows: &[Row],
-    outside: &Outside,
-    sun: Option<&Sun>,
-    vertical: Estimate,
-    facade: Dir<World>,
-) -> serde_json::Value {
+fn json(rows: &[Row], outside: &Outside, sun: Option<&Sun>, facade: &FacadeLight) -> serde_json::Value {
     let diffuse = outside.diffuse_horizontal();
     let direct = sun.map_or(0.0, Sun::horizontal);
-    let beam = facade_beam(outside, sun, facade);
     let patches: Vec<_> = rows
         .iter()
         .enumerate()
@@ -164,8 +144,8 @@ fn json(
     serde_json::json!({
         "horizontal": { "diffuse_lx": diffuse, "direct_lx": direct, "global_lx": diffuse + direct },
         "facade": {
-            "diffuse_lx": vertical.value, "diffuse_error_lx": vertical.error,
-            "direct_lx": beam, "global_lx": vertical.value + beam,
+            "diffuse_lx": facade.diffuse.value, "diffuse_error_lx": facade.diffuse.error,
+            "direct_lx": facade.direct, "global_lx": facade.diffuse.value + facade.direct,
         },
         "ground_luminance_cdm2": outside.ground_luminance(),
         "sun": sun,

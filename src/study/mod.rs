@@ -15,6 +15,7 @@ pub mod control;
 pub mod data_form;
 mod error;
 pub mod example;
+pub mod facade;
 pub mod facing;
 pub mod fault;
 pub mod files;

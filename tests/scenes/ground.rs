@@ -1,12 +1,18 @@
 //! The ground and what stands on it: shade, and light that goes to and fro, against closed forms.
 
 use crate::outside::{CLEAR, DIFFUSE, OVERCAST, a_box, resolve, seen, setting, text, totals};
+use crate::rooms;
 use cfs::compute::direction::Dir;
+use cfs::compute::estimate::Silent;
 use cfs::compute::sky::{Distribution, Outside, Sun};
 use cfs::compute::sky::{Finish, Setting};
 use cfs::compute::surroundings::solid::Solid;
+use cfs::study::SceneFile;
+use cfs::study::facade::facade_light;
+use cfs::study::sky::outside_from_keys;
 use glam::DVec3;
 use std::f64::consts::PI;
+use std::path::Path;
 
 #[test]
 fn the_ground_under_an_endless_overhang_sees_what_it_leaves_of_the_sky() {
@@ -111,4 +117,29 @@ fn a_low_far_box_is_left_out_unless_it_shines() {
         let sky = more / (shining / open - 1.0);
         assert!(sky > 3500.0 && sky < 6500.0, "{sky}");
     }
+}
+
+#[test]
+fn the_facade_gets_what_boxes_leave() {
+    // A long black wall up to 30° above the middle of a small aperture, before black ground.
+    let top = 1.5 + 10.0 * 30_f64.to_radians().tan();
+    let wall = a_box([-5e3, -11.0, 0.0], [5e3, -10.0, top], "reflectance = 0.0");
+    let of = |altitude: f64| {
+        let sun =
+            format!("{}\nsun = {{ altitude = {altitude:?}, azimuth = 180.0, direct_normal = 5e4 }}", rooms::UNIFORM);
+        let apertures = vec![rooms::facade([1.99, 1.49], [0.02, 0.02], rooms::DIFFUSE)];
+        let file =
+            SceneFile::parse(&(rooms::Text { sky: sun, apertures, ..rooms::Text::default() }.toml() + &wall)).unwrap();
+        let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
+        facade_light(&file, &outside, sun.as_ref(), &Silent).unwrap()
+    };
+    // Of the sky ½ (1 − sin 30°) of the horizontal illuminance is left.
+    let light = of(25.0);
+    assert!(
+        (light.diffuse.value - 2500.0).abs() <= light.diffuse.error + 0.5 && light.diffuse.error < 5.0,
+        "{light:?}"
+    );
+    assert!(light.behind && light.direct == 0.0, "{light:?}");
+    let light = of(40.0);
+    assert!((light.direct / (5e4 * 40_f64.to_radians().cos()) - 1.0).abs() < 1e-4, "{light:?}");
 }

@@ -74,7 +74,8 @@ pub fn opening(file: &SceneFile, settings: &Settings, steps: &Steps) -> Result<O
     let room = room(&file.room)?;
     let openings = apertures(&file.aperture, &room)?;
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
-    let in_room: Vec<Solid> = boxes(file, &room)?.into_iter().map(|(solid, _)| solid).collect();
+    let above_ground = |(solid, _): (Solid, _)| solid.above(file.site.ground_height);
+    let in_room: Vec<Solid> = boxes(file, &room)?.into_iter().map(above_ground).collect();
     let solids: Vec<Solid> = in_room.iter().map(|solid| solid.turned(orientation.turn())).collect();
     let (outside, _) = steps.even_outside(0)?;
     let skyline = outside.surroundings().and_then(|around| around.skyline.clone());
