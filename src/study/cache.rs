@@ -1,5 +1,6 @@
 //! Keeps what a changed sky, time or product does not touch: a few most recently used results by exact key.
 
+use std::convert::Infallible;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The numbers that a result depends on, as bits.
@@ -41,6 +42,14 @@ impl<T> Cache<T> {
         }
         entries.push((key, Arc::clone(&value)));
         Ok(value)
+    }
+
+    /// The value of a key, computed if it is not there, where nothing can go wrong; else as [`Self::get`].
+    pub fn find(&self, key: Key, compute: impl FnOnce() -> T) -> Arc<T> {
+        match self.get(key, || Ok::<_, Infallible>(compute())) {
+            Ok(value) => value,
+            Err(never) => match never {},
+        }
     }
 }
 

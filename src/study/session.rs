@@ -43,6 +43,7 @@ use crate::compute::room::back_reflection::RoomSide;
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
 use crate::compute::room::gather::Reconstruction;
+use crate::compute::room::grid::CellWeights;
 use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
@@ -54,7 +55,7 @@ pub use results::{LidResult, RoomResult, SensorResult};
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
 use seen_cells::SeenCells;
 use sky_patches::SkyPatches;
-use sky_year::SkyYear;
+use sky_year::{SkyYear, SunlitYear};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -82,12 +83,15 @@ pub struct Session {
     sky_patches: Cache<SkyPatches>,
     sky_years: Cache<SkyYear>,
     seen_years: Cache<SkyYear>,
+    sunlit_years: Cache<SunlitYear>,
     exact_skies: Cache<Vec<f64>>,
     trial_skies: Cache<Vec<Outside>>,
     /// Obstructions prepared for the hours of a year.
     standing: Cache<Prepared>,
     /// What points of apertures see of them.
     seen_patches: Cache<Vec<Vec<Counts>>>,
+    /// Where on an aperture sensors see cells.
+    cells_at_points: Cache<Vec<CellWeights>>,
     by_cells: Cache<ByCells>,
     by_nodes: Cache<Vec<ByCells>>,
     sides: Cache<RoomSide>,
@@ -141,10 +145,12 @@ impl Session {
             sky_patches: Cache::new(6),
             sky_years: Cache::new(6),
             seen_years: Cache::new(3),
+            sunlit_years: Cache::new(6),
             exact_skies: Cache::new(18),
             trial_skies: Cache::new(3),
             standing: Cache::new(3),
             seen_patches: Cache::new(6),
+            cells_at_points: Cache::new(6),
             by_cells: Cache::new(12 / part),
             by_nodes: Cache::new(6 / part),
             sides: Cache::new(12 / part),

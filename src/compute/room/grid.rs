@@ -30,6 +30,9 @@ pub struct Grid {
 /// Points of a grid with their weights.
 pub type Weights = Vec<(u16, f32)>;
 
+/// Cells of light that a sensor sees, with the points where it leaves the aperture. \[sr\]
+pub type CellWeights = Vec<(usize, Weights)>;
+
 impl Grid {
     /// Of an aperture: Chebyshev's points along each side.
     pub fn of(aperture: &Aperture) -> Self {
@@ -104,7 +107,7 @@ impl Grid {
         cells: impl Iterator<Item = (usize, f64)>,
         cell: impl Fn(DVec3) -> Option<usize>,
         middle: impl Fn(usize) -> DVec3,
-    ) -> Vec<(usize, Weights)> {
+    ) -> CellWeights {
         let mut seen: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
         let add = |sums: &mut BTreeMap<usize, f64>, place, counts| {
             self.around(place).for_each(|(point, share)| *sums.entry(point).or_default() += counts * share);

@@ -18,4 +18,5 @@ pub mod nodes;
 pub mod outline;
 pub mod patch_weights;
 pub mod radiosity;
+pub mod sunlit_part;
 pub mod through;

@@ -1,7 +1,6 @@
 //! The sun over a prepared scene: its scattered light, and its beams where they fall.
 
 use super::Coefficients;
-use super::behind::Sunlit;
 use super::sun_way::SunLight;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing};
@@ -10,15 +9,13 @@ use crate::compute::room::beams_past::beams_past;
 use crate::compute::room::direct::beams_through;
 use crate::compute::room::first_bounce::FirstLight;
 use crate::compute::room::outline::Outline;
+use crate::compute::room::sunlit_part::SunlitPart;
 use crate::compute::sky::Sun;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
 use crate::study::session::landed::Landed;
 use crate::study::session::responses::Responses;
 use crate::study::session::unit_beams::{Together, UnitBeam};
-use std::sync::Arc;
-
-/// Share of an aperture in the sun below which none of it counts as sunlit.
-const NOTHING: f64 = 1e-9;
+use std::sync::{Arc, OnceLock};
 
 /// Error of the share of scattered light that a part of an aperture sends, relative to the product of that share and the rest.
 const ALIKE: f64 = 0.1;
@@ -38,16 +35,21 @@ const OUTLINED: usize = 4;
 impl Coefficients {
     /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
     pub fn sun(&self, sun: &Sun) -> Vec<f64> {
-        self.of_sun(sun, false).into_iter().map(|e| e.value).collect()
+        self.of_sun(None, sun, false).into_iter().map(|e| e.value).collect()
     }
 
     /// The same with its error.
     pub fn sun_estimate(&self, sun: &Sun) -> Vec<Estimate> {
-        self.of_sun(sun, true)
+        self.of_sun(None, sun, true)
+    }
+
+    /// Returns the same of the sun of an hour of the year of [`Self::keep_year`]; for many systems it is faster.
+    pub fn hour_sun_estimate(&self, hour: usize, sun: &Sun) -> Vec<Estimate> {
+        self.of_sun(Some(hour), sun, true)
     }
 
     /// Without `doubts` values only.
-    fn of_sun(&self, sun: &Sun, doubts: bool) -> Vec<Estimate> {
+    fn of_sun(&self, hour: Option<usize>, sun: &Sun, doubts: bool) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
         let mut sums = vec![Estimate::default(); sensors];
         let mut first = FirstLight::dark(0);
@@ -59,37 +61,44 @@ impl Coefficients {
             if facing.sun_illuminance() <= 0.0 {
                 continue;
             }
-            let past = self.behind.as_ref().zip(self.parts[index].past());
-            let reached = past.map(|(behind, part)| behind.reached(part, &facing));
-            if reached.as_ref().is_some_and(|(_, share)| *share <= NOTHING) {
+            let aperture = &self.scene.apertures[index].aperture;
+            let fresh = OnceLock::new();
+            let past = self.behind.as_ref().zip(self.parts[index].past()).map(|(behind, past)| {
+                let place = self.parts[index].sunlit(hour).unwrap_or(&fresh);
+                (behind, past, place.get_or_init(|| SunlitPart::new(aperture, &facing, &behind.around)))
+            });
+            if past.is_some_and(|(_, _, part)| part.is_dark()) {
                 continue;
             }
             let found = self.parts[index].sun.light(&facing, self.suns, sensors);
-            let past =
-                past.zip(reached.filter(|(_, share)| *share < 1.0 - NOTHING)).map(|((behind, part), reached)| {
-                    let cells = found.as_ref().map_or(&[][..], |found| &found.cells);
-                    (behind, behind.sunlit(part, &facing, reached, cells))
-                });
-            let shares = past.as_ref().map(|(_, sunlit)| &*sunlit.shares);
+            let past = past.filter(|(_, _, part)| !part.is_whole());
+            let cells = found.as_ref().map_or(&[][..], |found| &found.cells);
+            let shares = past.map(|(_, past, part)| past.shares(&facing, part, cells));
+            let shares = shares.as_deref();
             let beams = match found {
                 Some(found) => self.add_scattered(index, &facing, found, shares, &mut sums),
                 None => self.add_data(index, &facing, doubts, shares, &mut sums),
             };
-            let aperture = &self.scene.apertures[index].aperture;
+            let rim = match past {
+                Some((behind, _, part)) if beams.iter().any(|beam| !beam.straight) => {
+                    part.rim(aperture, &facing, &behind.around)
+                }
+                _ => &[],
+            };
             for (sum, sensor) in sums.iter_mut().zip(&self.scene.sensors) {
-                let seen = match &past {
-                    Some((behind, Sunlit { pieces, rim, .. })) => {
-                        beams_past(sensor, aperture, pieces, rim, &beams, &facing, &behind.around)
+                let seen = match past {
+                    Some((behind, _, part)) => {
+                        beams_past(sensor, aperture, &part.pieces, rim, &beams, &facing, &behind.around)
                     }
                     None => beams_through(sensor, aperture, &beams, &facing),
                 };
                 *sum += seen.all + Estimate::new(0.0, seen.data_error);
             }
             let (Some(room), Some(landed)) = (&self.room, &self.landed) else { continue };
-            pieces = pieces.max(past.as_ref().map_or(1, |(_, reached)| reached.pieces.len()));
+            pieces = pieces.max(past.map_or(1, |(_, _, part)| part.pieces.len()));
             for beam in &beams {
-                if let Some((_, reached)) = &past {
-                    first.add_beam_through(aperture, &reached.pieces, beam, &facing);
+                if let Some((_, _, part)) = past {
+                    first.add_beam_through(aperture, &part.pieces, beam, &facing);
                     continue;
                 }
                 // Others may ask for the suns of a year.

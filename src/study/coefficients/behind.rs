@@ -4,7 +4,7 @@
 //! system sends light there, to the luminances that the point sees through these. Interreflected light depends less on
 //! where light enters: nine nodes of the aperture are enough.
 
-use super::sent::{Luminances, Sent, lit as lit_cells};
+use super::sent::{Luminances, Patch, Sent, lit as lit_cells};
 use super::transport::Column;
 use super::views::Opening;
 use crate::compute::basis::RingBasis;
@@ -13,11 +13,10 @@ use crate::compute::direction::{Dir, Surface};
 use crate::compute::lid::Facing;
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::room::aperture::{Aperture, View};
-use crate::compute::room::band_weights::BandWeights;
-use crate::compute::room::beams_past::{lit, lit_by_rim};
 use crate::compute::room::direct::{Reception, Sensor};
-use crate::compute::room::grid::{Grid, Weights};
+use crate::compute::room::grid::{CellWeights, Grid};
 use crate::compute::room::nodes::Nodes;
+use crate::compute::room::sunlit_part::SunlitPart;
 use crate::compute::room::through;
 use crate::compute::sky::{Counts, Frame, Outside, Prepared, SparseSum, Sun};
 use crate::compute::surroundings::Surroundings;
@@ -30,7 +29,7 @@ use crate::study::session::sky_year::SkyYear;
 use faer::Mat;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Directions in which a sensor looks straight through an aperture, below the horizon and above.
 const THROUGH: u32 = 4096;
@@ -38,6 +37,8 @@ const THROUGH: u32 = 4096;
 const CELL_SEEN: usize = 128;
 /// Nodes along each side for the room.
 const NODES: usize = 3;
+/// Number of sensors whose weights are found together.
+const TOGETHER: usize = 16;
 
 /// What stands before all apertures of a scene.
 pub(super) struct Behind {
@@ -53,19 +54,14 @@ pub(super) struct Past {
     nodes: Nodes,
     patches: RingBasis,
     sent: Option<Sent>,
-    /// The sensors, with what each sees.
     sensors: Vec<Sensor>,
-    seen: Vec<CellsSeen>,
+    /// Emergent cells that every sensor sees, and bands.
+    cells: Arc<Vec<CellWeights>>,
+    bands: Arc<Vec<CellWeights>>,
+    /// What the sensors see of scattered light by patch, sensor and point of the grid.
+    by_patch: Vec<OnceLock<Vec<f32>>>,
     /// Interreflected light per illuminance by patch, node and sensor.
     reflected: Vec<Vec<f32>>,
-}
-
-/// Projected solid angles of cells as a sensor sees them through single points of a grid. \[sr\]
-#[derive(Default)]
-struct CellsSeen {
-    /// By emergent cell, and by band.
-    cells: Vec<(usize, Weights)>,
-    bands: Vec<(usize, Weights)>,
 }
 
 /// What is outside at a time, which may be an hour of a year.
@@ -75,25 +71,15 @@ pub(super) struct Moment<'a> {
     pub hour: Option<usize>,
 }
 
-/// What of an aperture the sun reaches.
-pub(super) struct Sunlit {
-    /// Convex pieces in the room frame. \[m\]
-    pub pieces: Vec<Vec<DVec3>>,
-    /// Pieces for points of the sun's rim.
-    pub rim: Vec<Vec<Vec<DVec3>>>,
-    /// Shares of these pieces in the scattered light of the whole aperture, direct and interreflected, for every sensor.
-    pub shares: Vec<[f64; 2]>,
-}
-
 /// Returns for every cell its place in a list; `None` where the list lacks it.
-fn places(named: &[(usize, Weights)], count: usize) -> Vec<Option<usize>> {
+fn places(named: &CellWeights, count: usize) -> Vec<Option<usize>> {
     let mut places = vec![None; count];
     named.iter().enumerate().for_each(|(place, (cell, _))| places[*cell] = Some(place));
     places
 }
 
 /// Adds what a sensor sees of cells to the points of a grid where it leaves the aperture.
-fn add(light: &Luminances, seen: &[(usize, Weights)], places: &[Option<usize>], factor: f64, points: &mut [f64]) {
+fn add(light: &Luminances, seen: &CellWeights, places: &[Option<usize>], factor: f64, points: &mut [f64]) {
     for (cell, q) in light {
         let Some(place) = places[*cell] else { continue };
         seen[place].1.iter().for_each(|(point, counts)| points[usize::from(*point)] += factor * q * f64::from(*counts));
@@ -103,24 +89,6 @@ fn add(light: &Luminances, seen: &[(usize, Weights)], places: &[Option<usize>], 
 impl Behind {
     pub fn new(prepared: Arc<Prepared>) -> Self {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
-    }
-
-    /// Returns the sunlit part of an aperture past boxes as convex pieces, and its share.
-    pub fn reached(&self, past: &Past, facing: &Facing<'_>) -> (Vec<Vec<DVec3>>, f64) {
-        lit(&past.aperture, facing, &self.around)
-    }
-
-    /// Returns what the sun does with an aperture of which it reaches some pieces, a share of it. `cells`: luminances of the
-    /// data's cells by its scattered light, where they are known. \[cd/m²\]
-    pub fn sunlit(
-        &self,
-        past: &Past,
-        facing: &Facing<'_>,
-        (pieces, share): (Vec<Vec<DVec3>>, f64),
-        cells: &[f64],
-    ) -> Sunlit {
-        let shares = past.shares(facing, &pieces, share, cells);
-        Sunlit { rim: lit_by_rim(&past.aperture, facing, &self.around), pieces, shares }
     }
 
     /// Prepares an aperture and returns its columns by luminance, with rows of all sensors as in [`super::part::Sums`].
@@ -145,61 +113,67 @@ impl Behind {
         let mut tables: Mat<f32> = Mat::zeros(3 * sensors, self.prepared.count());
         // By way of the room.
         let places = sensors * nodes.count();
-        let on_nodes = nodes.of_grid(&grid);
-        let mut seen = SparseSum::new(self.prepared.count());
-        for (p, column) in columns.iter().enumerate() {
-            for (node, on_node) in on_nodes.iter().enumerate() {
-                for (by_patch, share) in by_point.iter().zip(on_node) {
-                    by_patch[p].iter().for_each(|(k, counts)| seen.add(*k as usize, share * f64::from(*counts)));
-                }
-                let rows: Vec<&[f64]> =
-                    column.light.chunks_exact(places).map(|row| &row[node * sensors..][..sensors]).collect();
-                for (place, counts) in seen.take() {
-                    let to = tables.col_as_slice_mut(place as usize);
-                    for (to, e) in to.iter_mut().zip(rows.iter().copied().flatten()) {
-                        *to += counts * *e as f32;
-                    }
+        let by_node = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
+        let by_node = if columns.is_empty() { Arc::default() } else { by_node() };
+        for (node, seen) in by_node.iter().enumerate() {
+            for (p, column) in columns.iter().enumerate() {
+                let rows = column.light.chunks_exact(places).flat_map(|row| &row[node * sensors..][..sensors]);
+                let light: Vec<f32> = rows.map(|e| *e as f32).collect();
+                for (place, counts) in &seen[p] {
+                    let to = tables.col_as_slice_mut(*place as usize);
+                    to.iter_mut().zip(&light).for_each(|(to, e)| *to += counts * e);
                 }
             }
         }
         let reflected = |column: &Column| {
             column.light.get(places..2 * places).unwrap_or_default().iter().map(|e| *e as f32).collect()
         };
-        let mut past = Past {
+        let inside: Vec<Sensor> = scene.sensors.iter().map(|sensor| inside(scene, sensor)).collect();
+        let [cells, bands] = sent.as_ref().map(|sent| cells_seen(opening, &grid, sent, &inside)).unwrap_or_default();
+        let past = Past {
             aperture,
             grid,
             nodes,
             patches: patches.clone(),
-            sensors: scene.sensors.iter().map(|sensor| inside(scene, sensor)).collect(),
-            seen: Vec::new(),
+            sensors: inside,
+            cells,
+            bands,
+            by_patch: (0..patches.len()).map(|_| OnceLock::new()).collect(),
             reflected: columns.iter().map(reflected).collect(),
             sent,
         };
-        past.seen = past.sensors.par_iter().map(|sensor| past.cells_seen(sensor)).collect();
         // Straight.
-        let straight = |(sensor, seen): (&Sensor, &CellsSeen)| {
+        let scattered = |first: usize| {
             check(opening.progress)?;
-            let mut row = vec![0.0; self.prepared.count()];
-            past.add_scattered(seen, &by_point, &mut row);
-            if let Some(tau) = regular {
-                self.add_regular(opening, sensor, tau, &mut row);
-            }
-            Ok(row)
+            Ok((first, past.scattered(first, &by_point, self.prepared.count())))
         };
-        let rows = past.sensors.par_iter().zip(&past.seen).map(straight);
-        let rows: Vec<Vec<f64>> = rows.collect::<Result<_, StudyError>>()?;
-        for (s, row) in rows.iter().enumerate() {
-            row.iter().enumerate().for_each(|(place, counts)| tables[(s, place)] += *counts as f32);
+        let blocks = (0..sensors).into_par_iter().step_by(TOGETHER).map(scattered);
+        for (first, weights) in blocks.collect::<Result<Vec<_>, StudyError>>()? {
+            for (place, weights) in weights.iter().enumerate() {
+                let to = &mut tables.col_as_slice_mut(place)[first..sensors];
+                to.iter_mut().zip(weights).for_each(|(to, counts)| *to += counts);
+            }
+        }
+        if let Some(tau) = regular {
+            let regular = |sensor| {
+                check(opening.progress)?;
+                Ok(self.regular(opening, sensor, tau))
+            };
+            let rows = past.sensors.par_iter().map(regular).collect::<Result<Vec<_>, StudyError>>()?;
+            for (s, row) in rows.iter().enumerate() {
+                row.iter().for_each(|(place, counts)| tables[(s, *place as usize)] += counts);
+            }
         }
         Ok((past, tables))
     }
 
-    /// Adds the weights of luminances at a sensor that it sees through a regular transmittance. \[sr\]
-    fn add_regular(&self, opening: &Opening<'_>, sensor: &Sensor, tau: &AngularTransmittance, row: &mut [f64]) {
+    /// Returns the weights of luminances at a sensor that it sees through a regular transmittance. \[sr\]
+    fn regular(&self, opening: &Opening<'_>, sensor: &Sensor, tau: &AngularTransmittance) -> Counts {
+        let mut row = SparseSum::new(self.prepared.count());
         let scene = opening.scene;
         let aperture = &scene.apertures[opening.index].aperture;
         let surface = aperture.surface;
-        let Some(view) = aperture.view(sensor.position, sensor.normal) else { return };
+        let Some(view) = aperture.view(sensor.position, sensor.normal) else { return Counts::new() };
         let eye = scene.orientation.to_world(sensor.position);
         let [low, high] = view.y;
         let level = if surface == Surface::Facade { 0.0_f64.clamp(low, high) } else { high };
@@ -207,117 +181,155 @@ impl Behind {
             through::spread(&View { y, ..view }, THROUGH, |towards, counts, _| {
                 let counts = counts * tau.at(towards.z.clamp(-1.0, 1.0).acos());
                 let towards = scene.orientation.to_world(surface.room_from_facade(towards));
-                self.prepared.look(eye, towards, |place, share| row[place] += counts * share);
+                self.prepared.look(eye, towards, |place, share| row.add(place, counts * share));
             });
         }
+        row.take()
     }
 }
 
 impl Past {
-    /// Of a sensor.
-    fn cells_seen(&self, sensor: &Sensor) -> CellsSeen {
-        let Some((sent, view)) = self.sent.as_ref().zip(self.aperture.view(sensor.position, sensor.normal)) else {
-            return CellsSeen::default();
-        };
-        let basis = &*sent.cells;
-        let reception = Reception::new(sensor, &self.aperture, Some(basis));
-        let cell = |towards: DVec3| basis.index(Dir::from_unit(towards));
-        let middle = |cell: usize| basis.cell(cell).centre().vector();
-        let cells = self.grid.by_cell(&view, reception.cells.into_iter().enumerate(), cell, middle);
-        let by_band = |(upright, count): (bool, usize)| {
-            let borders: Vec<f64> = ProfileLight::borders(count).collect();
-            let band = |towards: DVec3| {
-                let angle = ProfileLight::angle_of(upright, Dir::from_unit(towards));
-                Some(ProfileLight::band(angle, count).min(count - 1))
-            };
-            let middle = |band: usize| {
-                let (sin, cos) = (0.5 * (borders[band] + borders[band + 1])).sin_cos();
-                if upright { DVec3::new(sin, 0.0, cos) } else { DVec3::new(0.0, sin, cos) }
-            };
-            let weights: BandWeights = bands_of(sensor, &self.aperture, upright, count);
-            self.grid.by_cell(&view, weights.each(), band, middle)
-        };
-        CellsSeen { cells, bands: sent.bands.map(by_band).unwrap_or_default() }
-    }
-
-    /// Adds the weights of luminances at a sensor in scattered direct light. `by_point`: their weights at the grid's points by
-    /// patch. \[sr\]
-    fn add_scattered(&self, seen: &CellsSeen, by_point: &[Vec<Counts>], row: &mut [f64]) {
-        let Some(sent) = &self.sent else { return };
-        let by_cell = places(&seen.cells, sent.cells.len());
-        let by_row = self.rows_seen(sent, seen, &by_cell, &(0..sent.rows.len()).collect::<Vec<_>>());
-        let mut points = vec![0.0; self.grid.count()];
-        for (p, patch) in sent.patches.iter().enumerate() {
-            points.fill(0.0);
-            add(&patch.own, &seen.cells, &by_cell, 1.0, &mut points);
-            for (from, share) in &patch.rows {
-                points.iter_mut().zip(&by_row[*from]).for_each(|(sum, e)| *sum += share * e);
+    /// Returns the weights of luminances in scattered direct light at sensors from the `first` on: luminance by luminance.
+    /// `by_point`: their weights at the grid's points by patch. `count`: number of luminances. \[sr\]
+    fn scattered(&self, first: usize, by_point: &[Vec<Counts>], count: usize) -> Vec<[f32; TOGETHER]> {
+        let Some(sent) = &self.sent else { return Vec::new() };
+        let count_of_points = self.grid.count();
+        let mut light = vec![[0.0_f32; TOGETHER]; sent.patches.len() * count_of_points];
+        let rows: Vec<usize> = (0..sent.rows.len()).collect();
+        for (lane, sensor) in (first..self.sensors.len()).take(TOGETHER).enumerate() {
+            let by_cell = places(&self.cells[sensor], sent.cells.len());
+            let by_row = self.rows_seen(sent, sensor, &by_cell, &rows);
+            let mut points = vec![0.0; count_of_points];
+            for (patch, light) in sent.patches.iter().zip(light.chunks_exact_mut(count_of_points)) {
+                points.fill(0.0);
+                add(&patch.own, &self.cells[sensor], &by_cell, 1.0, &mut points);
+                for (from, share) in &patch.rows {
+                    points.iter_mut().zip(&by_row[*from]).for_each(|(sum, e)| *sum += share * e);
+                }
+                light.iter_mut().zip(&points).for_each(|(to, e)| to[lane] = *e as f32);
             }
-            for (point, light) in points.iter().enumerate().filter(|(_, light)| **light != 0.0) {
-                for (place, counts) in &by_point[point][p] {
-                    row[*place as usize] += light * f64::from(*counts);
+        }
+        let mut sums = vec![[0.0; TOGETHER]; count];
+        for (point, by_patch) in by_point.iter().enumerate() {
+            for (seen, light) in by_patch.iter().zip(light.chunks_exact(count_of_points)) {
+                let light = &light[point];
+                for (place, counts) in seen.iter().filter(|_| light.iter().any(|e| *e != 0.0)) {
+                    sums[*place as usize].iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
                 }
             }
         }
+        sums
     }
 
     /// Returns what a sensor sees of rows through the points of the grid. \[sr\]
-    fn rows_seen(&self, sent: &Sent, seen: &CellsSeen, by_cell: &[Option<usize>], rows: &[usize]) -> Vec<Vec<f64>> {
-        let by_band = sent.bands.map(|(_, count)| places(&seen.bands, count));
+    fn rows_seen(&self, sent: &Sent, sensor: usize, by_cell: &[Option<usize>], rows: &[usize]) -> Vec<Vec<f64>> {
+        let by_band = sent.bands.map(|(_, count)| places(&self.bands[sensor], count));
         let of = |row: &usize| {
             let mut points = vec![0.0; self.grid.count()];
             match &by_band {
-                Some(by_band) => add(&sent.rows[*row], &seen.bands, by_band, 1.0, &mut points),
-                None => add(&sent.rows[*row], &seen.cells, by_cell, 1.0, &mut points),
+                Some(by_band) => add(&sent.rows[*row], &self.bands[sensor], by_band, 1.0, &mut points),
+                None => add(&sent.rows[*row], &self.cells[sensor], by_cell, 1.0, &mut points),
             }
             points
         };
         rows.iter().map(of).collect()
     }
 
-    /// Returns for every sensor the shares of some pieces in the aperture's scattered sunlight, direct and interreflected. The
-    /// light's distribution over directions is that of `cells`, or else that of the incident patch without its own beams.
-    fn shares(&self, facing: &Facing<'_>, pieces: &[Vec<DVec3>], share: f64, cells: &[f64]) -> Vec<[f64; 2]> {
+    /// Returns what every sensor sees through the points of the grid of light on cells and of shares of rows, sensor by sensor.
+    fn seen(&self, sent: &Sent, own: &Luminances, rows: &[(usize, f64)]) -> Vec<f32> {
+        let numbers: Vec<usize> = rows.iter().map(|(row, _)| *row).collect();
+        let of = |sensor: usize| {
+            let by_cell = places(&self.cells[sensor], sent.cells.len());
+            let mut points = vec![0.0; self.grid.count()];
+            add(own, &self.cells[sensor], &by_cell, 1.0, &mut points);
+            for (light, (_, share)) in self.rows_seen(sent, sensor, &by_cell, &numbers).iter().zip(rows) {
+                points.iter_mut().zip(light).for_each(|(sum, e)| *sum += share * e);
+            }
+            points.into_iter().map(|e| e as f32)
+        };
+        (0..self.sensors.len()).flat_map(of).collect()
+    }
+
+    /// Returns for every sensor the shares of a sunlit part in the aperture's scattered sunlight, direct and interreflected. The
+    /// light's distribution over directions is that of `cells`, luminances of the data's cells where they are known for this
+    /// very sun \[cd/m²\], or else that of the incident patch without its own beams.
+    pub fn shares(&self, facing: &Facing<'_>, part: &SunlitPart, cells: &[f64]) -> Vec<[f64; 2]> {
         let patch = facing.sun_entering().and_then(|sun| self.patches.index(sun));
-        let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[share; 2]; self.sensors.len()] };
-        let (on_points, on_nodes) = (self.grid.lit(pieces), self.nodes.lit(pieces));
-        let patch = &sent.patches[p];
-        let by_sun = lit_cells(cells);
-        let rows: Vec<usize> = patch.rows.iter().map(|(row, _)| *row).collect();
+        let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[part.share; 2]; self.sensors.len()] };
+        let [on_points, on_nodes] = part.on(&self.grid, &self.nodes);
         let even = |sensor: &Sensor| {
             let seen = |corners: &[DVec3]| {
                 let corners: Vec<DVec3> = corners.iter().map(|corner| *corner - sensor.position).collect();
                 projected_solid_angle(&corners, sensor.normal)
             };
-            let (part, all) = (pieces.iter().map(|piece| seen(piece)).sum::<f64>(), seen(&self.aperture.corners()));
-            if all == 0.0 { 0.0 } else { (part / all).abs() }
+            let lit: f64 = part.pieces.iter().map(|piece| seen(piece)).sum();
+            let all = seen(&self.aperture.corners());
+            if all == 0.0 { 0.0 } else { (lit / all).abs() }
         };
-        let ratio = |light: &mut dyn Iterator<Item = (f64, f64)>| {
-            let (part, all) = light.fold((0.0, 0.0), |(part, all), (e, lit)| (part + e * lit, all + e));
-            if all > 0.0 { (part / all).clamp(0.0, 1.0) } else { share }
+        let ratio = |light: &mut dyn Iterator<Item = &f32>, on: &[f64]| {
+            let sums = light.zip(on).fold([0.0; 2], |[lit, all], (e, on)| {
+                let e = f64::from(*e);
+                [lit + e * on, all + e]
+            });
+            if sums[1] > 0.0 { (sums[0] / sums[1]).clamp(0.0, 1.0) } else { part.share }
         };
-        let by_points = |seen: &CellsSeen| {
-            let by_cell = places(&seen.cells, sent.cells.len());
-            let mut points = vec![0.0; self.grid.count()];
-            if !cells.is_empty() {
-                add(&by_sun, &seen.cells, &by_cell, 1.0, &mut points);
-            } else if rows.is_empty() {
-                add(&patch.own, &seen.cells, &by_cell, 1.0, &mut points);
-            }
-            let by_row = if cells.is_empty() { self.rows_seen(sent, seen, &by_cell, &rows) } else { Vec::new() };
-            for (light, (_, share)) in by_row.iter().zip(&patch.rows) {
-                points.iter_mut().zip(light).for_each(|(sum, e)| *sum += share * e);
-            }
-            ratio(&mut points.into_iter().zip(on_points.iter().copied()))
+        let of_patch = || {
+            let Patch { own, rows } = &sent.patches[p];
+            if rows.is_empty() { self.seen(sent, own, rows) } else { self.seen(sent, &Vec::new(), rows) }
         };
+        let of_sun;
+        let light: &[f32] = if sent.cells.len() == 1 {
+            &[]
+        } else if cells.is_empty() {
+            self.by_patch[p].get_or_init(of_patch)
+        } else {
+            of_sun = self.seen(sent, &lit_cells(cells), &[]);
+            &of_sun
+        };
+        let count = self.grid.count();
         let of = |s: usize| {
-            let (sensor, seen) = (&self.sensors[s], &self.seen[s]);
-            let reflected = self.reflected.get(p).into_iter().flatten().skip(s).step_by(self.sensors.len());
-            let by_room = ratio(&mut reflected.map(|e| f64::from(*e)).zip(on_nodes.iter().copied()));
-            [if sent.cells.len() == 1 { even(sensor) } else { by_points(seen) }, by_room]
+            let reflected = self.reflected.get(p).map(Vec::as_slice).unwrap_or_default();
+            let by_room = ratio(&mut reflected.iter().skip(s).step_by(self.sensors.len()), on_nodes);
+            let direct = match light.get(s * count..(s + 1) * count) {
+                Some(light) => ratio(&mut light.iter(), on_points),
+                None => even(&self.sensors[s]),
+            };
+            [direct, by_room]
         };
         (0..self.sensors.len()).map(of).collect()
     }
+}
+
+/// Returns the emergent cells and the bands that every sensor sees through points of a grid, computed or kept. \[sr\]
+fn cells_seen(opening: &Opening<'_>, grid: &Grid, sent: &Sent, sensors: &[Sensor]) -> [Arc<Vec<CellWeights>>; 2] {
+    let (session, scene, index) = (opening.session, opening.scene, opening.index);
+    let aperture = &scene.apertures[index].aperture;
+    let each = |of: &(dyn Fn(&Sensor, &View) -> CellWeights + Sync)| {
+        let view = |sensor: &Sensor| aperture.view(sensor.position, sensor.normal);
+        sensors.par_iter().map(|sensor| view(sensor).map(|view| of(sensor, &view)).unwrap_or_default()).collect()
+    };
+    let basis = &*sent.cells;
+    let by_cell = |sensor: &Sensor, view: &View| {
+        let reception = Reception::new(sensor, aperture, Some(basis));
+        let cell = |towards: DVec3| basis.index(Dir::from_unit(towards));
+        let middle = |cell: usize| basis.cell(cell).centre().vector();
+        grid.by_cell(view, reception.cells.into_iter().enumerate(), cell, middle)
+    };
+    let cells = session.cells_at_points(scene, index, Ok(basis), || each(&by_cell));
+    let Some((upright, count)) = sent.bands else { return [cells, Arc::default()] };
+    let borders: Vec<f64> = ProfileLight::borders(count).collect();
+    let by_band = |sensor: &Sensor, view: &View| {
+        let band = |towards: DVec3| {
+            let angle = ProfileLight::angle_of(upright, Dir::from_unit(towards));
+            Some(ProfileLight::band(angle, count).min(count - 1))
+        };
+        let middle = |band: usize| {
+            let (sin, cos) = (0.5 * (borders[band] + borders[band + 1])).sin_cos();
+            if upright { DVec3::new(sin, 0.0, cos) } else { DVec3::new(0.0, sin, cos) }
+        };
+        grid.by_cell(view, bands_of(sensor, aperture, upright, count).each(), band, middle)
+    };
+    [cells, session.cells_at_points(scene, index, Err((upright, count)), || each(&by_band))]
 }
 
 /// Returns weights of luminances by patch at points of an aperture in the room frame, computed or kept. \[sr\]
@@ -330,7 +342,31 @@ pub(in crate::study) fn seen_by_points(
 ) -> Arc<Vec<Vec<Counts>>> {
     let eyes: Vec<DVec3> = points.into_iter().map(|point| scene.orientation.to_world(point)).collect();
     let frame = Frame::of_aperture(scene.orientation, scene.apertures[index].aperture.surface);
-    session.seen_patches(prepared, &eyes, &frame, patches)
+    let find = || eyes.par_iter().map(|eye| prepared.patches(*eye, &frame, patches)).collect();
+    session.seen_patches((prepared, 0), &eyes, patches, find)
+}
+
+/// Returns weights of luminances by patch at nodes, from those at the points of a grid, computed or kept. \[sr\]
+fn seen_by_nodes(
+    opening: &Opening<'_>,
+    prepared: &Prepared,
+    (grid, nodes): (&Grid, &Nodes),
+    patches: &RingBasis,
+    by_point: &[Vec<Counts>],
+) -> Arc<Vec<Vec<Counts>>> {
+    let eyes: Vec<DVec3> = grid.places().into_iter().map(|point| opening.scene.orientation.to_world(point)).collect();
+    let of_node = |on_node: &Vec<f64>| {
+        let mut seen = SparseSum::new(prepared.count());
+        let of_patch = |p: usize| {
+            for (by_patch, share) in by_point.iter().zip(on_node) {
+                by_patch[p].iter().for_each(|(k, counts)| seen.add(*k as usize, share * f64::from(*counts)));
+            }
+            seen.take()
+        };
+        (0..patches.len()).map(of_patch).collect()
+    };
+    let find = || nodes.of_grid(grid).par_iter().map(of_node).collect();
+    opening.session.seen_patches((prepared, nodes.count() as u64), &eyes, patches, find)
 }
 
 /// Returns luminances of moments, computed together, or kept for the hours of a year. \[cd/m²\]

@@ -222,7 +222,8 @@ impl Coefficients {
     /// what many suns make may be found between directions, with the error of it.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize), suns: usize) {
         self.suns = suns;
-        self.parts.iter_mut().for_each(|part| part.keep_year(session, year));
+        let parts = self.parts.iter_mut().enumerate();
+        parts.for_each(|(index, part)| part.keep_year(session, (&self.scene, index), year));
     }
 
     fn way(&self, outside: &Outside) -> Way<'static> {

@@ -15,6 +15,7 @@ use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::SkyThrough;
 use crate::compute::quadrature::gauss_legendre;
+use crate::compute::room::sunlit_part::SunlitPart;
 use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::compute::system::measure::Side;
 use crate::study::error::StudyError;
@@ -22,14 +23,14 @@ use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::far::{self, Constants};
 use crate::study::session::sky_patches::{SkyPatches, illuminances};
-use crate::study::session::sky_year::SkyYear;
+use crate::study::session::sky_year::{SkyYear, SunlitYear};
 use crate::study::system::VerySystem;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Skies whose sums are found at once.
 pub(in crate::study) const TOGETHER: usize = 32;
@@ -39,6 +40,8 @@ pub(super) struct AperturePart {
     sky: Seen,
     /// What that is in the hours of a year, where it is kept.
     year: Option<Arc<SkyYear>>,
+    /// Its sunlit part in these, behind boxes.
+    sunlit: Option<Arc<SunlitYear>>,
     /// Columns for every patch of the sky's samples, one for the ground and one for the skyline; behind boxes for the luminances
     /// of a moment. Rows of all sensors for all diffuse light but what is seen straight through an aperture before which
     /// nothing stands, then for what of it is interreflected, the doubt of that, and the doubt of the interpolation where
@@ -168,6 +171,7 @@ impl AperturePart {
         };
         Ok(Self {
             year: None,
+            sunlit: None,
             tables,
             transport,
             sun,
@@ -188,6 +192,11 @@ impl AperturePart {
         if let Seen::Behind(_, past) = &self.sky { Some(past) } else { None }
     }
 
+    /// The place of an hour's sunlit part, where the year is kept and something stands before the aperture.
+    pub fn sunlit(&self, hour: Option<usize>) -> Option<&OnceLock<SunlitPart>> {
+        self.sunlit.as_ref().zip(hour).map(|(year, hour)| &year[hour])
+    }
+
     /// Number of luminances that a new sky costs.
     pub fn evaluations(&self) -> usize {
         match &self.sky {
@@ -199,9 +208,12 @@ impl AperturePart {
     }
 
     /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
-    pub fn keep_year(&mut self, session: &Session, year: (u64, usize)) {
+    pub fn keep_year(&mut self, session: &Session, (scene, index): (&Scene, usize), year: (u64, usize)) {
         self.year = match &mut self.sky {
-            Seen::Behind(prepared, _) => session.sky_year(year, prepared.number(), prepared.count()),
+            Seen::Behind(prepared, _) => {
+                self.sunlit = Some(session.sunlit_year(year, prepared.number(), (scene, index)));
+                session.sky_year(year, prepared.number(), prepared.count())
+            }
             Seen::Alike { patches, straight, year: seen_year } => {
                 let mut hasher = DefaultHasher::new();
                 straight.iter().for_each(|seen| seen.hash(&mut hasher));

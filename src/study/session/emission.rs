@@ -52,11 +52,7 @@ impl Session {
     /// Answers of a described system for all diffuse light.
     pub(in crate::study) fn sky_through(&self, very: &VerySystem) -> Arc<(VerySystem, SkyThrough)> {
         let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
-        let compute = || Ok::<_, std::convert::Infallible>((very.clone(), SkyThrough::new(very.0.as_ref())));
-        match self.skies.get(key, compute) {
-            Ok(own) => own,
-            Err(never) => match never {},
-        }
+        self.skies.find(key, || (very.clone(), SkyThrough::new(very.0.as_ref())))
     }
 
     /// What a described system makes of the sun.
@@ -70,11 +66,7 @@ impl Session {
             key.extend(bits([sun.direct_normal]));
         }
         // The answer keeps the system alive, so that no other can have its address.
-        let compute = || Ok::<_, std::convert::Infallible>((very.clone(), SunThrough::new(very.0.as_ref(), facing)));
-        match self.suns.get(key, compute) {
-            Ok(own) => own,
-            Err(never) => match never {},
-        }
+        self.suns.find(key, || (very.clone(), SunThrough::new(very.0.as_ref(), facing)))
     }
 
     /// What the data make of the outside.
@@ -134,20 +126,12 @@ impl Session {
         if matrix.incident().len() > peaks::MOST_CELLS {
             key.extend(matrix.incident().index(sun).map(|cell| cell as u64));
         }
-        let compute = || Ok::<_, std::convert::Infallible>((Arc::clone(dataset), Peaks::new(matrix, sun)));
-        match self.peaks.get(key, compute) {
-            Ok(own) => Some(own),
-            Err(never) => match never {},
-        }
+        Some(self.peaks.find(key, || (Arc::clone(dataset), Peaks::new(matrix, sun))))
     }
 
     /// What interpolation between the directions of a dataset needs.
     pub fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
-        let compute = || Ok::<_, std::convert::Infallible>(Interpolator::new(Arc::clone(data)));
         // The interpolator keeps the data alive, so that no others can have their address.
-        match self.interpolators.get(vec![Arc::as_ptr(data) as u64], compute) {
-            Ok(own) => own,
-            Err(never) => match never {},
-        }
+        self.interpolators.find(vec![Arc::as_ptr(data) as u64], || Interpolator::new(Arc::clone(data)))
     }
 }

@@ -125,11 +125,7 @@ impl Session {
         key.extend(bits(aperture.corner.to_array()).chain(bits(aperture.size)));
         key.push(aperture.surface as u64);
         key.extend(basis_key(Some(basis)));
-        let weights = || Ok::<_, std::convert::Infallible>(PatchWeights::new(mesh, aperture, Arc::clone(basis)));
-        match self.patches.get(key, weights) {
-            Ok(weights) => weights,
-            Err(never) => match never {},
-        }
+        self.patches.find(key, || PatchWeights::new(mesh, aperture, Arc::clone(basis)))
     }
 
     /// What the apertures send straight to about so many fine patches.

@@ -3,34 +3,30 @@
 
 use super::far;
 use super::sky_patches::SkyPatches;
-use super::sky_year::SkyYear;
-use super::{Session, basis_key};
+use super::sky_year::{SkyYear, SunlitYear};
+use super::{Session, aperture_key, basis_key, reception_key};
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Orientation, World};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::sky::{Counts, Frame, Outside, Prepared};
+use crate::compute::room::grid::CellWeights;
+use crate::compute::sky::{Counts, Outside, Prepared};
 use crate::study::cache::{Cache, Key, bits};
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
 use glam::DVec3;
-use rayon::prelude::*;
 use std::f64::consts::TAU;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-/// Most numbers of a year that are kept: 8,000 in each of 8,784 hours. Half of these are dark, which leaves 140 MB.
-const MOST_NUMBERS: usize = 8000 * 8784;
+/// Most numbers of a year that are kept: 12,000 in each of 8,784 hours. Half of these are dark, which leaves 210 MB.
+const MOST_NUMBERS: usize = 12_000 * 8784;
 
 /// The hours of a year that has a number of its own, for a list of some fingerprint that gives so many numbers; `None` for
 /// more than are worth keeping.
 fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
-    let nothing = || Ok::<_, std::convert::Infallible>(SkyYear::nothing(year.1));
     let worth = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
-    worth.then(|| match cache.get(vec![year.0, year.1 as u64, fingerprint], nothing) {
-        Ok(kept) => kept,
-        Err(never) => match never {},
-    })
+    worth.then(|| cache.find(vec![year.0, year.1 as u64, fingerprint], || SkyYear::nothing(year.1)))
 }
 
 impl Session {
@@ -49,13 +45,7 @@ impl Session {
         let mut key = vec![scene.facing(index).surface as u64];
         key.extend(bits([scene.facade.radians(), scene.outside.skyline_altitude(), spacing]));
         key.extend(basis_key(Some(&patches)));
-        match self
-            .sky_patches
-            .get(key, || Ok::<_, std::convert::Infallible>(SkyPatches::new(scene, index, patches, spacing)))
-        {
-            Ok(kept) => kept,
-            Err(never) => match never {},
-        }
+        self.sky_patches.find(key, || SkyPatches::new(scene, index, patches, spacing))
     }
 
     /// Returns the obstructions of a scene, prepared for many skies behind the skyline of `outside`, computed or kept; `None`
@@ -78,25 +68,35 @@ impl Session {
         self.standing.get(vec![hasher.finish()], find).map(Some)
     }
 
-    /// Returns what points of an aperture see through every patch of the luminances of a moment, computed or kept.
+    /// Returns weights of a moment's luminances by patch at points of an aperture, computed by `find` or kept. `kind`: tells
+    /// lists apart that belong to the same points. \[sr\]
     pub(in crate::study) fn seen_patches(
         &self,
-        prepared: &Prepared,
+        (prepared, kind): (&Prepared, u64),
         eyes: &[DVec3],
-        frame: &Frame,
         patches: &RingBasis,
+        find: impl FnOnce() -> Vec<Vec<Counts>>,
     ) -> Arc<Vec<Vec<Counts>>> {
-        let mut key = vec![prepared.number()];
+        let mut key = vec![prepared.number(), kind];
         key.extend(eyes.iter().flat_map(|eye| bits(eye.to_array())));
         key.extend(basis_key(Some(patches)));
-        let find = || {
-            let of = |eye: &DVec3| prepared.patches(*eye, frame, patches);
-            Ok::<_, std::convert::Infallible>(eyes.par_iter().map(of).collect())
-        };
-        match self.seen_patches.get(key, find) {
-            Ok(kept) => kept,
-            Err(never) => match never {},
+        self.seen_patches.find(key, find)
+    }
+
+    /// Returns for every sensor of a scene the points of an aperture's grid through which it sees cells, or bands of the
+    /// profile angle (whether in the horizontal plane, and their number), computed by `find` or kept. \[sr\]
+    pub(in crate::study) fn cells_at_points(
+        &self,
+        scene: &Scene,
+        index: usize,
+        cells: Result<&RingBasis, (bool, usize)>,
+        find: impl FnOnce() -> Vec<CellWeights>,
+    ) -> Arc<Vec<CellWeights>> {
+        let mut key = reception_key(scene, index, cells.ok());
+        if let Err((horizontal, count)) = cells {
+            key.extend([u64::from(horizontal), count as u64]);
         }
+        self.cells_at_points.find(key, find)
     }
 
     /// The hours of a year on so many patches.
@@ -119,6 +119,18 @@ impl Session {
         year_of(&self.seen_years, year, fingerprint, moments)
     }
 
+    /// Returns the sunlit parts of an aperture in the hours of a year, behind prepared obstructions of this number.
+    pub(in crate::study) fn sunlit_year(
+        &self,
+        (number, hours): (u64, usize),
+        prepared: u64,
+        (scene, index): (&Scene, usize),
+    ) -> Arc<SunlitYear> {
+        let mut key = vec![number, prepared];
+        key.extend(aperture_key(scene, index));
+        self.sunlit_years.find(key, || (0..hours).map(|_| OnceLock::new()).collect())
+    }
+
     /// Skies that the directions of a façade's patches are tried under.
     pub(in crate::study) fn trial_skies(
         &self,
@@ -126,10 +138,7 @@ impl Session {
         find: impl FnOnce() -> Vec<Outside>,
     ) -> Arc<Vec<Outside>> {
         let key = vec![facade.radians().to_bits()];
-        match self.trial_skies.get(key, || Ok::<_, std::convert::Infallible>(find())) {
-            Ok(kept) => kept,
-            Err(never) => match never {},
-        }
+        self.trial_skies.find(key, find)
     }
 
     /// What a sky gives on patches of some fingerprint, found anew or kept.
@@ -141,10 +150,7 @@ impl Session {
     ) -> Arc<Vec<f64>> {
         let mut key = told_apart(outside);
         key.push(fingerprint);
-        match self.exact_skies.get(key, || Ok::<_, std::convert::Infallible>(find())) {
-            Ok(kept) => kept,
-            Err(never) => match never {},
-        }
+        self.exact_skies.find(key, find)
     }
 }
 

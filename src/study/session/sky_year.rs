@@ -1,6 +1,10 @@
 //! What a sky is in the hours of a year: illuminances of an aperture's patches \[lx\], moments of what sensors see.
 
+use crate::compute::room::sunlit_part::SunlitPart;
 use std::sync::OnceLock;
+
+/// Sunlit part of an aperture by hour, each found when it is first asked for.
+pub(in crate::study) type SunlitYear = Vec<OnceLock<SunlitPart>>;
 
 /// By hour, each found when it is first asked for; in half the digits, 6 · 10⁻⁸ of each.
 pub(in crate::study) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);

@@ -41,11 +41,8 @@ impl ThroughRoom {
     /// The sensors' weights of the luminance of an aperture's cells, by way of the room alone; without `doubts` values
     /// only.
     pub fn through_room(&self, session: &Session, index: usize, basis: &Arc<RingBasis>, doubts: bool) -> Arc<ByCells> {
-        let find = || Ok::<_, std::convert::Infallible>(self.by_cells(&self.weights(session, index, basis), doubts));
-        match session.by_cells.get(self.cells_key(index, basis, doubts), find) {
-            Ok(by_cells) => by_cells,
-            Err(never) => match never {},
-        }
+        let find = || self.by_cells(&self.weights(session, index, basis), doubts);
+        session.by_cells.find(self.cells_key(index, basis, doubts), find)
     }
 
     /// The same of light that is 1 at one of the aperture's nodes and 0 at the others, node by node.
@@ -59,12 +56,9 @@ impl ThroughRoom {
     ) -> Arc<Vec<ByCells>> {
         let find = || {
             let all = PatchWeights::by_node(&self.radiosity.nested.fine, &self.geometry[index], basis, nodes);
-            Ok::<_, std::convert::Infallible>(all.iter().map(|weights| self.by_cells(weights, doubts)).collect())
+            all.iter().map(|weights| self.by_cells(weights, doubts)).collect()
         };
-        match session.by_nodes.get(self.cells_key(index, basis, doubts), find) {
-            Ok(by_nodes) => by_nodes,
-            Err(never) => match never {},
-        }
+        session.by_nodes.find(self.cells_key(index, basis, doubts), find)
     }
 
     fn cells_key(&self, index: usize, basis: &RingBasis, doubts: bool) -> Key {

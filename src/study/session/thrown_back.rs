@@ -163,13 +163,9 @@ impl Session {
     fn room_side(&self, responses: &ThroughRoom, index: usize, basis: &Arc<RingBasis>) -> Arc<RoomSide> {
         let compute = || {
             let weights = responses.weights(self, index, basis);
-            let side = RoomSide::new(&responses.radiosity, &responses.geometry[index], &weights);
-            Ok::<_, std::convert::Infallible>(side)
+            RoomSide::new(&responses.radiosity, &responses.geometry[index], &weights)
         };
-        match self.sides.get(cells_key(&responses.key, index, basis), compute) {
-            Ok(side) => side,
-            Err(never) => match never {},
-        }
+        self.sides.find(cells_key(&responses.key, index, basis), compute)
     }
 
     /// What falls on a mirroring aperture, by cell, of light from the cells of another or the same.
@@ -181,14 +177,7 @@ impl Session {
         basis: &Arc<RingBasis>,
     ) -> Arc<Vec<Vec<f64>>> {
         let key = cells_key(&cells_key(&responses.key, to.index, &to.basis), from, basis);
-        let compute = || {
-            let weights = responses.weights(self, from, basis);
-            Ok::<_, std::convert::Infallible>(to.room.by_cells(&weights))
-        };
-        match self.falling.get(key, compute) {
-            Ok(rows) => rows,
-            Err(never) => match never {},
-        }
+        self.falling.find(key, || to.room.by_cells(&responses.weights(self, from, basis)))
     }
 }
 

@@ -201,9 +201,9 @@ impl Engine {
             self.sun.as_ref().map(|all| sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(sun)))
         };
         let skies: Vec<_> = hours.iter().map(|(hour, (outside, sun))| (*hour, outside, sun.as_ref())).collect();
-        let whole = |(mut light, (_, (_, sun))): (Vec<Estimate>, &Hour)| {
+        let whole = |(mut light, (hour, (_, sun))): (Vec<Estimate>, &Hour)| {
             if let Some(sun) = sun {
-                light.iter_mut().zip(self.coefficients.sun_estimate(sun)).for_each(|(sum, e)| *sum += e);
+                light.iter_mut().zip(self.coefficients.hour_sun_estimate(*hour, sun)).for_each(|(sum, e)| *sum += e);
             }
             Found { light, sun: direct(sun.as_ref()) }
         };
