@@ -213,6 +213,7 @@ impl App {
             Command::PutAside => self.put_aside(),
             Command::Import(step) => self.import_step(step),
             Command::MeasureAccuracy => self.measure_accuracy(),
+            Command::WeighObstructions => self.weigh_obstructions(),
             Command::SystemExample(number) => self.open_example(number),
             Command::EditSystem(text) => state.goniophotometer.set_text(text),
             Command::SystemSetup(setup) => state.goniophotometer.setup = setup,

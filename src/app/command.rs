@@ -120,6 +120,8 @@ pub enum Command {
     Choose(ChooseAct),
     /// Put a box outside, double one, or take one away.
     Outside(outside::Act),
+    /// Find the effect of every obstruction on the apertures' illuminance.
+    WeighObstructions,
     /// Search for something else.
     Find(Query),
     /// Set or take a star.

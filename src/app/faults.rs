@@ -43,6 +43,7 @@ impl App {
             Lane::DataForm => self.results.form.error = Some(text),
             Lane::Schemes => self.results.schemes.error = Some(text),
             Lane::Accuracy => self.results.accuracy.error = Some(text),
+            Lane::Obstructions => self.results.obstructions.error = Some(text),
             Lane::Goniophotometer => self.state.goniophotometer.failure = Some(text),
             Lane::Year => self.results.year.error = Some(text),
             Lane::Catalogue => self.state.search_error = Some(text),

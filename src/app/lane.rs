@@ -1,6 +1,6 @@
 //! What jobs work on, and who goes first.
 
-use crate::texts::{Text, catalogue as products, choose, shell, year};
+use crate::texts::{Text, catalogue as products, choose, scene, shell, year};
 
 /// What a job works on. Later requests of a lane replace earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -47,6 +47,8 @@ pub enum Lane {
     Schemes,
     /// Error against run time.
     Accuracy,
+    /// Effects of obstructions.
+    Obstructions,
     /// Computing the data of the chosen state, which the catalogue does not hold yet.
     Product,
     /// Computing data of built-in products that nobody has asked for yet.
@@ -88,6 +90,7 @@ impl Lane {
             Self::DataForm => shell::LANE_DATA_FORM,
             Self::Schemes => shell::LANE_SCHEMES,
             Self::Accuracy => shell::LANE_ACCURACY,
+            Self::Obstructions => scene::LANE_OBSTRUCTIONS,
             Self::Product => shell::LANE_PRODUCT,
             Self::Builtin => shell::LANE_BUILTIN,
             Self::Compare => shell::LANE_COMPARE,

@@ -11,7 +11,7 @@ use super::state::{CatalogueState, Daylight, Document, PathUse, Sheet, Shown};
 use super::tiles;
 use super::title;
 use super::window::{App, end_step, fresh_undoer};
-use super::work::{Outcome, Shelved, daylight, fill_some, take_from_shelf};
+use super::work::{Outcome, Shelved, daylight, fill_some, obstructions, take_from_shelf};
 use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::scene_file::{ControlKeys, ControlMode};
@@ -182,6 +182,7 @@ impl App {
             Outcome::DataForm(made) => self.results.form.put(Arc::new(made)),
             Outcome::Schemes(made) => self.results.schemes.put(Arc::new(made)),
             Outcome::Accuracy(result) => self.results.accuracy.take(result),
+            Outcome::Obstructions(result) => self.results.obstructions.take(result),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
             Outcome::Room(result) => {
@@ -409,6 +410,13 @@ impl App {
         let engine = self.services.engine.clone();
         self.results.accuracy.error = None;
         self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
+    }
+
+    /// Finds the effect of every obstruction of the present scene.
+    pub(super) fn weigh_obstructions(&mut self) {
+        let (scene, base) = (self.state.document.scene.clone(), self.state.base());
+        self.results.obstructions.error = None;
+        self.start(Lane::Obstructions, move |job| Outcome::Obstructions(obstructions(scene, &base, job)));
     }
 
     /// Asks for product, state and dataset of the selection, and for sky and sun.

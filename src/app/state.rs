@@ -13,6 +13,7 @@ use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
 pub use super::settings::Settings;
 use super::shelf::{Addition, Found, Hit, Query, Sets, Shelf};
 use super::tour::Tour;
+use super::work::ObstructionEffects;
 use super::year::Calendar;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::btdf::Dataset;
@@ -153,6 +154,8 @@ pub struct Results {
     pub schemes: Shown<SchemesResult>,
     /// Error against run time, of the scene that it was asked for.
     pub accuracy: Shown<Accuracy>,
+    /// Effects of obstructions, and of which scene.
+    pub obstructions: Shown<ObstructionEffects>,
 }
 
 impl Results {

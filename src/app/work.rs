@@ -21,7 +21,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::doctor::Diagnosis;
-use crate::compute::estimate::Progress;
+use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Facing;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::StudyError;
@@ -30,6 +30,7 @@ use crate::study::comparison::DataFacts;
 use crate::study::control::ControlQuestion;
 use crate::study::control::table::of_scene;
 use crate::study::control::year::CONTROLLED;
+use crate::study::facade::obstruction_effects;
 use crate::study::scene::seen_by_first_aperture;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::study::scene_places::opening;
@@ -85,6 +86,8 @@ pub enum Outcome {
     Schemes(SchemesResult),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
+    /// Effects of obstructions.
+    Obstructions(Result<ObstructionEffects, AppError>),
     /// Files that the user chose.
     Chosen(Result<Vec<PathBuf>, AppError>),
     /// Where to write.
@@ -146,6 +149,9 @@ pub enum Outcome {
     Written(PathUse, Result<PathBuf, AppError>),
 }
 
+/// Scene, and the effect of every box and of the building on its apertures' illuminance; `None` in the dark.
+pub type ObstructionEffects = (SceneFile, Option<Vec<Estimate>>);
+
 /// A part of what is known of a candidate.
 #[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
 pub enum Compared {
@@ -201,6 +207,18 @@ pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) 
     // What is wrong with boxes the room's tile says; what was withdrawn nobody looks at.
     let seen = seen_by_first_aperture(scene, &outside, sun.as_ref(), progress).ok().flatten().map(Box::new);
     Ok(Daylight { outside, seen, sun })
+}
+
+/// Effects of a scene's obstructions.
+pub(super) fn obstructions(
+    scene: SceneFile,
+    base: &Path,
+    progress: &dyn Progress,
+) -> Result<ObstructionEffects, AppError> {
+    let wrong = |error: SkyKeyError| StudyError::key(error.key, error.message);
+    let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base).map_err(wrong)?;
+    let effects = obstruction_effects(&scene, &outside, sun.as_ref(), progress)?;
+    Ok((scene, effects))
 }
 
 /// The selection's product, state and dataset.

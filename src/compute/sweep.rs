@@ -22,6 +22,14 @@ pub fn rule(points: usize) -> &'static [(f64, f64)] {
     &RULES.get_or_init(|| (0..=MOST).map(gauss_legendre).collect())[points.clamp(1, MOST)]
 }
 
+/// A piece of the range with its integrals by Kronrod's rule, and how far Gauss's is off in the first of them.
+struct Piece<const N: usize> {
+    ends: [f64; 2],
+    sum: [f64; N],
+    off: f64,
+    depth: u32,
+}
+
 /// ∫ f over the range of `knots` (rising), and its error. Pieces are halved until what two rules say of the first quantity
 /// differs by no more than `relative` of the whole, or `absolute`, taken together.
 ///
@@ -32,7 +40,7 @@ pub fn sweep<const N: usize>(
     relative: f64,
     absolute: f64,
 ) -> ([f64; N], f64) {
-    let mut measure = |from: f64, to: f64| {
+    let mut measure = |from: f64, to: f64, depth: u32| {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let (mut sum, mut simpler) = ([0.0; N], 0.0);
         for [x, weight, simple] in KRONROD {
@@ -42,26 +50,23 @@ pub fn sweep<const N: usize>(
                 sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += half * weight * value);
             }
         }
-        (sum, (sum[0] - simpler).abs())
+        Piece { ends: [from, to], sum, off: (sum[0] - simpler).abs(), depth }
     };
     let pieces = knots.windows(2).filter(|pair| pair[1] - pair[0] > 1e-13);
-    let mut open: Vec<(f64, f64, ([f64; N], f64), u32)> =
-        pieces.map(|pair| (pair[0], pair[1], measure(pair[0], pair[1]), 0)).collect();
-    let whole: f64 = open.iter().map(|piece| piece.2.0[0].abs()).sum();
+    let mut open: Vec<Piece<N>> = pieces.map(|pair| measure(pair[0], pair[1], 0)).collect();
+    let whole: f64 = open.iter().map(|piece| piece.sum[0].abs()).sum();
     let bound = (relative * whole).max(absolute);
     let count = open.len().max(1) as f64;
     let (mut total, mut error) = ([0.0; N], 0.0);
-    while let Some((from, to, (value, off), depth)) = open.pop() {
+    while let Some(Piece { ends: [from, to], sum, off, depth }) = open.pop() {
         // What one piece may be off: its share of the pieces at the outset, less with every halving.
         let allowed = bound / count * 0.5_f64.powf(0.5 * f64::from(depth));
         if off <= allowed || depth >= DEPTH {
             error += off;
-            total.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+            total.iter_mut().zip(sum).for_each(|(total, sum)| *total += sum);
         } else {
             let middle = 0.5 * (from + to);
-            for (from, to) in [(from, middle), (middle, to)] {
-                open.push((from, to, measure(from, to), depth + 1));
-            }
+            open.extend([[from, middle], [middle, to]].map(|[from, to]| measure(from, to, depth + 1)));
         }
     }
     (total, error)

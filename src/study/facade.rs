@@ -1,4 +1,4 @@
-//! Illuminance of the façade from outside.
+//! Illuminance of façade and apertures from outside, and what obstructions do to it.
 
 use super::error::StudyError;
 use super::outside::Before;
@@ -37,9 +37,8 @@ pub fn facade_light(
     sun: Option<&Sun>,
     progress: &dyn Progress,
 ) -> Result<FacadeLight, StudyError> {
-    let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
-    let normal = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(file.site.azimuth));
     if file.outside.is_empty() && file.building.is_none() {
+        let normal = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(file.site.azimuth));
         let share = |sun: &Sun| {
             let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
             let own = |skyline: &Skyline| skyline.altitude(sun.direction.bearing().radians());
@@ -48,33 +47,83 @@ pub fn facade_light(
         let direct = sun.map_or(0.0, |sun| sun.direct_normal * sun.direction.dot(normal).max(0.0) * share(sun));
         return Ok(FacadeLight { diffuse: irradiance(outside, normal), direct, behind: false });
     }
-    let room = room(&file.room)?;
-    let mut all = apertures(&file.aperture, &room)?;
+    let mut all = apertures(&file.aperture, &room(&file.room)?)?;
     all.retain(|one| one.surface == Surface::Facade);
-    if all.is_empty() {
-        let size = [room.size.x, room.size.z];
-        all.push(Aperture { surface: Surface::Facade, corner: DVec3::ZERO, size });
+    let (diffuse, direct) = behind_obstructions(file, all, outside, sun, progress)?;
+    Ok(FacadeLight { diffuse, direct, behind: true })
+}
+
+/// Finds for every box, then for the building if there is one, by how much the illuminance of the apertures from outside would
+/// change without it, relative to that with all of them; `None` where they are dark.
+///
+/// # Errors
+/// As [`facade_light`].
+pub fn obstruction_effects(
+    file: &SceneFile,
+    outside: &Outside,
+    sun: Option<&Sun>,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<Estimate>>, StudyError> {
+    let all = apertures(&file.aperture, &room(&file.room)?)?;
+    let light = |file: &SceneFile| {
+        let (diffuse, direct) = behind_obstructions(file, all.clone(), outside, sun, progress)?;
+        Ok::<_, StudyError>(diffuse + Estimate::exact(direct))
+    };
+    let with = light(file)?;
+    let count = file.outside.len() + usize::from(file.building.is_some());
+    let without = |number: usize| {
+        progress.advance("obstructions", number, count);
+        let mut rest = file.clone();
+        if number < file.outside.len() {
+            rest.outside.remove(number);
+        } else {
+            rest.building = None;
+        }
+        let light = light(&rest)?;
+        Ok(Estimate::new(light.value / with.value - 1.0, (light.error + with.error) / with.value))
+    };
+    if with.value <= 0.0 {
+        return Ok(None);
     }
-    let before = Before::of(file, &room, &all)?;
+    (0..count).map(without).collect::<Result<_, StudyError>>().map(Some)
+}
+
+/// Illuminance of apertures behind a scene's obstructions, means by area: diffuse and direct. Without apertures, of the façade.
+fn behind_obstructions(
+    file: &SceneFile,
+    mut apertures: Vec<Aperture>,
+    outside: &Outside,
+    sun: Option<&Sun>,
+    progress: &dyn Progress,
+) -> Result<(Estimate, f64), StudyError> {
+    let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
+    let room = room(&file.room)?;
+    if apertures.is_empty() {
+        let size = [room.size.x, room.size.z];
+        apertures.push(Aperture { surface: Surface::Facade, corner: DVec3::ZERO, size });
+    }
+    let before = Before::of(file, &room, &apertures)?;
     let outside = before.stand(outside.clone(), sun, orientation, progress)?;
-    let facing = Facing { outside: &outside, sun, orientation, surface: Surface::Facade };
-    let share = |one: &Aperture| outside.surroundings().map_or(1.0, |around| lit(one, &facing, around).1);
     // By Gauss's points; fewer of them tell how far the mean may be off.
     let mean = |one: &Aperture, points: usize| -> Estimate {
         let rule = gauss_legendre(points);
-        let place = |(x, wx): &(f64, f64), (z, wz): &(f64, f64)| {
-            let eye = one.corner + DVec3::new(x * one.size[0], 0.0, z * one.size[1]);
-            irradiance(&outside.seen_from(orientation.to_world(eye)), normal) * (wx * wz)
+        let normal = Dir::from_unit(orientation.to_world(one.surface.room_from_facade(DVec3::Z)));
+        let place = |(x, wx): &(f64, f64), (y, wy): &(f64, f64)| {
+            let along = DVec3::new(x * one.size[0], y * one.size[1], 0.0);
+            let eye = orientation.to_world(one.corner + one.surface.room_from_facade(along));
+            irradiance(&outside.seen_from(eye), normal) * (wx * wy)
         };
-        rule.iter().flat_map(|x| rule.iter().map(move |z| (x, z))).map(|(x, z)| place(x, z)).sum()
+        rule.iter().flat_map(|x| rule.iter().map(move |y| (x, y))).map(|(x, y)| place(x, y)).sum()
     };
-    let area: f64 = all.iter().map(Aperture::area).sum();
+    let area: f64 = apertures.iter().map(Aperture::area).sum();
     let (mut diffuse, mut direct) = (Estimate::default(), 0.0);
-    for one in &all {
+    for one in &apertures {
+        let facing = Facing { outside: &outside, sun, orientation, surface: one.surface };
+        let share = outside.surroundings().map_or(1.0, |around| lit(one, &facing, around).1);
         let (found, fewer) = (mean(one, 3), mean(one, 2));
         let off = (found.value - fewer.value).abs();
         diffuse += Estimate::new(found.value, found.error + off) * (one.area() / area);
-        direct += share(one) * facing.sun_illuminance() * one.area() / area;
+        direct += share * facing.sun_illuminance() * one.area() / area;
     }
-    Ok(FacadeLight { diffuse, direct, behind: true })
+    Ok((diffuse, direct))
 }

@@ -107,6 +107,11 @@ texts! {
     fn remove_box(name) = "Take away {name}" | "{name} entfernen";
     fn below_ground(name, height) = "{name} does not rise above the ground at {height} m and is not there: lower the ground" | "{name} ragt nicht über den Boden auf {height} m und ist nicht da: den Boden tiefer legen";
     fn into_room(name, width, depth, height) = "{name} reaches into the room, {width} × {depth} × {height} m: move it out." | "{name} reicht in den Raum hinein, {width} × {depth} × {height} m: hinausschieben.";
+    const EFFECTS = "Effect on the apertures" | "Wirkung auf die Öffnungen";
+    const EFFECTS_TIP = "For every obstruction: how much the apertures' illuminance from outside would change at this moment without it" | "Für jede Verbauung: um wie viel sich die Beleuchtungsstärke der Öffnungen außen zu diesem Zeitpunkt ohne sie ändern würde";
+    fn without_it(change, error) = "without it {change} ± {error} %" | "ohne dies {change} ± {error} %";
+    const EFFECTS_DARK = "No light falls on the apertures" | "Auf die Öffnungen fällt kein Licht";
+    const LANE_OBSTRUCTIONS = "effects of obstructions" | "Wirkung der Verbauungen";
     const FRAME_SHARE = "Frame, share" | "Rahmenanteil";
     const DIRT = "Dirt, factor" | "Verschmutzung, Faktor";
     const SKYLINE_EVEN = "Skyline of even height" | "Gleich hohe Horizontlinie";

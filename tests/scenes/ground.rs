@@ -8,7 +8,7 @@ use cfs::compute::sky::{Distribution, Outside, Sun};
 use cfs::compute::sky::{Finish, Setting};
 use cfs::compute::surroundings::solid::Solid;
 use cfs::study::SceneFile;
-use cfs::study::facade::facade_light;
+use cfs::study::facade::{facade_light, obstruction_effects};
 use cfs::study::sky::outside_from_keys;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -124,12 +124,13 @@ fn the_facade_gets_what_boxes_leave() {
     // A long black wall up to 30° above the middle of a small aperture, before black ground.
     let top = 1.5 + 10.0 * 30_f64.to_radians().tan();
     let wall = a_box([-5e3, -11.0, 0.0], [5e3, -10.0, top], "reflectance = 0.0");
-    let of = |altitude: f64| {
-        let sun =
-            format!("{}\nsun = {{ altitude = {altitude:?}, azimuth = 180.0, direct_normal = 5e4 }}", rooms::UNIFORM);
+    let file = |sun: &str| {
+        let sky = format!("{}\n{sun}", rooms::UNIFORM);
         let apertures = vec![rooms::facade([1.99, 1.49], [0.02, 0.02], rooms::DIFFUSE)];
-        let file =
-            SceneFile::parse(&(rooms::Text { sky: sun, apertures, ..rooms::Text::default() }.toml() + &wall)).unwrap();
+        SceneFile::parse(&(rooms::Text { sky, apertures, ..rooms::Text::default() }.toml() + &wall)).unwrap()
+    };
+    let of = |altitude: f64| {
+        let file = file(&format!("sun = {{ altitude = {altitude:?}, azimuth = 180.0, direct_normal = 5e4 }}"));
         let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
         facade_light(&file, &outside, sun.as_ref(), &Silent).unwrap()
     };
@@ -142,4 +143,10 @@ fn the_facade_gets_what_boxes_leave() {
     assert!(light.behind && light.direct == 0.0, "{light:?}");
     let light = of(40.0);
     assert!((light.direct / (5e4 * 40_f64.to_radians().cos()) - 1.0).abs() < 1e-4, "{light:?}");
+    // Without the wall it would be twice that of the sky.
+    let file = file("");
+    let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
+    let effects = obstruction_effects(&file, &outside, sun.as_ref(), &Silent).unwrap().unwrap();
+    assert!(effects.len() == 1 && (effects[0].value - 1.0).abs() <= effects[0].error + 1e-3, "{effects:?}");
+    assert!(effects[0].error < 5e-3, "{effects:?}");
 }

@@ -75,7 +75,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     if app.state.settings.scene_open && room_for_scene {
         egui::Panel::right("scene").frame(side).default_size(250.0).size_range(widths(ui, 250.0)).show(ui, |ui| {
             let weather = scene::Weather { calendar: &app.results.weather, view: &mut app.weather_view };
-            scene::show(ui, &app.state, weather, &mut commands);
+            scene::show(ui, &app.state, weather, &app.results.obstructions, &mut commands);
         });
     }
     if let Some(sheet) = app.state.sheet.filter(|_| wide.is_none()) {

@@ -14,21 +14,28 @@ pub use weather::Weather;
 use super::fields::number;
 use crate::app::command::Command;
 use crate::app::moment;
-use crate::app::state::State;
+use crate::app::state::{Shown, State};
 use crate::app::theme;
 use crate::app::title;
+use crate::app::work::ObstructionEffects;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 use crate::texts::{Text, fixed, scene as texts, year as year_texts};
 use egui::{CollapsingHeader, DragValue, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
 use std::path::Path;
 
 /// Draws the panel.
-pub fn show(ui: &mut Ui, state: &State, weather: Weather<'_>, commands: &mut Vec<Command>) {
+pub fn show(
+    ui: &mut Ui,
+    state: &State,
+    weather: Weather<'_>,
+    effects: &Shown<ObstructionEffects>,
+    commands: &mut Vec<Command>,
+) {
     ui.heading(texts::SCENE);
     // A copy is edited; the panel changes nothing itself, and a command is given only where something differs.
     let mut scene = state.document.scene.clone();
     ScrollArea::vertical().id_salt("scene").auto_shrink([false, false]).show(ui, |ui| {
-        sections(ui, state, &mut scene, weather, commands);
+        sections(ui, state, &mut scene, weather, effects, commands);
     });
     if scene != state.document.scene {
         commands.push(Command::Scene(Box::new(scene)));
@@ -36,7 +43,14 @@ pub fn show(ui: &mut Ui, state: &State, weather: Weather<'_>, commands: &mut Vec
 }
 
 /// The sections in the order in which a study is thought of: where, when, what sky, what stands before it, then the room.
-fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather<'_>, commands: &mut Vec<Command>) {
+fn sections(
+    ui: &mut Ui,
+    state: &State,
+    scene: &mut SceneFile,
+    calendar: Weather<'_>,
+    effects: &Shown<ObstructionEffects>,
+    commands: &mut Vec<Command>,
+) {
     let perez = scene.sky.model == SkyModelKey::Perez;
     let wrong = |title: Text| {
         let error = state.scene_error.as_ref().filter(|error| section_of(error.key, perez) == title)?;
@@ -64,7 +78,7 @@ fn sections(ui: &mut Ui, state: &State, scene: &mut SceneFile, calendar: Weather
         skyline::show(ui, scene);
     });
     section(ui, texts::OUTSIDE, &outside::essence(scene), outside::problem(scene), false, |ui| {
-        outside::show(ui, scene, commands);
+        outside::show(ui, scene, effects, commands);
     });
     let count = scene.aperture.len();
     let essence = scene.aperture.first().map_or_else(

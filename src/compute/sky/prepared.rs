@@ -391,8 +391,8 @@ impl Prepared {
                 self.look(eye, towards, |place, share| row.add(place, share))
             };
             let first = look(0);
-            let alike = (1..few).fold(true, |alike, number| look(number) == first && alike);
-            let count = if alike { few } else { many };
+            let alike = (1..few).filter(|number| look(*number) == first).count();
+            let count = if alike == few - 1 { few } else { many };
             (few..count).for_each(|number| {
                 look(number);
             });

@@ -3,6 +3,10 @@
 use crate::app::command::Command;
 use crate::app::outside::{Act, Kind, building, exact, name};
 use crate::app::panels::fields::{number, number_by, row};
+use crate::app::state::Shown;
+use crate::app::theme;
+use crate::app::work::ObstructionEffects;
+use crate::compute::estimate::Estimate;
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
 use crate::texts::{Text, fixed, scene as texts};
@@ -53,8 +57,38 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     inside.or_else(|| scene.outside.iter().enumerate().find_map(below))
 }
 
+/// Change of the apertures' illuminance without an obstruction, in words; `None` where it is not known for this scene.
+fn effect(effects: &Shown<ObstructionEffects>, scene: &SceneFile) -> Option<Vec<String>> {
+    let (of, found) = &**effects.value.as_ref()?;
+    let words = |effect: &Estimate| {
+        let sign = if effect.value > 0.0 { "+" } else { "" };
+        texts::without_it(format!("{sign}{}", fixed(100.0 * effect.value, 1)), fixed(100.0 * effect.error, 1))
+    };
+    let found = found.as_ref().filter(|_| of == scene)?;
+    Some(found.iter().map(words).collect())
+}
+
 /// Draws the section.
-pub fn show(ui: &mut Ui, scene: &mut SceneFile, commands: &mut Vec<Command>) {
+pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffects>, commands: &mut Vec<Command>) {
+    let words = effect(effects, scene);
+    let told = |ui: &mut Ui, number: usize| {
+        if let Some(words) = words.as_ref().and_then(|words| words.get(number)) {
+            ui.weak(words);
+        }
+    };
+    if !scene.outside.is_empty() || scene.building.is_some() {
+        if ui.button(texts::EFFECTS).on_hover_text(texts::EFFECTS_TIP).clicked() {
+            commands.push(Command::WeighObstructions);
+        }
+        let dark = effects.value.as_ref().is_some_and(|known| known.1.is_none() && known.0 == *scene);
+        if dark {
+            ui.weak(texts::EFFECTS_DARK);
+        }
+        if let Some(error) = &effects.error {
+            ui.colored_label(theme::palette(ui).error, error);
+        }
+    }
+    let boxes = scene.outside.len();
     for (number, keys) in scene.outside.iter_mut().enumerate() {
         let name = name(number, keys);
         CollapsingHeader::new(&name).id_salt(number).show(ui, |ui| {
@@ -70,6 +104,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, commands: &mut Vec<Command>) {
                 }
             });
         });
+        told(ui, number);
     }
     let add = ui.menu_button(texts::ADD_OUTSIDE, |ui| {
         for kind in Kind::ALL {
@@ -97,6 +132,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, commands: &mut Vec<Command>) {
             number_by(ui, (label.get(), " m"), side, -FAR..=FAR, 2, SPEED);
         }
         number(ui, texts::REFLECTANCE, "", &mut building.reflectance, 0.0..=1.0, 2);
+        told(ui, boxes);
     }
 }
 
