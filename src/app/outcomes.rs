@@ -182,7 +182,7 @@ impl App {
             Outcome::DataForm(made) => self.results.form.put(Arc::new(made)),
             Outcome::Schemes(made) => self.results.schemes.put(Arc::new(made)),
             Outcome::Accuracy(result) => self.results.accuracy.take(result),
-            Outcome::Obstructions(result) => self.results.obstructions.take(result),
+            Outcome::Obstructions(effects) => self.results.obstructions.put(Arc::new(effects)),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
             Outcome::Room(result) => {

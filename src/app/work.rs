@@ -87,7 +87,7 @@ pub enum Outcome {
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
     /// Effects of obstructions.
-    Obstructions(Result<ObstructionEffects, AppError>),
+    Obstructions(ObstructionEffects),
     /// Files that the user chose.
     Chosen(Result<Vec<PathBuf>, AppError>),
     /// Where to write.
@@ -149,8 +149,8 @@ pub enum Outcome {
     Written(PathUse, Result<PathBuf, AppError>),
 }
 
-/// Scene, and the effect of every box and of the building on its apertures' illuminance; `None` in the dark.
-pub type ObstructionEffects = (SceneFile, Option<Vec<Estimate>>);
+/// Scene, and the effect of every box and of the building on its apertures' illuminance, `None` in the dark; or why not.
+pub type ObstructionEffects = (SceneFile, Result<Option<Vec<Estimate>>, String>);
 
 /// A part of what is known of a candidate.
 #[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
@@ -210,15 +210,13 @@ pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) 
 }
 
 /// Effects of a scene's obstructions.
-pub(super) fn obstructions(
-    scene: SceneFile,
-    base: &Path,
-    progress: &dyn Progress,
-) -> Result<ObstructionEffects, AppError> {
+pub(super) fn obstructions(scene: SceneFile, base: &Path, progress: &dyn Progress) -> ObstructionEffects {
     let wrong = |error: SkyKeyError| StudyError::key(error.key, error.message);
-    let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base).map_err(wrong)?;
-    let effects = obstruction_effects(&scene, &outside, sun.as_ref(), progress)?;
-    Ok((scene, effects))
+    let effects = outside_from_keys(&scene.sky, &scene.site, base)
+        .map_err(wrong)
+        .and_then(|(outside, sun)| obstruction_effects(&scene, &outside, sun.as_ref(), progress))
+        .map_err(|error| error.to_string());
+    (scene, effects)
 }
 
 /// The selection's product, state and dataset.

@@ -23,20 +23,25 @@ impl<T> Cache<T> {
         self.entries.lock().unwrap_or_else(PoisonError::into_inner).iter().any(|(k, _)| k == key)
     }
 
-    /// The value of a key, computed if it is not there. Two threads may compute the same value at once; both get
-    /// equal results.
+    /// The value of a key, computed if it is not there. Two threads may compute the same value at once; both get that of
+    /// the first.
     pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
-        {
-            let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(at) = entries.iter().position(|(k, _)| *k == key) {
-                let entry = entries.remove(at);
-                let value = Arc::clone(&entry.1);
-                entries.push(entry);
-                return Ok(value);
-            }
+        let lock = || self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = |entries: &mut Vec<(Key, Arc<T>)>| {
+            let at = entries.iter().position(|(k, _)| *k == key)?;
+            let entry = entries.remove(at);
+            let value = Arc::clone(&entry.1);
+            entries.push(entry);
+            Some(value)
+        };
+        if let Some(value) = known(&mut lock()) {
+            return Ok(value);
         }
         let value = Arc::new(compute()?);
-        let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut entries = lock();
+        if let Some(value) = known(&mut entries) {
+            return Ok(value);
+        }
         if entries.len() >= self.capacity {
             entries.remove(0);
         }

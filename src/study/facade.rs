@@ -2,11 +2,11 @@
 
 use super::error::StudyError;
 use super::outside::Before;
-use super::scene_file::SceneFile;
+use super::scene_file::{SceneFile, SurfaceKey};
 use super::scene_places::{apertures, room};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, Orientation, Surface};
-use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::Facing;
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::room::aperture::Aperture;
@@ -37,7 +37,10 @@ pub fn facade_light(
     sun: Option<&Sun>,
     progress: &dyn Progress,
 ) -> Result<FacadeLight, StudyError> {
-    if file.outside.is_empty() && file.building.is_none() {
+    // A building before the wall hides it where the wall has no aperture.
+    let facade = file.aperture.iter().any(|one| one.surface == SurfaceKey::Facade);
+    let inside = file.building.as_ref().is_some_and(|building| !facade && building.from[1] < 0.0);
+    if inside || file.outside.is_empty() && file.building.is_none() {
         let normal = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(file.site.azimuth));
         let share = |sun: &Sun| {
             let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
@@ -47,9 +50,17 @@ pub fn facade_light(
         let direct = sun.map_or(0.0, |sun| sun.direct_normal * sun.direction.dot(normal).max(0.0) * share(sun));
         return Ok(FacadeLight { diffuse: irradiance(outside, normal), direct, behind: false });
     }
-    let mut all = apertures(&file.aperture, &room(&file.room)?)?;
+    let room = room(&file.room)?;
+    let mut all = if file.aperture.is_empty() { Vec::new() } else { apertures(&file.aperture, &room)? };
+    let before = Before::of(file, &room, &all)?;
     all.retain(|one| one.surface == Surface::Facade);
-    let (diffuse, direct) = behind_obstructions(file, all, outside, sun, progress)?;
+    if all.is_empty() {
+        // The façade as far as it stands free above the ground.
+        let foot = file.site.ground_height.clamp(0.0, 0.99 * room.size.z);
+        let size = [room.size.x, room.size.z - foot];
+        all.push(Aperture { surface: Surface::Facade, corner: foot * DVec3::Z, size });
+    }
+    let (diffuse, direct) = behind_obstructions(file, before.seen_by(&all), &all, outside, sun, progress)?;
     Ok(FacadeLight { diffuse, direct, behind: true })
 }
 
@@ -64,9 +75,11 @@ pub fn obstruction_effects(
     sun: Option<&Sun>,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<Estimate>>, StudyError> {
-    let all = apertures(&file.aperture, &room(&file.room)?)?;
+    let room = room(&file.room)?;
+    let all = apertures(&file.aperture, &room)?;
     let light = |file: &SceneFile| {
-        let (diffuse, direct) = behind_obstructions(file, all.clone(), outside, sun, progress)?;
+        let before = Before::of(file, &room, &all)?;
+        let (diffuse, direct) = behind_obstructions(file, before, &all, outside, sun, progress)?;
         Ok::<_, StudyError>(diffuse + Estimate::exact(direct))
     };
     let with = light(file)?;
@@ -80,7 +93,8 @@ pub fn obstruction_effects(
             rest.building = None;
         }
         let light = light(&rest)?;
-        Ok(Estimate::new(light.value / with.value - 1.0, (light.error + with.error) / with.value))
+        let ratio = light.value / with.value;
+        Ok(Estimate::new(ratio - 1.0, (light.error + ratio * with.error) / with.value))
     };
     if with.value <= 0.0 {
         return Ok(None);
@@ -88,21 +102,16 @@ pub fn obstruction_effects(
     (0..count).map(without).collect::<Result<_, StudyError>>().map(Some)
 }
 
-/// Illuminance of apertures behind a scene's obstructions, means by area: diffuse and direct. Without apertures, of the façade.
+/// Illuminance of apertures behind obstructions, means by area: diffuse and direct.
 fn behind_obstructions(
     file: &SceneFile,
-    mut apertures: Vec<Aperture>,
+    before: Before,
+    apertures: &[Aperture],
     outside: &Outside,
     sun: Option<&Sun>,
     progress: &dyn Progress,
 ) -> Result<(Estimate, f64), StudyError> {
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
-    let room = room(&file.room)?;
-    if apertures.is_empty() {
-        let size = [room.size.x, room.size.z];
-        apertures.push(Aperture { surface: Surface::Facade, corner: DVec3::ZERO, size });
-    }
-    let before = Before::of(file, &room, &apertures)?;
     let outside = before.stand(outside.clone(), sun, orientation, progress)?;
     // By Gauss's points; fewer of them tell how far the mean may be off.
     let mean = |one: &Aperture, points: usize| -> Estimate {
@@ -117,7 +126,10 @@ fn behind_obstructions(
     };
     let area: f64 = apertures.iter().map(Aperture::area).sum();
     let (mut diffuse, mut direct) = (Estimate::default(), 0.0);
-    for one in &apertures {
+    for one in apertures {
+        if progress.cancelled() {
+            return Err(Cancelled.into());
+        }
         let facing = Facing { outside: &outside, sun, orientation, surface: one.surface };
         let share = outside.surroundings().map_or(1.0, |around| lit(one, &facing, around).1);
         let (found, fewer) = (mean(one, 3), mean(one, 2));

@@ -109,7 +109,7 @@ texts! {
     fn into_room(name, width, depth, height) = "{name} reaches into the room, {width} × {depth} × {height} m: move it out." | "{name} reicht in den Raum hinein, {width} × {depth} × {height} m: hinausschieben.";
     const EFFECTS = "Effect on the apertures" | "Wirkung auf die Öffnungen";
     const EFFECTS_TIP = "For every obstruction: how much the apertures' illuminance from outside would change at this moment without it" | "Für jede Verbauung: um wie viel sich die Beleuchtungsstärke der Öffnungen außen zu diesem Zeitpunkt ohne sie ändern würde";
-    fn without_it(change, error) = "without it {change} ± {error} %" | "ohne dies {change} ± {error} %";
+    fn without_it(change, error) = "without it {change} ± {error} %" | "ohne sie {change} ± {error} %";
     const EFFECTS_DARK = "No light falls on the apertures" | "Auf die Öffnungen fällt kein Licht";
     const LANE_OBSTRUCTIONS = "effects of obstructions" | "Wirkung der Verbauungen";
     const FRAME_SHARE = "Frame, share" | "Rahmenanteil";

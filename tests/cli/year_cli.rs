@@ -246,6 +246,18 @@ fn openings_stand_beside_a_whole_year() {
     assert_eq!(standard["view"]["distance"], "nothing in the way");
 }
 
+#[test]
+fn ground_before_a_sunken_box_is_seen() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    // It begins far below the ground: what it has there hides nothing.
+    let rest = "[[outside]]\nbox = { from = [-500.0, -300.0, -50.0], to = [500.0, -30.0, 0.1] }\n\
+                [compute]\ninterreflection = false\n[year]\nweather = \"builtin:renton\"\n";
+    scene(folder, "{ ideal = \"diffuse\", transmittance = 0.5 }", rest);
+    let json: serde_json::Value = serde_json::from_str(&done(folder, &["year", "scene.toml", "--json"])).unwrap();
+    assert_eq!(json["metrics"]["EN17037"]["view"]["layers"]["ground"], true);
+}
+
 /// The figures of a whole year of sun through a window.
 fn sun_of_a_year(folder: &Path, system: &str, rest: &str) -> serde_json::Value {
     scene(

@@ -150,3 +150,21 @@ fn the_facade_gets_what_boxes_leave() {
     assert!(effects.len() == 1 && (effects[0].value - 1.0).abs() <= effects[0].error + 1e-3, "{effects:?}");
     assert!(effects[0].error < 5e-3, "{effects:?}");
 }
+
+#[test]
+fn a_facade_without_apertures_has_its_light_too() {
+    let apertures = vec![rooms::roof([1.0, 2.0], [1.0, 1.0], rooms::DIFFUSE)];
+    let wall = a_box([-5e3, -11.0, 0.0], [5e3, -10.0, 20.0], "reflectance = 0.0");
+    let text = rooms::Text { sky: rooms::UNIFORM.to_owned(), apertures, ..rooms::Text::default() }.toml() + &wall;
+    let light = |text: &str| {
+        let mut file = SceneFile::parse(text).unwrap();
+        file.site.ground_height = 0.5;
+        let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
+        facade_light(&file, &outside, sun.as_ref(), &Silent).unwrap()
+    };
+    let behind = light(&text);
+    assert!(behind.behind && behind.diffuse.value < 2500.0, "{behind:?}");
+    // A building that reaches before it hides it: its plane in the open is told.
+    let hidden = light(&(text + "[building]\nfrom = [-1.0, -3.0, 0.0]\nto = [5.0, 8.0, 3.0]\n"));
+    assert!(!hidden.behind && (hidden.diffuse.value - 5000.0).abs() < 1.0, "{hidden:?}");
+}

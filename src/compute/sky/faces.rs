@@ -134,9 +134,15 @@ pub(super) fn lights(
     let panels = Panels::new(all);
     let rows = panels.places.par_iter().map_init(
         || SparseSum::new(panels.places.len()),
-        |sum, (surface, at)| Some(views.of(*surface, *at)?.by_node(&panels, &others, sum)),
+        |sum, (surface, at)| {
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            Ok(views.of(*surface, *at).map(|view| view.by_node(&panels, &others, sum)))
+        },
     );
-    let (rest, seen): (Vec<_>, Vec<_>) = rows.map(Option::unzip).unzip();
+    let rows: Vec<Option<_>> = rows.collect::<Result<_, Cancelled>>()?;
+    let (rest, seen): (Vec<_>, Vec<_>) = rows.into_iter().map(Option::unzip).unzip();
     let exchange = Exchange::new(panels, seen);
     let falling: Vec<f64> = rest.into_iter().map(Option::unwrap_or_default).collect();
     let mut solved = exchange.panels().with(&exchange.solved(scenery, &falling));

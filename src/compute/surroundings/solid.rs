@@ -259,7 +259,10 @@ impl Solid {
         let outline = self.edges().into_iter().filter(|(_, [a, b])| turned[*a] != turned[*b]);
         outline
             .filter_map(|([a, b], _)| {
-                let normal = (a - eye).cross(b - eye).try_normalize()?;
+                let normal = (a - eye).cross(b - eye);
+                // An edge that points at the eye has no plane with it but that of rounding.
+                let least = 1e-9 * (a - eye).length() * (b - eye).length();
+                let normal = normal.try_normalize().filter(|_| normal.length() > least)?;
                 Some(if normal.dot(middle) >= 0.0 { normal } else { -normal })
             })
             .collect()

@@ -24,7 +24,7 @@ use crate::compute::system::measure::ProfileLight;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
-use crate::study::session::seen::{bands_of, check, inside, within_budget};
+use crate::study::session::seen::{bands_of, check, inside, keeps, within_budget};
 use crate::study::session::sky_year::SkyYear;
 use faer::Mat;
 use glam::DVec3;
@@ -58,7 +58,7 @@ pub(super) struct Past {
     /// Emergent cells that every sensor sees, and bands.
     cells: Arc<Vec<CellWeights>>,
     bands: Arc<Vec<CellWeights>>,
-    /// What the sensors see of scattered light by patch, sensor and point of the grid.
+    /// What the sensors see of scattered light by patch, sensor and point of the grid; empty where that would be too much.
     by_patch: Vec<OnceLock<Vec<f32>>>,
     /// Interreflected light per illuminance by patch, node and sensor.
     reflected: Vec<Vec<f32>>,
@@ -130,6 +130,7 @@ impl Behind {
         };
         let inside: Vec<Sensor> = scene.sensors.iter().map(|sensor| inside(scene, sensor)).collect();
         let [cells, bands] = sent.as_ref().map(|sent| cells_seen(opening, &grid, sent, &inside)).unwrap_or_default();
+        let kept = keeps(scene, patches.len() * grid.count() * size_of::<f32>() / size_of::<f64>());
         let past = Past {
             aperture,
             grid,
@@ -138,7 +139,7 @@ impl Behind {
             sensors: inside,
             cells,
             bands,
-            by_patch: (0..patches.len()).map(|_| OnceLock::new()).collect(),
+            by_patch: (0..if kept { patches.len() } else { 0 }).map(|_| OnceLock::new()).collect(),
             reflected: columns.iter().map(reflected).collect(),
             sent,
         };
@@ -277,14 +278,20 @@ impl Past {
             let Patch { own, rows } = &sent.patches[p];
             if rows.is_empty() { self.seen(sent, own, rows) } else { self.seen(sent, &Vec::new(), rows) }
         };
-        let of_sun;
+        let own;
         let light: &[f32] = if sent.cells.len() == 1 {
             &[]
         } else if cells.is_empty() {
-            self.by_patch[p].get_or_init(of_patch)
+            match self.by_patch.get(p) {
+                Some(kept) => kept.get_or_init(of_patch),
+                None => {
+                    own = of_patch();
+                    &own
+                }
+            }
         } else {
-            of_sun = self.seen(sent, &lit_cells(cells), &[]);
-            &of_sun
+            own = self.seen(sent, &lit_cells(cells), &[]);
+            &own
         };
         let count = self.grid.count();
         let of = |s: usize| {

@@ -24,7 +24,7 @@ pub(in crate::study) fn check(progress: &dyn Progress) -> Result<(), Cancelled> 
 const BLOCK: usize = 4096;
 
 /// Is a table of so many numbers a sensor small enough to be kept?
-pub(super) fn keeps(scene: &Scene, numbers: usize) -> bool {
+pub(in crate::study) fn keeps(scene: &Scene, numbers: usize) -> bool {
     scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
 }
 

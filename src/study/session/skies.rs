@@ -2,6 +2,7 @@
 //! skies that many systems are tried under.
 
 use super::far;
+use super::seen::keeps;
 use super::sky_patches::SkyPatches;
 use super::sky_year::{SkyYear, SunlitYear};
 use super::{Session, aperture_key, basis_key, reception_key};
@@ -19,6 +20,8 @@ use std::f64::consts::TAU;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
+/// What a sensor takes for a cell that it sees through points of an aperture. \[numbers\]
+const CELL_AT_POINTS: usize = 16;
 /// Most numbers of a year that are kept: 12,000 in each of 8,784 hours. Half of these are dark, which leaves 210 MB.
 const MOST_NUMBERS: usize = 12_000 * 8784;
 
@@ -92,6 +95,10 @@ impl Session {
         cells: Result<&RingBasis, (bool, usize)>,
         find: impl FnOnce() -> Vec<CellWeights>,
     ) -> Arc<Vec<CellWeights>> {
+        let count = cells.map_or_else(|(_, count)| count, RingBasis::len);
+        if !keeps(scene, CELL_AT_POINTS * count) {
+            return Arc::new(find());
+        }
         let mut key = reception_key(scene, index, cells.ok());
         if let Err((horizontal, count)) = cells {
             key.extend([u64::from(horizontal), count as u64]);

@@ -179,7 +179,15 @@ impl EyeLight {
         if self.rows.is_empty() && matches!(self.sky, Sky::Patches(_)) {
             return Vec::new();
         }
-        let mut light: Vec<f64> = self.year.as_ref().map_or_else(find, |year| year.hour(hour, find).collect());
+        // Found before the hour is held: threads that do parts of it may be asked for the same hour meanwhile.
+        let mut light: Vec<f64> = match &self.year {
+            Some(year) if year.holds(hour) => year.hour(hour, Vec::new).collect(),
+            Some(year) => {
+                let found = find();
+                year.hour(hour, || found).collect()
+            }
+            None => find(),
+        };
         if let Sky::Patches(_) = self.sky {
             light.extend([outside.ground_luminance(), far::luminance(outside)]);
         }

@@ -19,7 +19,7 @@ use crate::study::scene_file::SceneFile;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -184,6 +184,14 @@ impl Engine {
             &scene.apertures.iter().map(|one| one.aperture).collect::<Vec<_>>(),
         )?;
         let prepared = question.session.standing(&before, &scene.outside, scene.orientation, progress)?;
+        if let Some(prepared) = &prepared {
+            let mut grounds = BTreeSet::new();
+            for step in 0..question.steps.list.len() {
+                if grounds.insert(question.steps.ground(step).to_bits()) {
+                    prepared.prepare_ground(&question.steps.outside(step)?.0);
+                }
+            }
+        }
         let mut coefficients = Coefficients::past(question.session, &scene, prepared.as_ref(), progress)?;
         let year = (question.steps.number(), question.steps.list.len());
         coefficients.keep_year(question.session, year, steps);

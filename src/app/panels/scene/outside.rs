@@ -10,7 +10,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
 use crate::texts::{Text, fixed, scene as texts};
-use egui::{CollapsingHeader, TextEdit, Ui};
+use egui::{CollapsingHeader, Label, RichText, TextEdit, Ui};
 use glam::DVec3;
 
 /// Farthest that a place is typed. \[m\]
@@ -57,37 +57,40 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     inside.or_else(|| scene.outside.iter().enumerate().find_map(below))
 }
 
-/// Change of the apertures' illuminance without an obstruction, in words; `None` where it is not known for this scene.
-fn effect(effects: &Shown<ObstructionEffects>, scene: &SceneFile) -> Option<Vec<String>> {
-    let (of, found) = &**effects.value.as_ref()?;
+/// Changes of the apertures' illuminance without each obstruction, in words.
+fn words(effects: &[Estimate]) -> Vec<String> {
     let words = |effect: &Estimate| {
         let sign = if effect.value > 0.0 { "+" } else { "" };
         texts::without_it(format!("{sign}{}", fixed(100.0 * effect.value, 1)), fixed(100.0 * effect.error, 1))
     };
-    let found = found.as_ref().filter(|_| of == scene)?;
-    Some(found.iter().map(words).collect())
+    effects.iter().map(words).collect()
 }
 
 /// Draws the section.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffects>, commands: &mut Vec<Command>) {
-    let words = effect(effects, scene);
-    let told = |ui: &mut Ui, number: usize| {
-        if let Some(words) = words.as_ref().and_then(|words| words.get(number)) {
-            ui.weak(words);
-        }
-    };
+    let mut effect = Vec::new();
     if !scene.outside.is_empty() || scene.building.is_some() {
         if ui.button(texts::EFFECTS).on_hover_text(texts::EFFECTS_TIP).clicked() {
             commands.push(Command::WeighObstructions);
         }
-        let dark = effects.value.as_ref().is_some_and(|known| known.1.is_none() && known.0 == *scene);
-        if dark {
-            ui.weak(texts::EFFECTS_DARK);
+        let error = |ui: &mut Ui, text: &str| {
+            ui.add(Label::new(RichText::new(text).color(theme::palette(ui).error)).wrap());
+        };
+        if let Some(text) = &effects.error {
+            error(ui, text);
         }
-        if let Some(error) = &effects.error {
-            ui.colored_label(theme::palette(ui).error, error);
+        match effects.value.as_deref().filter(|(of, _)| of == scene) {
+            Some((_, Ok(Some(found)))) => effect = words(found),
+            Some((_, Ok(None))) => _ = ui.weak(texts::EFFECTS_DARK),
+            Some((_, Err(text))) => error(ui, text),
+            None => {}
         }
     }
+    let show_effect = |ui: &mut Ui, number: usize| {
+        if let Some(words) = effect.get(number) {
+            ui.weak(words);
+        }
+    };
     let boxes = scene.outside.len();
     for (number, keys) in scene.outside.iter_mut().enumerate() {
         let name = name(number, keys);
@@ -104,7 +107,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffec
                 }
             });
         });
-        told(ui, number);
+        show_effect(ui, number);
     }
     let add = ui.menu_button(texts::ADD_OUTSIDE, |ui| {
         for kind in Kind::ALL {
@@ -132,7 +135,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffec
             number_by(ui, (label.get(), " m"), side, -FAR..=FAR, 2, SPEED);
         }
         number(ui, texts::REFLECTANCE, "", &mut building.reflectance, 0.0..=1.0, 2);
-        told(ui, boxes);
+        show_effect(ui, boxes);
     }
 }
 
