@@ -1,11 +1,15 @@
 //! What stands outside, as the window puts it into a scene: overhang, fin, reveal, balcony, neighbour, with sizes that go
 //! with the first aperture.
 
+use crate::compute::estimate::Estimate;
 use crate::study::outside::MOST_BOXES;
 use crate::study::scene_file::{
     ApertureKeys, BoxKeys, BuildingKeys, OutsideKeys, SceneFile, SurfaceKey, USUAL_REFLECTANCE,
 };
 use crate::texts::{Text, scene as texts};
+
+/// Scene, and the effect of every box and of the building on its apertures' illuminance, `None` in the dark; or why not.
+pub type ObstructionEffects = (SceneFile, Result<Option<Vec<Estimate>>, String>);
 
 /// What may be put outside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

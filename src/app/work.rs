@@ -12,6 +12,7 @@ use super::goniophotometer::Finished;
 use super::hand_on::Preview;
 use super::import::{Import, Proposed};
 use super::jobs::JobState;
+use super::outside::ObstructionEffects;
 use super::scene::{Selection, rule};
 use super::shelf::{Found, Sets, Shelf};
 use super::state::{Daylight, PathUse, Tile};
@@ -21,7 +22,7 @@ use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Orientation;
 use crate::compute::doctor::Diagnosis;
-use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::estimate::Progress;
 use crate::compute::lid::Facing;
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::StudyError;
@@ -148,9 +149,6 @@ pub enum Outcome {
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
 }
-
-/// Scene, and the effect of every box and of the building on its apertures' illuminance, `None` in the dark; or why not.
-pub type ObstructionEffects = (SceneFile, Result<Option<Vec<Estimate>>, String>);
 
 /// A part of what is known of a candidate.
 #[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]

@@ -1,11 +1,10 @@
 //! What stands outside: boxes with name, place and size in metres, and what they send.
 
 use crate::app::command::Command;
-use crate::app::outside::{Act, Kind, building, exact, name};
+use crate::app::outside::{Act, Kind, ObstructionEffects, building, exact, name};
 use crate::app::panels::fields::{number, number_by, row};
 use crate::app::state::Shown;
 use crate::app::theme;
-use crate::app::work::ObstructionEffects;
 use crate::compute::estimate::Estimate;
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
