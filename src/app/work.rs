@@ -209,11 +209,7 @@ pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) 
 
 /// Effects of a scene's obstructions.
 pub(super) fn obstructions(scene: SceneFile, base: &Path, progress: &dyn Progress) -> ObstructionEffects {
-    let wrong = |error: SkyKeyError| StudyError::key(error.key, error.message);
-    let effects = outside_from_keys(&scene.sky, &scene.site, base)
-        .map_err(wrong)
-        .and_then(|(outside, sun)| obstruction_effects(&scene, &outside, sun.as_ref(), progress))
-        .map_err(|error| error.to_string());
+    let effects = obstruction_effects(&scene, base, progress).map_err(|error| error.to_string());
     (scene, effects)
 }
 

@@ -66,7 +66,8 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
 
     let hour = hour_of_weather(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
     let rows = table(&outside);
-    let facade = facade_light(&scene, &outside, sun.as_ref(), &Silent).map_err(|error| anyhow!("{name}: {error}"))?;
+    let facade = facade_light(&scene, base_dir, (&outside, sun.as_ref()), &Silent);
+    let facade = facade.map_err(|error| anyhow!("{name}: {error}"))?;
     if let Some(path) = &args.out {
         args.over.write(path, FileKind::Csv, csv(&rows).as_bytes())?;
     }

@@ -157,9 +157,6 @@ fn own_box(room: &BoxRoom) -> Solid {
 /// Removes boxes that are too far and too low to matter, whatever light falls on them.
 fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], ground: f64) {
     let far = |(solid, finish): &(Solid, Finish)| {
-        if apertures.is_empty() {
-            return None;
-        }
         let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
         let [width, height] = [2.0 * solid.outline_radius(), solid.heights()[1] - ground];
         let reflects = matches!(finish, Finish::Reflectance(_));
@@ -215,11 +212,6 @@ impl Before {
     /// Returns the obstructions as they are seen from one point, in room axes.
     pub fn seen_from(self, eye: DVec3) -> Self {
         Self { viewpoints: vec![eye], ..self }
-    }
-
-    /// Returns the obstructions as they are seen from some apertures.
-    pub fn seen_by(self, apertures: &[Aperture]) -> Self {
-        Self { viewpoints: apertures.iter().flat_map(Aperture::corners).collect(), ..self }
     }
 
     /// Whether there is no obstruction.

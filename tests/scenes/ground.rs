@@ -132,7 +132,7 @@ fn the_facade_gets_what_boxes_leave() {
     let of = |altitude: f64| {
         let file = file(&format!("sun = {{ altitude = {altitude:?}, azimuth = 180.0, direct_normal = 5e4 }}"));
         let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
-        facade_light(&file, &outside, sun.as_ref(), &Silent).unwrap()
+        facade_light(&file, Path::new("."), (&outside, sun.as_ref()), &Silent).unwrap()
     };
     // Of the sky ½ (1 − sin 30°) of the horizontal illuminance is left.
     let light = of(25.0);
@@ -145,8 +145,7 @@ fn the_facade_gets_what_boxes_leave() {
     assert!((light.direct / (5e4 * 40_f64.to_radians().cos()) - 1.0).abs() < 1e-4, "{light:?}");
     // Without the wall it would be twice that of the sky.
     let file = file("");
-    let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
-    let effects = obstruction_effects(&file, &outside, sun.as_ref(), &Silent).unwrap().unwrap();
+    let effects = obstruction_effects(&file, Path::new("."), &Silent).unwrap().unwrap();
     assert!(effects.len() == 1 && (effects[0].value - 1.0).abs() <= effects[0].error + 1e-3, "{effects:?}");
     assert!(effects[0].error < 5e-3, "{effects:?}");
 }
@@ -160,7 +159,7 @@ fn a_facade_without_apertures_has_its_light_too() {
         let mut file = SceneFile::parse(text).unwrap();
         file.site.ground_height = 0.5;
         let (outside, sun) = outside_from_keys(&file.sky, &file.site, Path::new(".")).unwrap();
-        facade_light(&file, &outside, sun.as_ref(), &Silent).unwrap()
+        facade_light(&file, Path::new("."), (&outside, sun.as_ref()), &Silent).unwrap()
     };
     let behind = light(&text);
     assert!(behind.behind && behind.diffuse.value < 2500.0, "{behind:?}");

@@ -307,7 +307,8 @@ impl FaceLight {
         self.near(&mut 0, [u, v])
     }
 
-    /// The same at points one after the other: `last` is where the one before was found, to begin with 0.
+    /// Returns smooth light and its error at a point by its coordinates on the face. `last`: part in which the previous point was
+    /// found, 0 for the first; near points are found faster. \[cd/m²\]
     pub fn near(&self, last: &mut usize, at: [f64; 2]) -> [f64; 2] {
         let inside = |limits: &Limits| (0..2).all(|axis| at[axis] > limits[axis][0] && at[axis] < limits[axis][1]);
         if !matches!(&self.parts[*last], Part::Panel { limits, .. } if inside(limits)) {

@@ -76,7 +76,7 @@ pub struct Plane<'a> {
 /// What is met from a point.
 #[derive(Debug)]
 pub enum Shown<'a> {
-    /// The same luminance in all directions. \[cd/m²\]
+    /// Luminance that does not depend on the direction. \[cd/m²\]
     Even(f64),
     /// A surface; of the ground its light beyond the panels, too.
     Plane(Plane<'a>, Option<&'a Ground>),

@@ -48,8 +48,8 @@ impl Coefficients {
         self.of_sun(Some(hour), sun, true)
     }
 
-    /// Without `doubts` values only.
-    fn of_sun(&self, hour: Option<usize>, sun: &Sun, doubts: bool) -> Vec<Estimate> {
+    /// Without `errors` values only.
+    fn of_sun(&self, hour: Option<usize>, sun: &Sun, errors: bool) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
         let mut sums = vec![Estimate::default(); sensors];
         let mut first = FirstLight::dark(0);
@@ -77,7 +77,7 @@ impl Coefficients {
             let shares = shares.as_deref();
             let beams = match found {
                 Some(found) => self.add_scattered(index, &facing, found, shares, &mut sums),
-                None => self.add_data(index, &facing, doubts, shares, &mut sums),
+                None => self.add_data(index, &facing, errors, shares, &mut sums),
             };
             let rim = match past {
                 Some((behind, _, part)) if beams.iter().any(|beam| !beam.straight) => {
@@ -189,7 +189,7 @@ impl Coefficients {
         &self,
         index: usize,
         facing: &Facing<'_>,
-        doubts: bool,
+        errors: bool,
         shares: Option<&[[f64; 2]]>,
         sums: &mut [Estimate],
     ) -> Vec<BeamLight> {
@@ -198,7 +198,7 @@ impl Coefficients {
         if let Some(direction) = facing.sun_entering() {
             let mut own = vec![0.0; sensors];
             part.transport.sun(direction, sensors, &mut own, illuminance);
-            let column = (doubts || shares.is_some()).then(|| part.transport.for_direction(direction, sensors));
+            let column = (errors || shares.is_some()).then(|| part.transport.for_direction(direction, sensors));
             for (s, sum) in sums.iter_mut().enumerate() {
                 let error = column.as_ref().map_or(0.0, |column| {
                     let reflected = column.light[sensors + s].abs() * illuminance;

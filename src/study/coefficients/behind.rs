@@ -79,10 +79,10 @@ fn places(named: &CellWeights, count: usize) -> Vec<Option<usize>> {
 }
 
 /// Adds what a sensor sees of cells to the points of a grid where it leaves the aperture.
-fn add(light: &Luminances, seen: &CellWeights, places: &[Option<usize>], factor: f64, points: &mut [f64]) {
+fn add(light: &Luminances, seen: &CellWeights, places: &[Option<usize>], points: &mut [f64]) {
     for (cell, q) in light {
         let Some(place) = places[*cell] else { continue };
-        seen[place].1.iter().for_each(|(point, counts)| points[usize::from(*point)] += factor * q * f64::from(*counts));
+        seen[place].1.iter().for_each(|(point, counts)| points[usize::from(*point)] += q * f64::from(*counts));
     }
 }
 
@@ -203,7 +203,7 @@ impl Past {
             let mut points = vec![0.0; count_of_points];
             for (patch, light) in sent.patches.iter().zip(light.chunks_exact_mut(count_of_points)) {
                 points.fill(0.0);
-                add(&patch.own, &self.cells[sensor], &by_cell, 1.0, &mut points);
+                add(&patch.own, &self.cells[sensor], &by_cell, &mut points);
                 for (from, share) in &patch.rows {
                     points.iter_mut().zip(&by_row[*from]).for_each(|(sum, e)| *sum += share * e);
                 }
@@ -228,8 +228,8 @@ impl Past {
         let of = |row: &usize| {
             let mut points = vec![0.0; self.grid.count()];
             match &by_band {
-                Some(by_band) => add(&sent.rows[*row], &self.bands[sensor], by_band, 1.0, &mut points),
-                None => add(&sent.rows[*row], &self.cells[sensor], by_cell, 1.0, &mut points),
+                Some(by_band) => add(&sent.rows[*row], &self.bands[sensor], by_band, &mut points),
+                None => add(&sent.rows[*row], &self.cells[sensor], by_cell, &mut points),
             }
             points
         };
@@ -242,7 +242,7 @@ impl Past {
         let of = |sensor: usize| {
             let by_cell = places(&self.cells[sensor], sent.cells.len());
             let mut points = vec![0.0; self.grid.count()];
-            add(own, &self.cells[sensor], &by_cell, 1.0, &mut points);
+            add(own, &self.cells[sensor], &by_cell, &mut points);
             for (light, (_, share)) in self.rows_seen(sent, sensor, &by_cell, &numbers).iter().zip(rows) {
                 points.iter_mut().zip(light).for_each(|(sum, e)| *sum += share * e);
             }

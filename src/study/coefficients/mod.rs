@@ -68,7 +68,7 @@ pub struct Coefficients {
     suns: usize,
 }
 
-/// Error by prepared obstructions, relative to all light: the bound in the test of [`Prepared`], and a quarter more.
+/// Error by prepared obstructions, relative to all light: the bound in the test of [`Prepared`], and a third more.
 const BEHIND: f64 = 4e-3;
 /// Safety on the error of the fixed directions, seen on some skies and stated for others.
 const OTHER_SKIES: f64 = 2.0;

@@ -71,8 +71,8 @@ impl Session {
         self.standing.get(vec![hasher.finish()], find).map(Some)
     }
 
-    /// Returns weights of a moment's luminances by patch at points of an aperture, computed by `find` or kept. `kind`: tells
-    /// lists apart that belong to the same points. \[sr\]
+    /// Returns weights of a moment's luminances by patch at points of an aperture, computed by `find` or kept. `kind`:
+    /// number of lists with the same points. \[sr\]
     pub(in crate::study) fn seen_patches(
         &self,
         (prepared, kind): (&Prepared, u64),
