@@ -2,7 +2,8 @@
 //! asks for nothing.
 
 use super::due::Geometry;
-use super::engine::Question;
+use super::engine::{Question, RoomFigures};
+use super::error::AppError;
 use super::jobs::Lane;
 use super::state::Sheet;
 use super::window::App;
@@ -14,7 +15,7 @@ use crate::texts::language;
 /// being dragged.
 const AT_ONCE: usize = 96;
 
-/// Relative error that such a picture may have: what the coarsest mesh reaches.
+/// Relative error that such a picture, and a preview, may have: what the coarsest mesh reaches.
 const DRAGGED: f64 = 0.1;
 
 impl App {
@@ -27,6 +28,7 @@ impl App {
             }
             self.due.owe(lane);
         }
+        self.due.previewed = false;
         self.ask_due();
     }
 
@@ -88,7 +90,7 @@ impl App {
             Lane::Lid => self.start(lane, move |job| Outcome::Lid(engine.lid(&question, job))),
             Lane::Surfaces => self.start(lane, move |job| Outcome::Surfaces(engine.surfaces(&question, job))),
             _ => {
-                let coarse = self.coarsen(&mut question.scene);
+                let coarse = self.coarsen(&mut question.scene) || self.preview(&mut question.scene);
                 self.start(Lane::Room, move |job| {
                     let room = engine.room(&question, job);
                     Outcome::Room(room.map(|mut figures| {
@@ -115,5 +117,27 @@ impl App {
         }
         self.due.geometry = Some(geometry);
         false
+    }
+
+    /// Behind obstructions, which take longer, a room of a larger error first; true if so.
+    fn preview(&self, scene: &mut SceneFile) -> bool {
+        let exact = scene.compute.error_target.is_none_or(|target| target < DRAGGED);
+        let first = scene.has_outside() && exact && !self.due.previewed;
+        if first {
+            scene.compute.error_target = Some(DRAGGED);
+        }
+        first
+    }
+
+    /// Takes a room; after a preview the room itself is asked for.
+    pub(super) fn take_room(&mut self, result: Result<RoomFigures, AppError>) {
+        let preview = result.as_ref().is_ok_and(|room| room.coarse) && !self.due.coarse;
+        self.results.room.take(result);
+        if self.due.owes(Lane::Room) {
+            self.results.room.stale = true;
+        } else if preview {
+            self.due.previewed = true;
+            self.due.owe(Lane::Room);
+        }
     }
 }

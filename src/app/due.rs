@@ -31,6 +31,8 @@ pub struct Due {
     pub geometry: Option<Geometry>,
     /// Of fewer sensors, in a job or already shown: all of them follow.
     pub coarse: bool,
+    /// Has a preview of the room been shown? Behind obstructions one comes first.
+    pub previewed: bool,
 }
 
 impl Due {

@@ -185,10 +185,7 @@ impl App {
             Outcome::Obstructions(effects) => self.results.obstructions.put(Arc::new(effects)),
             Outcome::Lid(result) => self.results.lid.take(result),
             Outcome::Peaks(of, peaks) => self.results.peaks = Some((of, peaks)),
-            Outcome::Room(result) => {
-                self.results.room.take(result);
-                self.results.room.stale |= self.due.owes(Lane::Room);
-            }
+            Outcome::Room(result) => self.take_room(result),
             Outcome::Surfaces(result) => self.results.surfaces.take(result),
             Outcome::Compared(id, what) => self.compare.take(id, *what),
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),

@@ -5,6 +5,7 @@ use super::shelf::Shelf;
 use crate::catalogue::Product;
 use crate::compute::estimate::Progress;
 use crate::study::control::{ControlQuestion, Device};
+use crate::study::outside::LitObstructions;
 use crate::study::scene_file::SystemKeys;
 use crate::study::system::Need;
 use crate::study::{Library, StudyError, System, SystemLibrary};
@@ -49,6 +50,10 @@ impl SystemLibrary for WindowLibrary<'_> {
 
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         self.files.controlled_description(path, asked)
+    }
+
+    fn lit_obstructions(&self) -> Option<&LitObstructions> {
+        self.files.lit_obstructions()
     }
 }
 

@@ -3,18 +3,27 @@
 use super::quadrature::gauss_legendre;
 use std::sync::OnceLock;
 
-/// Kronrod's seven points on −1 … 1 from the middle on, with their weights in his rule and in Gauss's of three of them. Piessens,
-/// de Doncker-Kapenga, Überhuber and Kahaner, QUADPACK (1983).
-const KRONROD: [[f64; 3]; 4] = [
-    [0.0, 0.450_916_538_658_474_2, 8.0 / 9.0],
-    [0.434_243_749_346_802_6, 0.401_397_414_775_962_2, 0.0],
-    [0.774_596_669_241_483_4, 0.268_488_089_868_333_4, 5.0 / 9.0],
-    [0.960_491_268_708_020_3, 0.104_656_226_026_467_3, 0.0],
+/// Points on −1 … 1, and their weights in the rules of one and three points of Gauss and of seven of Kronrod, each of which takes
+/// the points of the one before. Piessens, de Doncker-Kapenga, Überhuber and Kahaner, QUADPACK (1983).
+const POINTS: [(f64, [f64; 3]); 7] = [
+    (0.0, [2.0, 8.0 / 9.0, 0.450_916_538_658_474_2]),
+    (-0.774_596_669_241_483_4, [0.0, 5.0 / 9.0, 0.268_488_089_868_333_4]),
+    (0.774_596_669_241_483_4, [0.0, 5.0 / 9.0, 0.268_488_089_868_333_4]),
+    (-0.434_243_749_346_802_6, [0.0, 0.0, 0.401_397_414_775_962_2]),
+    (0.434_243_749_346_802_6, [0.0, 0.0, 0.401_397_414_775_962_2]),
+    (-0.960_491_268_708_020_3, [0.0, 0.0, 0.104_656_226_026_467_3]),
+    (0.960_491_268_708_020_3, [0.0, 0.0, 0.104_656_226_026_467_3]),
 ];
+/// Number of points of each rule.
+const COUNTS: [usize; 3] = [1, 3, 7];
 /// Halvings of a piece at most.
 const DEPTH: u32 = 12;
 /// Most points of [`rule`].
 const MOST: usize = 24;
+/// Angles below which a smooth integrand has one and two points, and for which it has one more beyond three. \[rad\]
+const NARROWEST: f64 = 0.01;
+const NARROW: f64 = 0.08;
+const WIDE: f64 = 0.15;
 
 /// Gauss–Legendre rules on 0 … 1 by number of points, made once; at most 24 points.
 pub fn rule(points: usize) -> &'static [(f64, f64)] {
@@ -22,16 +31,55 @@ pub fn rule(points: usize) -> &'static [(f64, f64)] {
     &RULES.get_or_init(|| (0..=MOST).map(gauss_legendre).collect())[points.clamp(1, MOST)]
 }
 
-/// A piece of the range with its integrals by Kronrod's rule, and how far Gauss's is off in the first of them.
-struct Piece<const N: usize> {
-    ends: [f64; 2],
-    sum: [f64; N],
-    off: f64,
-    depth: u32,
+/// Returns the Gauss–Legendre rule on 0 … 1 for a smooth integrand over an angle so wide: few points where it is narrow. \[rad\]
+pub fn rule_over(width: f64) -> &'static [(f64, f64)] {
+    rule(match width {
+        ..NARROWEST => 1,
+        ..NARROW => 2,
+        _ => 3 + (width / WIDE) as usize,
+    })
 }
 
-/// ∫ f over the range of `knots` (rising), and its error. Pieces are halved until what two rules say of the first quantity
-/// differs by no more than `relative` of the whole, or `absolute`, taken together.
+/// A piece of the range, with the values at the points of the rules up to one of them.
+struct Piece<const N: usize> {
+    ends: [f64; 2],
+    depth: u32,
+    rule: usize,
+    values: [[f64; N]; 7],
+}
+
+impl<const N: usize> Piece<N> {
+    fn new(f: &mut impl FnMut(f64) -> [f64; N], ends: [f64; 2], depth: u32) -> Self {
+        let mut piece = Self { ends, depth, rule: 0, values: [[0.0; N]; 7] };
+        piece.values[0] = f(0.5 * (ends[0] + ends[1]));
+        piece.improve(f);
+        piece
+    }
+
+    /// Takes the points of the next rule, too.
+    fn improve(&mut self, f: &mut impl FnMut(f64) -> [f64; N]) {
+        let (middle, half) = (0.5 * (self.ends[0] + self.ends[1]), 0.5 * (self.ends[1] - self.ends[0]));
+        for at in COUNTS[self.rule]..COUNTS[self.rule + 1] {
+            self.values[at] = f(middle + half * POINTS[at].0);
+        }
+        self.rule += 1;
+    }
+
+    /// Returns an integral by a rule.
+    fn integral(&self, rule: usize, quantity: usize) -> f64 {
+        let half = 0.5 * (self.ends[1] - self.ends[0]);
+        let points = POINTS.iter().zip(&self.values).take(COUNTS[rule]);
+        half * points.map(|((_, weights), values)| weights[rule] * values[quantity]).sum::<f64>()
+    }
+
+    /// Returns what the two last rules differ by in the first quantity.
+    fn off(&self) -> f64 {
+        (self.integral(self.rule, 0) - self.integral(self.rule - 1, 0)).abs()
+    }
+}
+
+/// ∫ f over the range of `knots` (rising), and its error. Pieces get more points, and are halved then, until what two rules say of
+/// the first quantity differs by no more than `relative` of the whole, or `absolute`, taken together.
 ///
 /// The error is what the two differ by: of a smooth integrand hundreds of times too much, of one with kinks about what it is.
 pub fn sweep<const N: usize>(
@@ -40,33 +88,25 @@ pub fn sweep<const N: usize>(
     relative: f64,
     absolute: f64,
 ) -> ([f64; N], f64) {
-    let mut measure = |from: f64, to: f64, depth: u32| {
-        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let (mut sum, mut simpler) = ([0.0; N], 0.0);
-        for [x, weight, simple] in KRONROD {
-            for x in [-x, x].into_iter().take(if x == 0.0 { 1 } else { 2 }) {
-                let values = f(middle + half * x);
-                simpler += half * simple * values[0];
-                sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += half * weight * value);
-            }
-        }
-        Piece { ends: [from, to], sum, off: (sum[0] - simpler).abs(), depth }
-    };
     let pieces = knots.windows(2).filter(|pair| pair[1] - pair[0] > 1e-13);
-    let mut open: Vec<Piece<N>> = pieces.map(|pair| measure(pair[0], pair[1], 0)).collect();
-    let whole: f64 = open.iter().map(|piece| piece.sum[0].abs()).sum();
+    let mut open: Vec<Piece<N>> = pieces.map(|pair| Piece::new(&mut f, [pair[0], pair[1]], 0)).collect();
+    let whole: f64 = open.iter().map(|piece| piece.integral(piece.rule, 0).abs()).sum();
     let bound = (relative * whole).max(absolute);
     let count = open.len().max(1) as f64;
     let (mut total, mut error) = ([0.0; N], 0.0);
-    while let Some(Piece { ends: [from, to], sum, off, depth }) = open.pop() {
+    while let Some(mut piece) = open.pop() {
         // What one piece may be off: its share of the pieces at the outset, less with every halving.
-        let allowed = bound / count * 0.5_f64.powf(0.5 * f64::from(depth));
-        if off <= allowed || depth >= DEPTH {
-            error += off;
-            total.iter_mut().zip(sum).for_each(|(total, sum)| *total += sum);
+        let allowed = bound / count * 0.5_f64.powf(0.5 * f64::from(piece.depth));
+        if piece.off() > allowed && piece.rule == 1 {
+            piece.improve(&mut f);
+        }
+        if piece.off() <= allowed || piece.depth >= DEPTH {
+            error += piece.off();
+            total.iter_mut().enumerate().for_each(|(quantity, total)| *total += piece.integral(piece.rule, quantity));
         } else {
+            let [from, to] = piece.ends;
             let middle = 0.5 * (from + to);
-            open.extend([[from, middle], [middle, to]].map(|[from, to]| measure(from, to, depth + 1)));
+            open.extend([[from, middle], [middle, to]].map(|ends| Piece::new(&mut f, ends, piece.depth + 1)));
         }
     }
     (total, error)

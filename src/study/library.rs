@@ -6,6 +6,7 @@ use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
+use super::outside::LitObstructions;
 use super::scene_file::{FamilyState, SystemKeys};
 use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Product, Query};
@@ -29,6 +30,7 @@ pub struct Library {
     catalogue: Mutex<Option<Catalogue>>,
     described: Mutex<Descriptions>,
     very: Mutex<VeryDescribed>,
+    obstructions: LitObstructions,
 }
 
 /// Described systems by what they are computed from, the state, and what was needed of them.
@@ -234,6 +236,10 @@ impl SystemLibrary for Library {
         let described = Described::read(path)?;
         let states = described.states(self)?;
         pick_state(&Device::described(&described.file, &described.text, states), asked)
+    }
+
+    fn lit_obstructions(&self) -> Option<&LitObstructions> {
+        Some(&self.obstructions)
     }
 }
 

@@ -2,18 +2,20 @@
 
 use super::error::StudyError;
 use super::scene_file::{BuildingKeys, OutsideKeys, SceneFile, USUAL_REFLECTANCE};
+use super::session::ORDINARY_TARGET;
 use crate::compute::direction::{Orientation, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::mesh::BoxRoom;
-use crate::compute::sky::faces::surroundings;
+use crate::compute::sky::faces::{Viewing, surroundings};
 use crate::compute::sky::{Finish, Outside, Setting, Sun};
 use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::solid::Solid;
 use crate::texts::words as texts;
 use glam::DVec3;
-use std::sync::Arc;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Maximum number of boxes of a scene: every ray is tested against all of them.
 pub const MOST_BOXES: usize = limits::BOXES;
@@ -28,6 +30,8 @@ const LOWEST: f64 = 1e-6;
 const LOW: f64 = 0.01;
 /// Solid angle below which such boxes are left out together: a ten-thousandth of what a façade sees. \[sr\]
 const UNSEEN: f64 = 3e-4;
+/// Number of lit obstructions that are kept: those of a scene, coarse and fine, and those before its last change.
+const MOST_LIT: usize = 3;
 /// Lengths typed as decimals do not meet exactly. \[m\]
 const TOUCHING: f64 = 1e-6;
 
@@ -170,12 +174,61 @@ fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], groun
     });
 }
 
+/// What the light of obstructions depends on, everything in the world's axes.
+#[derive(PartialEq)]
+struct Asked {
+    /// Sky, ground and skyline.
+    outside: Outside,
+    sun: Option<Sun>,
+    setting: Setting,
+    /// Cosine and sine of the turn of the room's x axis.
+    turn: [f64; 2],
+    viewpoints: Vec<DVec3>,
+    /// Relative error asked for.
+    target: f64,
+}
+
+impl Asked {
+    fn lit(&self, progress: &dyn Progress) -> Result<Outside, Cancelled> {
+        let skyline = self.outside.surroundings().and_then(|known| known.skyline.clone());
+        let open = self.outside.open();
+        let viewing = Viewing { viewpoints: &self.viewpoints, target: self.target };
+        let around = surroundings(&open, self.sun.as_ref(), &self.setting, self.turn, skyline, &viewing, progress)?;
+        Ok(open.behind(Arc::new(around)))
+    }
+}
+
+/// The obstructions that were lit last: another product, or another result of the same scene, has them at once.
+#[derive(Default)]
+pub struct LitObstructions(Mutex<VecDeque<(Asked, Outside)>>);
+
+impl LitObstructions {
+    /// Returns obstructions that are lit, by those who ask at the same time only once.
+    fn get(&self, asked: Asked, progress: &dyn Progress) -> Result<Outside, Cancelled> {
+        if rayon::current_thread_index().is_some() {
+            // A thread of a parallel computation that waited here could wait for itself.
+            return asked.lit(progress);
+        }
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = kept.iter().position(|(known, _)| *known == asked).and_then(|at| kept.remove(at));
+        let lit = match known {
+            Some((_, lit)) => lit,
+            None => asked.lit(progress)?,
+        };
+        kept.truncate(MOST_LIT - 1);
+        kept.push_front((asked, lit.clone()));
+        Ok(lit)
+    }
+}
+
 /// Obstructions of a scene, for any sky.
 pub struct Before {
     /// Bodies in room axes; `None` without any.
     setting: Option<Setting>,
     /// Corners of the apertures, or what else it is seen from, in room axes.
     viewpoints: Vec<DVec3>,
+    /// Relative error asked for.
+    target: f64,
     /// Sentences on what was assumed and what was left out.
     pub notes: Vec<String>,
 }
@@ -205,6 +258,7 @@ impl Before {
         Ok(Self {
             setting: any.then(|| Setting { boxes, room: own_box(room), building, ground }),
             viewpoints: apertures.iter().flat_map(Aperture::corners).collect(),
+            target: file.compute.error_target.unwrap_or(ORDINARY_TARGET),
             notes,
         })
     }
@@ -219,7 +273,8 @@ impl Before {
         self.setting.is_none()
     }
 
-    /// A sky behind it, which lights it; its skyline stays. Where nothing stands there, as it was.
+    /// A sky behind it, which lights it; its skyline stays. Where nothing stands there, as it was. `kept`: where the result is
+    /// looked for first.
     ///
     /// # Errors
     /// Cancelled.
@@ -228,13 +283,16 @@ impl Before {
         outside: Outside,
         sun: Option<&Sun>,
         orientation: Orientation,
+        kept: Option<&LitObstructions>,
         progress: &dyn Progress,
     ) -> Result<Outside, Cancelled> {
         let Some((setting, viewpoints)) = self.turned(orientation) else { return Ok(outside) };
-        let skyline = outside.surroundings().and_then(|known| known.skyline.clone());
-        let open = outside.open();
-        let around = surroundings(&open, sun, &setting, orientation.turn(), skyline, &viewpoints, progress)?;
-        Ok(open.behind(Arc::new(around)))
+        let (sun, turn) = (sun.copied(), orientation.turn());
+        let asked = Asked { outside, sun, setting, turn, viewpoints, target: self.target };
+        match kept {
+            Some(kept) => kept.get(asked, progress),
+            None => asked.lit(progress),
+        }
     }
 
     /// Returns the obstructions and the corners of the apertures in the world's axes; `None` without obstructions.

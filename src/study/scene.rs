@@ -162,7 +162,7 @@ impl Scene {
         let orientation = Orientation::new(facade);
         let geometry = apertures(&file.aperture, &room)?;
         let before = Before::of(file, &room, &geometry)?;
-        let outside = before.stand(outside, sun.as_ref(), orientation, progress)?;
+        let outside = before.stand(outside, sun.as_ref(), orientation, library.lit_obstructions(), progress)?;
         let (sensors, grid) = sensors(&file.sensors, &room)?;
         let (hour, of_year) = (hour(file)?, of_scene(file));
         let mut list = Vec::with_capacity(geometry.len());
@@ -304,7 +304,7 @@ pub fn seen_by_first_aperture(
     // From there alone: faces that only others see stay dark.
     let eye = 0.5 * (low + high);
     let before = Before::of(file, &room, &geometry)?.seen_from(eye);
-    let behind = before.stand(outside.clone(), sun, orientation, progress)?;
+    let behind = before.stand(outside.clone(), sun, orientation, None, progress)?;
     Ok(Some(behind.seen_from(orientation.to_world(eye))))
 }
 

@@ -170,7 +170,7 @@ impl Session {
         check(progress)?;
         let geometry = &scene.apertures[aperture].aperture;
         if scene.outside.surroundings().is_some() {
-            return self.split(scene, aperture).lid(scene, aperture).checked();
+            return self.split(scene, aperture, progress)?.lid(scene, aperture).checked();
         }
         let facing = scene.facing(aperture);
         let emission = self.emission(scene, aperture);
@@ -186,7 +186,7 @@ impl Session {
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
-        let lights = self.lights(scene)?;
+        let lights = self.lights(scene, progress)?;
         let (emissions, splits) = (&lights.emissions, &lights.splits);
         let flux = lights.flux(scene);
         let outside: Vec<OutsideSeen> = splits.iter().map(|split| split.seen).collect();

@@ -2,6 +2,7 @@
 
 use super::control::{ControlQuestion, Device};
 use super::error::StudyError;
+use super::outside::LitObstructions;
 use super::scene_file::{IdealKind, SystemKeys};
 use crate::compute::btdf::{self, Btdf, Dataset, SolarSource};
 use crate::compute::system::measure::Specimen;
@@ -107,6 +108,11 @@ pub trait SystemLibrary: Sync {
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         let _ = asked;
         Err(StudyError::key("system.file", format!("{}: no descriptions are read here", path.display())))
+    }
+
+    /// Where lit obstructions are kept, if they are.
+    fn lit_obstructions(&self) -> Option<&LitObstructions> {
+        None
     }
 }
 

@@ -2,6 +2,7 @@
 
 texts! {
     const ACCURACY = "accuracy" | "Genauigkeit";
+    const APERTURES = "apertures" | "Öffnungen";
     const CHECKS = "checks" | "Prüfungen";
     const COEFFICIENTS = "coefficients" | "Koeffizienten";
     const COMPUTING = "computing" | "rechnen";

@@ -4,7 +4,7 @@ use cfs::compute::basis::RingBasis;
 use cfs::compute::direction::{Dir, Emergent};
 use cfs::compute::estimate::{Progress, Silent};
 use cfs::compute::quadrature::Tolerance;
-use cfs::compute::sky::faces::surroundings;
+use cfs::compute::sky::faces::{Viewing, surroundings};
 use cfs::compute::sky::{Distribution, Finish, Outside, Setting, Sun, irradiance, irradiance_through};
 use cfs::compute::surroundings::face_light::FaceLight;
 use cfs::compute::surroundings::solid::Solid;
@@ -157,7 +157,8 @@ pub(crate) fn setting(boxes: Vec<(Solid, Finish)>, ground: f64) -> Setting {
 
 /// An outside behind boxes, as it is seen from a point; axes as the room's.
 pub(crate) fn seen(outside: &Outside, sun: Option<&Sun>, setting: Setting, eye: DVec3) -> Outside {
-    let around = surroundings(outside, sun, &setting, [1.0, 0.0], None, &[eye], &Silent).unwrap();
+    let viewing = Viewing { viewpoints: &[eye], target: 5e-3 };
+    let around = surroundings(outside, sun, &setting, [1.0, 0.0], None, &viewing, &Silent).unwrap();
     outside.clone().behind(Arc::new(around)).seen_from(eye)
 }
 
@@ -391,7 +392,8 @@ fn light_on_many_boxes_ends_when_it_is_not_wanted() {
     };
     let boxes: Vec<_> = (6..14).map(one).collect();
     let setting = setting(boxes, 0.0);
-    let lit = |progress: &dyn Progress| surroundings(&sky, None, &setting, [1.0, 0.0], None, &[DVec3::Z], progress);
+    let viewing = Viewing { viewpoints: &[DVec3::Z], target: 0.01 };
+    let lit = |progress: &dyn Progress| surroundings(&sky, None, &setting, [1.0, 0.0], None, &viewing, progress);
     assert!(lit(&Withdrawn).is_err());
     let panels = |boxes: &[[FaceLight; 6]]| boxes.iter().flatten().map(FaceLight::panels).sum::<usize>();
     let around = lit(&Silent).unwrap();
@@ -411,4 +413,25 @@ fn a_post_on_the_glass_hides_what_is_behind_it_whatever_the_system() {
             assert!(*on > 1.0 && (on / off - 1.0).abs() < 0.01, "{on} {off}");
         }
     }
+}
+
+#[test]
+fn another_product_before_the_same_obstructions_finds_them_lit() {
+    let overhang = a_box([0.0, -1.0, 2.8], [4.0, 0.0, 3.0], "");
+    let library = Library::default();
+    let of = |system: &str, sky: &str| {
+        let file = SceneFile::parse(&text(system, sky, &overhang)).unwrap();
+        Scene::resolve(&file, Path::new("."), &library).unwrap()
+    };
+    let at = |scene: &Scene| std::ptr::from_ref(scene.outside.surroundings().unwrap());
+    let first = of("system = { ideal = \"diffuse\", transmittance = 0.5 }", OVERCAST);
+    let other = of("system = { ideal = \"transparent\", transmittance = 0.8 }", OVERCAST);
+    assert_eq!(at(&first), at(&other));
+    let darker = of("system = { ideal = \"diffuse\", transmittance = 0.5 }", BLACK);
+    assert!(at(&darker) != at(&first) && !darker.outside.is_lit());
+    // What is kept is what would be computed anew.
+    assert_eq!(
+        first.outside,
+        resolve(&text("system = { ideal = \"diffuse\", transmittance = 0.5 }", OVERCAST, &overhang)).unwrap().outside
+    );
 }

@@ -1,7 +1,7 @@
 //! What stands outside: put there, dragged, typed and taken away; far boxes told, parts of an aperture explained, and a
 //! control that says what it does not see.
 
-use crate::driven::{Idle, apply, coarsen, frames, select, settle, window};
+use crate::driven::{Idle, apply, coarsen, frames, select, settle, step_until, window};
 use crate::legible::can_be_read;
 use cfs::app::App;
 use cfs::app::command::Command;
@@ -64,6 +64,21 @@ fn says(harness: &Harness<'_, App>, part: &str) -> bool {
 fn undo(harness: &mut Harness<'_, App>) {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(harness);
+}
+
+#[test]
+fn behind_obstructions_a_preview_of_the_room_comes_first() {
+    let mut harness = room(RoomView::Plan);
+    let coarse = |app: &App| app.results.room.value.as_ref().is_some_and(|room| room.coarse);
+    step_until(&mut harness, "a preview", coarse);
+    let largest = |app: &App| {
+        let room = app.results.room.value.as_ref().unwrap();
+        room.direct.iter().map(|one| one.error / one.value).fold(0.0, f64::max)
+    };
+    let preview = largest(harness.state());
+    settle(&mut harness);
+    let app = harness.state();
+    assert!(!coarse(app) && !app.results.room.stale && largest(app) < preview, "{} {preview}", largest(app));
 }
 
 #[test]

@@ -31,20 +31,41 @@ pub(super) struct Fineness {
     pub most: usize,
 }
 
-/// Of a single moment.
-const MOMENT: Fineness = Fineness { between: 1e-3, most: 300 };
+impl Fineness {
+    /// Of a single moment, by the relative error asked for.
+    fn of_moment(target: f64) -> Self {
+        Self { between: BETWEEN * target, most: MOST_PANELS[usize::from(target >= LOOSE)] }
+    }
+}
+
+/// Share of the error asked for that the light of surfaces may be off between nodes.
+const BETWEEN: f64 = 0.2;
+/// Maximum numbers of panels: where per cents are asked for, and where less is.
+const MOST_PANELS: [usize; 2] = [300, 60];
+/// Error from which on few panels are enough.
+const LOOSE: f64 = 0.05;
 /// Maximum number of panels of a face.
 const MOST: usize = 48;
 const FEWEST: usize = 1;
 /// Panels of the ground that is seen are no longer than this times the size of what stands near, or its distance.
-const FINE_GROUND: f64 = 1.0;
+const FINE_GROUND: f64 = 2.0;
 /// Apertures count as so high above the ground at least. \[m\]
 const LOWEST_EYE: f64 = 0.5;
 /// Relative error of the light on a face beside that between its nodes.
 const REST: f64 = 2e-4;
+/// Of the change that the fine panels made, what still finer ones would: only light from surfaces that are not seen stays coarse.
+const LEFT_OVER: f64 = 0.03;
+
+/// From where obstructions are seen, and how exactly their light is to be found.
+pub struct Viewing<'a> {
+    /// Places in the world's axes. \[m\]
+    pub viewpoints: &'a [DVec3],
+    /// Relative error that is asked of a result; the light of surfaces takes a part of it.
+    pub target: f64,
+}
 
 /// Boxes and ground with the light on them, everything in the world's axes. `outside`: the open sky and ground, with a flat
-/// skyline if there is one. `turn`: of the room's x axis, cosine and sine. `viewpoints`: from where all of it is seen.
+/// skyline if there is one. `turn`: of the room's x axis, cosine and sine.
 ///
 /// # Errors
 /// [`Cancelled`] when `progress` says so.
@@ -54,14 +75,16 @@ pub fn surroundings(
     setting: &Setting,
     turn: [f64; 2],
     skyline: Option<Skyline>,
-    viewpoints: &[DVec3],
+    viewing: &Viewing<'_>,
     progress: &dyn Progress,
 ) -> Result<Surroundings, Cancelled> {
+    let viewpoints = viewing.viewpoints;
     let direct_sun = direct_sun(outside, skyline.as_ref(), sun);
     let scenery = scenery(outside, skyline.as_ref(), direct_sun, setting, turn);
     let ground = OpenGround::of(&scenery, viewpoints);
     let wanted = wanted(&scenery, viewpoints);
-    let lights = lights(&scenery, &ground, &wanted, viewpoints, &MOMENT, progress)?;
+    let fineness = Fineness::of_moment(viewing.target);
+    let lights = lights(&scenery, &ground, &wanted, viewpoints, &fineness, progress)?;
     Ok(assembled(&scenery, &ground, lights, &wanted, direct_sun.map(|(direction, _)| direction)))
 }
 
@@ -150,7 +173,7 @@ pub(super) fn lights(
         let light = &mut solved[*index];
         let after = light.mean(&weight(*index));
         let change = if after > 0.0 { ((after - before) / after).abs() } else { 0.0 };
-        light.error = REST + 0.1 * change;
+        light.error = REST + LEFT_OVER * change;
         std::mem::swap(&mut lights[*index], light);
     }
     Ok(lights)

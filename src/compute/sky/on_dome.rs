@@ -53,14 +53,14 @@ fn by_bearings(
         rims.extend(sides.iter().map(|n| (-n.z).atan2(n.dot(along)).rem_euclid(PI)));
         prospect.breaks_at_bearing(bearing, &near.edges, &rims, &mut breaks);
         let mut sum = [0.0; 5];
-        let place = |zenith: f64| Frame::DOME.direction(zenith, bearing);
+        let line = prospect.along(near, Frame::DOME.meridian(bearing));
         let density = |zenith: f64, d: DVec3| match weight {
             Weight::Projected => zenith.sin() * d.dot(region.frame.z).max(0.0),
             Weight::Solid => zenith.sin(),
         };
         for pair in breaks.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
-            if region.holds(place(0.5 * (pair[0] + pair[1])), 0.0) {
-                prospect.add(near, (pair[0], pair[1]), place, density, &mut sum);
+            if region.holds(line.meridian.direction(0.5 * (pair[0] + pair[1])), 0.0) {
+                prospect.add(&line, (pair[0], pair[1]), density, &mut sum);
             }
         }
         sum

@@ -9,7 +9,7 @@ use super::scan_region::sector_bearings;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::Tolerance;
-use crate::compute::sweep::{rule, sweep};
+use crate::compute::sweep::{rule_over, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -79,16 +79,17 @@ pub fn irradiance_through(
         let phi = phi + reference;
         prospect.breaks_at_bearing(phi, &edges, &[], &mut breaks);
         let mut sum = [0.0; 2];
+        let along = prospect.along(&near, frame.meridian(phi));
         for pair in breaks.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
             let (from, width) = (pair[0], pair[1] - pair[0]);
-            let middle = frame.direction(from + 0.5 * width, phi);
+            let middle = along.meridian.direction(from + 0.5 * width);
             if !within(middle) {
                 continue;
             }
-            let mut met = prospect.met(&near, middle).map(|met| prospect.shown(met));
-            for &(x, share) in rule(4 + (width / 0.12) as usize) {
+            let mut met = prospect.met(&along, middle);
+            for &(x, share) in rule_over(width) {
                 let theta = from + width * x;
-                let d = frame.direction(theta, phi);
+                let d = along.meridian.direction(theta);
                 let [luminance, error] = match &mut met {
                     Some(met) => met.luminance(d),
                     None => [prospect.open_luminance(d), 0.0],

@@ -7,10 +7,10 @@
 
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
-use super::region::{Cap, Frame, Region, Weight};
+use super::region::{Cap, Frame, Meridian, Region, Weight};
 use crate::compute::surroundings::solid::Solid;
-use crate::compute::surroundings::{Seen, Shown, Surroundings};
-use crate::compute::sweep::{rule, sweep};
+use crate::compute::surroundings::{Shown, Surroundings};
+use crate::compute::sweep::{rule, rule_over, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -43,6 +43,13 @@ pub(super) struct Near {
     pub edges: Vec<[DVec3; 2]>,
     /// Indices of boxes.
     solids: Vec<usize>,
+}
+
+/// A meridian and the boxes that it passes.
+pub(super) struct Along {
+    pub meridian: Meridian,
+    /// Index of every box, and cotangents of the polar angles between which it may be met.
+    passed: Vec<(usize, [f64; 2])>,
 }
 
 /// ∫ of luminance times weight over parts of a region.
@@ -98,16 +105,34 @@ impl<'a> Prospect<'a> {
         Some(Near { edges, solids })
     }
 
-    /// What a direction meets before sky and ground.
-    pub fn met(&self, near: &Near, direction: DVec3) -> Option<Seen> {
-        let solids = near.solids.iter().copied();
-        let solids = solids.filter(|solid| self.cones[*solid].iter().all(|normal| normal.dot(direction) > 0.0));
-        self.surroundings.seen_among(solids, self.eye, direction)
+    /// Returns a meridian with the boxes that it passes.
+    pub fn along(&self, near: &Near, meridian: Meridian) -> Along {
+        let passed = near.solids.iter().filter_map(|&solid| {
+            let mut between = [f64::NEG_INFINITY, f64::INFINITY];
+            for normal in &self.cones[solid] {
+                // Before the plane: across sin θ + up cos θ > 0.
+                let (across, up) = (normal.dot(meridian.along), normal.dot(meridian.pole));
+                let at = -across / up;
+                if up > 0.0 {
+                    between[0] = between[0].max(at);
+                } else if up < 0.0 {
+                    between[1] = between[1].min(at);
+                } else if across <= 0.0 {
+                    return None;
+                }
+            }
+            (between[0] < between[1]).then_some((solid, between))
+        });
+        Along { meridian, passed: passed.collect() }
     }
 
-    /// Returns what is met, to be looked at in directions that meet nothing else.
-    pub fn shown(&self, met: Seen) -> Shown<'_> {
-        self.surroundings.shown(met, self.eye)
+    /// Returns what is met before sky and ground in a direction of a meridian, to be looked at in directions that meet nothing
+    /// else.
+    pub fn met(&self, Along { meridian, passed }: &Along, direction: DVec3) -> Option<Shown<'_>> {
+        let at = direction.dot(meridian.pole) / direction.dot(meridian.along);
+        let solids = passed.iter().filter(|(_, [low, high])| at > *low && at < *high).map(|(solid, _)| *solid);
+        let met = self.surroundings.seen_among(solids, self.eye, direction)?;
+        Some(self.surroundings.shown(met, self.eye))
     }
 
     /// Luminance of sky and ground. \[cd/m²\]
@@ -181,28 +206,21 @@ impl<'a> Prospect<'a> {
             }
         }
         let mut sum = [0.0; 5];
+        let along = self.along(near, region.frame.meridian(phi));
         for pair in breaks.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
-            let at = |theta: f64| region.frame.direction(theta, phi);
-            self.add(near, (pair[0], pair[1]), at, |theta, _| weight.density(theta), &mut sum);
+            self.add(&along, (pair[0], pair[1]), |theta, _| weight.density(theta), &mut sum);
         }
         sum
     }
 
     /// Adds what is seen between two angles along a meridian, between which one thing alone is seen.
-    pub fn add(
-        &self,
-        near: &Near,
-        (from, to): (f64, f64),
-        at: impl Fn(f64) -> DVec3,
-        density: impl Fn(f64, DVec3) -> f64,
-        sum: &mut [f64; 5],
-    ) {
+    pub fn add(&self, along: &Along, (from, to): (f64, f64), density: impl Fn(f64, DVec3) -> f64, sum: &mut [f64; 5]) {
         let width = to - from;
-        let mut met = self.met(near, at(from + 0.5 * width)).map(|met| self.shown(met));
+        let mut met = self.met(along, along.meridian.direction(from + 0.5 * width));
         let (mut before, mut uncertainty, mut open) = (0.0, 0.0, 0.0);
-        for &(x, share) in rule(3 + (width / 0.15) as usize) {
+        for &(x, share) in rule_over(width) {
             let theta = from + width * x;
-            let direction = at(theta);
+            let direction = along.meridian.direction(theta);
             let density = share * width * density(theta, direction);
             open += density * self.open_luminance(direction);
             if let Some(met) = &mut met {

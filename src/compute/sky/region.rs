@@ -41,10 +41,33 @@ impl Frame {
         self.x * (sin_theta * cos_phi) + self.y * (sin_theta * sin_phi) + self.z * cos_theta
     }
 
+    /// Returns the meridian of an azimuth. \[rad\]
+    pub(super) fn meridian(&self, phi: f64) -> Meridian {
+        let (sin, cos) = phi.sin_cos();
+        Meridian { along: self.x * cos + self.y * sin, pole: self.z }
+    }
+
     /// (θ, φ) of a world direction. \[rad\]
     pub(super) fn angles(&self, v: DVec3) -> (f64, f64) {
         let (x, y, z) = (self.x.dot(v), self.y.dot(v), self.z.dot(v));
         (x.hypot(y).atan2(z), y.atan2(x))
+    }
+}
+
+/// The directions of one azimuth of a frame.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Meridian {
+    /// Where the polar angle is 90°, and where it is 0.
+    pub along: DVec3,
+    pub pole: DVec3,
+}
+
+impl Meridian {
+    /// Returns the unit vector of a polar angle: [`Frame::direction`] but for rounding, at less cost. \[rad\]
+    #[inline]
+    pub fn direction(&self, theta: f64) -> DVec3 {
+        let (sin, cos) = theta.sin_cos();
+        self.along * sin + self.pole * cos
     }
 }
 

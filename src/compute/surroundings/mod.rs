@@ -168,6 +168,11 @@ pub fn first_hit<'a>(
     nearest
 }
 
+/// Does one of some boxes stand between a point and the sun?
+fn hidden<'a>(mut solids: impl Iterator<Item = &'a Solid>, point: DVec3, sun: DVec3) -> bool {
+    solids.any(|solid| solid.enter(point, sun).is_some())
+}
+
 impl Surroundings {
     /// Dark boxes and a skyline, above dark ground.
     pub fn dark(solids: Vec<Solid>, skyline: Option<Skyline>) -> Self {
@@ -240,9 +245,8 @@ impl Surroundings {
     /// Does the middle of the sun's disc light a point of a face?
     pub fn sunlit(&self, solid: usize, face: usize, point: DVec3) -> bool {
         let Some(sun) = self.sun.filter(|_| self.faces[solid][face].sun > 0.0) else { return false };
-        let others = self.solids.iter().enumerate().filter(|(other, _)| *other != solid);
-        let building = std::iter::once((usize::MAX, &self.building));
-        first_hit(others.chain(building), point, sun).is_none()
+        let others = self.solids.iter().enumerate().filter(|(other, _)| *other != solid).map(|(_, other)| other);
+        !hidden(others.chain([&self.building]), point, sun)
     }
 
     /// Does the middle of the sun's disc light a point of the ground?
@@ -250,7 +254,7 @@ impl Surroundings {
         let lit = self.ground.as_ref().is_some_and(|ground| ground.light.sun > 0.0);
         let Some(sun) = self.sun.filter(|_| lit) else { return false };
         let building = Some(&self.building).filter(|_| self.shades_ground);
-        first_hit(self.solids.iter().chain(building).enumerate(), point, sun).is_none()
+        !hidden(self.solids.iter().chain(building), point, sun)
     }
 
     /// Segments at which the luminance may jump, as vectors from a point.

@@ -7,7 +7,7 @@ use super::split::{Leaf, Smooth, any_of, mean_of};
 use super::{DIRECT, LidResult, Session, cubature};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
-use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{BeamLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::quadrature::Tolerance;
@@ -94,12 +94,15 @@ const AT_PATCHES: f64 = 1e-2;
 
 impl Session {
     /// The light of an aperture behind boxes or a skyline.
-    pub(super) fn split(&self, scene: &Scene, index: usize) -> Split {
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(super) fn split(&self, scene: &Scene, index: usize, progress: &dyn Progress) -> Result<Split, Cancelled> {
         let one = &scene.apertures[index];
         if let Some(lamps) = &one.lamps {
-            return Split::of_lamps(scene, index, Emission::lamps(Arc::clone(lamps)));
+            return Ok(Split::of_lamps(scene, index, Emission::lamps(Arc::clone(lamps))));
         }
-        let leaves = self.leaves(scene, index);
+        let leaves = self.leaves(scene, index, progress)?;
         let same = Self::same_all_over(&leaves);
         let tiles: Vec<(Part, Emission)> = if same {
             leaves.iter().flat_map(Leaf::tiles).map(|(_, light)| (WHOLE, light)).collect()
@@ -161,11 +164,11 @@ impl Session {
         }
         split.whole = whole;
         split.leaves = leaves;
-        split
+        Ok(split)
     }
 
     /// All apertures of a scene where something stands outside; else none.
-    pub(super) fn splits(&self, scene: &Scene) -> Result<Vec<Split>, StudyError> {
+    pub(super) fn splits(&self, scene: &Scene, progress: &dyn Progress) -> Result<Vec<Split>, StudyError> {
         if scene.outside.surroundings().is_none() {
             return Ok(Vec::new());
         }
@@ -175,7 +178,8 @@ impl Session {
                 "with boxes or a skyline by bearing only the solid-angle method is there; leave the key out",
             ));
         }
-        Ok((0..scene.apertures.len()).map(|index| self.split(scene, index)).collect())
+        let all = (0..scene.apertures.len()).map(|index| self.split(scene, index, progress));
+        Ok(all.collect::<Result<_, Cancelled>>()?)
     }
 
     /// Straight to the sensors.

@@ -28,7 +28,7 @@ impl Session {
         let of = |index: usize| {
             let mut own = Scene { sun: None, ..scene.clone() };
             own.apertures = vec![scene.apertures[index].clone()];
-            let mut lights = self.lights(&own)?;
+            let mut lights = self.lights(&own, progress)?;
             let emission = &mut lights.emissions[0];
             if known(index) {
                 emission.cells.iter_mut().for_each(|light| light.doubts.clear());

@@ -56,12 +56,12 @@ impl Session {
     pub fn glare(&self, scene: &Scene, eye: &Sensor, progress: &dyn Progress) -> Result<EyeGlare, StudyError> {
         let own = Scene { sensors: vec![*eye], grid: None, ..scene.clone() };
         let vertical = self.room(&own, progress)?.sensors[0].total();
-        Ok(self.shining(scene)?.glare(scene, &eye_field(scene, eye), eye, vertical, Threshold::default()))
+        Ok(self.shining(scene, progress)?.glare(scene, &eye_field(scene, eye), eye, vertical, Threshold::default()))
     }
 
     /// What all apertures send to eyes.
-    pub(in crate::study) fn shining(&self, scene: &Scene) -> Result<Shining, StudyError> {
-        Ok(Shining::of(scene, self.lights(scene)?.emissions))
+    pub(in crate::study) fn shining(&self, scene: &Scene, progress: &dyn Progress) -> Result<Shining, StudyError> {
+        Ok(Shining::of(scene, self.lights(scene, progress)?.emissions))
     }
 
     /// The same of the sun alone, before an outside that is dark but for it; past boxes what is scattered is the mean over the

@@ -2,7 +2,7 @@
 
 use super::Session;
 use super::behind::Split;
-use crate::compute::estimate::Estimate;
+use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::Emission;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
@@ -17,8 +17,8 @@ pub(super) struct Lights {
 
 impl Session {
     /// The light of all apertures.
-    pub(super) fn lights(&self, scene: &Scene) -> Result<Lights, StudyError> {
-        let splits = self.splits(scene)?;
+    pub(super) fn lights(&self, scene: &Scene, progress: &dyn Progress) -> Result<Lights, StudyError> {
+        let splits = self.splits(scene, progress)?;
         let emissions = if splits.is_empty() {
             (0..scene.apertures.len()).map(|index| self.emission(scene, index)).collect()
         } else {

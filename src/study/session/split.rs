@@ -9,8 +9,8 @@
 
 use super::creases::{creases, cut_along};
 use super::part::{Part, WHOLE, area, halves, middle, part_of};
-use super::{ORDINARY_TARGET, Session};
-use crate::compute::estimate::Estimate;
+use super::{ORDINARY_TARGET, Session, check};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{CellLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::room::aperture::Aperture;
@@ -28,7 +28,7 @@ const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 /// lie along borders.
 const TRIED: [[f64; 2]; 2] = [[-0.9, -0.9], [0.9, 0.9]];
 /// Of what it is off at these, what counts: between the points it is off less, and to both sides.
-const TRIED_SHARE: f64 = 0.2;
+const TRIED_SHARE: f64 = 0.1;
 /// Weights of the nine.
 const NODES: [f64; 9] = {
     let mut all = [0.0; 9];
@@ -48,7 +48,7 @@ const MOST_DEAR_PARTS: usize = 4;
 /// ... and where nothing is scattered.
 const MOST_STRAIGHT_PARTS: usize = 20;
 /// What parabolas over parts may leave, of the error asked for.
-const SHARE: f64 = 0.01;
+const SHARE: f64 = 0.05;
 /// Light that changes less than this over the aperture is the same all over.
 const SAME: f64 = 4e-3;
 /// What the light at the points may be off beyond its own error, relative: references differ by up to 4e-4.
@@ -389,24 +389,34 @@ impl Session {
     }
 
     /// All points of some parts at once.
-    fn asked(&self, scene: &Scene, index: usize, parts: Vec<Part>) -> Vec<Leaf> {
+    fn asked(
+        &self,
+        scene: &Scene,
+        index: usize,
+        parts: Vec<Part>,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Leaf>, Cancelled> {
         let at = |part: Part, place: [f64; 2]| {
             [0, 1].map(|axis| middle(part[axis]) + 0.5 * (part[axis][1] - part[axis][0]) * place[axis])
         };
         let nodes = (0..9).map(|k| [k % 3, k / 3].map(|step: usize| POINT * (step as f64 - 1.0)));
         let own: Vec<[f64; 2]> = nodes.chain(TRIED).collect();
         let places: Vec<[f64; 2]> = parts.iter().flat_map(|part| own.iter().map(|place| at(*part, *place))).collect();
-        let mut nodes: Vec<Node> = places.into_par_iter().map(|place| self.node(scene, index, place)).collect();
+        let node = |place: [f64; 2]| check(progress).map(|()| self.node(scene, index, place));
+        let mut nodes: Vec<Node> = places.into_par_iter().map(node).collect::<Result<_, Cancelled>>()?;
         let mut leaves = Vec::with_capacity(parts.len());
         for part in parts.into_iter().rev() {
             leaves.push(Leaf::new(part, nodes.split_off(nodes.len() - own.len())));
         }
         leaves.reverse();
-        leaves
+        Ok(leaves)
     }
 
     /// The parts of an aperture.
-    pub(super) fn leaves(&self, scene: &Scene, index: usize) -> Vec<Leaf> {
+    ///
+    /// # Errors
+    /// Cancelled.
+    pub(super) fn leaves(&self, scene: &Scene, index: usize, progress: &dyn Progress) -> Result<Vec<Leaf>, Cancelled> {
         let aperture = &scene.apertures[index].aperture;
         let target = SHARE * scene.error_target.unwrap_or(ORDINARY_TARGET);
         let solids = scene.outside.surroundings().map_or(&[][..], |around| &around.solids);
@@ -418,22 +428,23 @@ impl Session {
         } else {
             cut_along(&lines, most_of(&self.node(scene, index, [0.5; 2]).emission).div_ceil(2))
         };
-        let mut leaves = self.asked(scene, index, parts);
+        let mut leaves = self.asked(scene, index, parts, progress)?;
         let any = any_of(&leaves);
         // Of what goes straight through only the flux is asked for: it scales what the room's patches see themselves.
         let straight = any.cells.is_empty() && any.bands.is_empty() && leaves.iter().all(Leaf::is_straight);
         let (most, target) = if straight { (MOST_STRAIGHT_PARTS, 10.0 * target) } else { (most_of(any), target) };
         loop {
+            progress.advance("apertures", leaves.len(), most);
             let (flux, left): (f64, f64) = leaves.iter().fold((0.0, 0.0), |(flux, left), leaf| {
                 (flux + leaf.flux(), left + leaf.left_over().iter().sum::<f64>())
             });
             if leaves.len() >= most || left <= target * flux {
-                return leaves;
+                return Ok(leaves);
             }
             // A sensor near the glass sees little of it: small parts count for more than their light.
             let weight = |leaf: &Leaf| leaf.left_over().iter().sum::<f64>() / area(leaf.part).sqrt();
             let worst = (0..leaves.len()).max_by(|a, b| weight(&leaves[*a]).total_cmp(&weight(&leaves[*b])));
-            let Some(worst) = worst else { return leaves };
+            let Some(worst) = worst else { return Ok(leaves) };
             let leaf = leaves.swap_remove(worst);
             let [bent, off] = leaf.left_over();
             // The points that were tried do not tell across which side.
@@ -443,7 +454,8 @@ impl Session {
                 leaf.rest()
             };
             let axis = usize::from(sides[1] > sides[0]);
-            leaves.extend(self.asked(scene, index, halves(leaf.part, axis, middle(leaf.part[axis])).to_vec()));
+            let halves = halves(leaf.part, axis, middle(leaf.part[axis])).to_vec();
+            leaves.extend(self.asked(scene, index, halves, progress)?);
         }
     }
 

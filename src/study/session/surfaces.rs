@@ -55,7 +55,7 @@ impl Session {
     /// What makes the scene impossible to compute, in words; or that it was withdrawn.
     pub fn surfaces(&self, scene: &Scene, progress: &dyn Progress) -> Result<SurfaceLight, StudyError> {
         progress.advance("surfaces", 0, STEPS);
-        let lights = self.lights(scene)?;
+        let lights = self.lights(scene, progress)?;
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let of_aperture = |(index, emission): (usize, &Emission)| {
             (lights.flux_through(scene, index), emission.exitance_doubt() * geometry[index].area())

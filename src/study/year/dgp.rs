@@ -6,7 +6,7 @@
 use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
 use super::light::{Light, Question};
-use crate::compute::estimate::{Cancelled, Estimate, Progress};
+use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
 use crate::compute::glare::{Field, LEAST_ILLUMINANCE, Threshold};
 use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::study::error::StudyError;
@@ -147,7 +147,7 @@ impl Engine {
             None => outside,
         };
         let scene = Scene { outside, sun, ..self.scene.clone() };
-        let shining = question.session.shining(&scene)?;
+        let shining = question.session.shining(&scene, &Silent)?;
         let of = |((eye, field), vertical)| shining.glare(&scene, field, eye, vertical, Threshold::default());
         Ok(eyes.iter().zip(&self.fields).zip(vertical.iter().copied()).map(of).collect())
     }

@@ -1,6 +1,6 @@
 //! Light on prepared surfaces against that of single moments.
 
-use super::super::faces::surroundings;
+use super::super::faces::{Viewing, surroundings};
 use super::super::incident_illuminances_within;
 use super::super::scenery::Finish;
 use super::*;
@@ -51,7 +51,8 @@ fn boxes_are_lit_as_at_single_moments() {
     ] {
         let (outside, sun) = under(altitude, bearing, kind, ground);
         let found = prepared.under(&outside, Some(&sun));
-        let exact = surroundings(&outside.open(), Some(&sun), &setting, turn, Some(skyline.clone()), &eyes, &Silent);
+        let viewing = Viewing { viewpoints: &eyes, target: 5e-3 };
+        let exact = surroundings(&outside.open(), Some(&sun), &setting, turn, Some(skyline.clone()), &viewing, &Silent);
         let exact = outside.open().behind(Arc::new(exact.unwrap()));
         let (mut off, mut all) = (0.0, 0.0);
         for k in 0..4000 {
