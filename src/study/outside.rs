@@ -9,7 +9,7 @@ use crate::compute::limits;
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::sky::faces::{Viewing, surroundings};
-use crate::compute::sky::{Finish, Outside, Setting, Sun};
+use crate::compute::sky::{Finish, GroundShade, Outside, Setting, Sun};
 use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::solid::Solid;
 use crate::texts::words as texts;
@@ -223,8 +223,8 @@ impl LitObstructions {
 
 /// Obstructions of a scene, for any sky.
 pub struct Before {
-    /// Bodies in room axes; `None` without any.
-    setting: Option<Setting>,
+    /// Bodies in room axes, on the ground.
+    setting: Setting,
     /// Corners of the apertures, or what else it is seen from, in room axes.
     viewpoints: Vec<DVec3>,
     /// Relative error asked for.
@@ -254,9 +254,8 @@ impl Before {
             notes.push(texts::BUILDING_UNNAMED.into());
         }
         let building = file.building.as_ref().map(|keys| building(keys, room, apertures, ground)).transpose()?;
-        let any = !boxes.is_empty() || building.is_some();
         Ok(Self {
-            setting: any.then(|| Setting { boxes, room: own_box(room), building, ground }),
+            setting: Setting { boxes, room: own_box(room), building, ground },
             viewpoints: apertures.iter().flat_map(Aperture::corners).collect(),
             target: file.compute.error_target.unwrap_or(ORDINARY_TARGET),
             notes,
@@ -270,7 +269,14 @@ impl Before {
 
     /// Whether there is no obstruction.
     pub fn is_empty(&self) -> bool {
-        self.setting.is_none()
+        self.setting.boxes.is_empty() && self.setting.building.is_none()
+    }
+
+    /// Returns the ground with the sun's shade on it, in room axes; `None` without obstructions above ground that lies at the
+    /// room's floor. `outside`: the sky with its skyline.
+    pub fn ground_shade(&self, outside: &Outside, sun: Option<&Sun>, orientation: Orientation) -> Option<GroundShade> {
+        let any = !self.is_empty() || self.setting.ground != 0.0;
+        any.then(|| GroundShade::new(&self.setting, outside, sun, orientation))
     }
 
     /// A sky behind it, which lights it; its skyline stays. Where nothing stands there, as it was. `kept`: where the result is
@@ -297,7 +303,10 @@ impl Before {
 
     /// Returns the obstructions and the corners of the apertures in the world's axes; `None` without obstructions.
     pub fn turned(&self, orientation: Orientation) -> Option<(Setting, Vec<DVec3>)> {
-        let setting = self.setting.as_ref()?.turned(orientation.turn());
+        if self.is_empty() {
+            return None;
+        }
+        let setting = self.setting.turned(orientation.turn());
         Some((setting, self.viewpoints.iter().map(|p| orientation.to_world(*p)).collect()))
     }
 

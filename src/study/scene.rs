@@ -26,7 +26,7 @@ use crate::compute::room::back_reflection::reflecting_cells;
 use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use crate::compute::room::near_field::{NearField, homogeneity};
-use crate::compute::sky::{Outside, Sun};
+use crate::compute::sky::{GroundShade, Outside, Sun};
 use crate::formats::encoding::{TooLong, not_too_long};
 use crate::formats::system_toml::is_system_file;
 use crate::formats::toml_place::{TomlPlace, place};
@@ -306,6 +306,17 @@ pub fn seen_by_first_aperture(
     let before = Before::of(file, &room, &geometry)?.seen_from(eye);
     let behind = before.stand(outside.clone(), sun, orientation, None, progress)?;
     Ok(Some(behind.seen_from(orientation.to_world(eye))))
+}
+
+/// Finds the ground with the sun's shade on it, in room axes; `None` without obstructions above ground that lies at the
+/// room's floor. `outside`: the sky with its skyline.
+///
+/// # Errors
+/// Returns an error if a key of room, apertures or boxes is wrong.
+pub fn ground_shade(file: &SceneFile, outside: &Outside, sun: Option<&Sun>) -> Result<Option<GroundShade>, StudyError> {
+    let room = room(&file.room)?;
+    let before = Before::of(file, &room, &apertures(&file.aperture, &room)?)?;
+    Ok(before.ground_shade(outside, sun, Orientation::new(Bearing::from_degrees(file.site.azimuth))))
 }
 
 /// Area of all six sides. \[m²\]

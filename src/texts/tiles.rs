@@ -309,6 +309,11 @@ texts! {
     fn box_cut(name, depth, across) = "{name} cut here, {depth} × {across} m" | "{name} hier beschnitten, {depth} × {across} m";
     fn boxes_beyond_first(first, more) = "{first} and {more} more" | "{first} und {more} weitere";
     fn boxes_beyond(count) = "{count} beyond" | "{count} jenseits";
+    fn ground_below(metres) = "ground {metres} m below the floor" | "Boden {metres} m unter dem Raum";
+    const GROUND_OUTSIDE = "Ground outside" | "Boden draußen";
+    fn ground_shaded(stretches) = "ground shaded {stretches} m in front of the façade" | "Boden beschattet {stretches} m vor der Fassade";
+    const GROUND_SUNLIT = "ground in front of the façade in the sun" | "Boden vor der Fassade besonnt";
+    const GROUND_WITHOUT_SUN = "no direct sunlight on the ground" | "kein direktes Sonnenlicht auf dem Boden";
     const BEYOND_PICTURE = "Outside, beyond the picture" | "Draußen, jenseits des Bildes";
     fn from_to_metres(low, high, size) = "{low} to {high} m, {size} m" | "{low} bis {high} m, {size} m";
 

@@ -11,7 +11,7 @@ use cfs::app::room_look::RoomView;
 use cfs::app::state::Sheet;
 use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
-use cfs::study::scene_file::{BoxKeys, DstKey, SceneFile};
+use cfs::study::scene_file::{BoxKeys, DstKey, IlluminanceKey, SceneFile, SunKeys};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Pos2, vec2};
 use egui_kittest::Harness;
@@ -169,6 +169,34 @@ fn far_boxes_leave_the_room_large_and_are_told_with_their_distance() {
     assert!(harness.query_by_label("Move Neighbour").is_none());
     apply(&mut harness, Command::RoomView(RoomView::Section));
     assert!(value(&harness, "Outside, beyond the picture").contains("Neighbour 15.0 m away"));
+}
+
+#[test]
+fn the_section_shows_the_sun_s_shade_on_the_ground_while_something_stands_outside() {
+    let mut harness = room(RoomView::Section);
+    let mut lit = scene(&harness).clone();
+    // 2 m high, 5 m away, with the sun at 45° behind it.
+    lit.outside[0].solid = BoxKeys { from: [-50.0, -5.1, 0.0], to: [54.0, -5.0, 2.0], turn: 0.0 };
+    (lit.site.azimuth, lit.sky.time) = (180.0, None);
+    (lit.sky.cie_type, lit.sky.illuminance, lit.sky.diffuse_horizontal) =
+        (Some(12), IlluminanceKey::Stated, Some(20_000.0));
+    lit.sky.sun = SunKeys { altitude: Some(45.0), azimuth: Some(180.0), direct_normal: Some(50_000.0) };
+    apply(&mut harness, Command::Scene(Box::new(lit.clone())));
+    assert_eq!(value(&harness, "Ground outside"), "ground shaded 3.0 to 5.1 m in front of the façade");
+    let mut overcast = lit.clone();
+    overcast.sky.sun.direct_normal = Some(0.0);
+    apply(&mut harness, Command::Scene(Box::new(overcast)));
+    assert_eq!(value(&harness, "Ground outside"), "no direct sunlight on the ground");
+    // Nine metres up the ground is below the picture.
+    let mut high = lit;
+    high.site.ground_height = -9.0;
+    apply(&mut harness, Command::Scene(Box::new(high.clone())));
+    assert!(harness.query_by_label("Ground outside").is_none());
+    assert!(value(&harness, "Outside, beyond the picture").contains("ground 9.0 m below the floor"));
+    (high.site.ground_height, high.outside) = (0.0, Vec::new());
+    apply(&mut harness, Command::Scene(Box::new(high)));
+    assert!(harness.query_by_label("Ground outside").is_none());
+    assert!(harness.query_by_label("Outside, beyond the picture").is_none());
 }
 
 /// A tall window with the panel's section open.

@@ -1,5 +1,6 @@
 //! A thing in space that is turned by hand: where its points are on the screen.
 
+use crate::compute::polygon::cut;
 use egui::{Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Ui, Vec2, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -114,6 +115,14 @@ impl View {
         let scale = self.focal / depth;
         let (x, y) = (scale * from.dot(self.right), -scale * from.dot(self.up));
         Some((pos2(self.middle.x + x as f32, self.middle.y + y as f32), depth))
+    }
+
+    /// Returns a convex polygon on the screen, as far as it is before the eye.
+    pub fn polygon(&self, corners: &[DVec3]) -> Vec<Pos2> {
+        let mut kept = Vec::new();
+        // A little farther, so that no corner is lost by rounding.
+        cut(corners, |p| (p - self.eye).dot(self.forward) - (1.0 + 1e-9) * self.near, &mut kept);
+        kept.into_iter().filter_map(|p| Some(self.screen(p)?.0)).collect()
     }
 
     /// The direction in which a point of the screen is seen.

@@ -34,6 +34,10 @@ pub struct Palette {
     pub second: Color32,
     /// The sun.
     pub sun: Color32,
+    /// Ground in the sun.
+    pub sunlit: Color32,
+    /// Ground in the shade.
+    pub shade: Color32,
     /// Unscattered light.
     pub beam: Color32,
     /// Series of a plot with many.
@@ -56,6 +60,8 @@ impl Palette {
                 first: Color32::from_rgb(86, 180, 233),
                 second: Color32::from_rgb(230, 159, 0),
                 sun: Color32::from_rgb(255, 205, 60),
+                sunlit: Color32::from_rgb(112, 100, 66),
+                shade: grey(56),
                 beam: Color32::from_rgb(255, 95, 85),
                 series: rgb([[86, 180, 233], [230, 159, 0], [0, 190, 140], [225, 150, 195], [240, 120, 60]]),
             }
@@ -70,6 +76,8 @@ impl Palette {
                 first: Color32::from_rgb(0, 100, 165),
                 second: Color32::from_rgb(200, 90, 0),
                 sun: Color32::from_rgb(245, 170, 0),
+                sunlit: Color32::from_rgb(250, 238, 200),
+                shade: grey(165),
                 beam: Color32::from_rgb(215, 40, 40),
                 series: rgb(SERIES),
             }

@@ -10,6 +10,8 @@ use crate::app::room_look::RoomView;
 use crate::app::state::{Daylight, State, Tile};
 use crate::app::views::{Cache, room};
 use crate::compute::direction::Surface;
+use crate::compute::sky::GroundShade;
+use crate::study::scene::ground_shade;
 use crate::study::scene_file::{SceneFile, SkyModelKey, SurfaceKey};
 use crate::texts::{Text, tiles as say};
 use egui::Ui;
@@ -25,6 +27,25 @@ pub struct Drawing {
     /// Horizontal illuminance outside under the sky that a result (by its revision) is of. \[lx\]
     open_sky: Option<(u64, f64)>,
     cells: Cache<(u64, u64), Vec<room::CellValue>>,
+    ground: Ground,
+}
+
+/// The ground outside with the sun's shade, of a scene under a daylight by its revision; found again when one of them changes.
+#[derive(Default)]
+struct Ground(Option<(u64, SceneFile, Option<GroundShade>)>);
+
+impl Ground {
+    /// Returns the ground; `None` where there is none to show, or before there is a sky.
+    fn find(&mut self, state: &State) -> Option<&GroundShade> {
+        let (scene, daylight) = (&state.document.scene, &state.daylight);
+        if !self.0.as_ref().is_some_and(|(revision, file, _)| *revision == daylight.revision && file == scene) {
+            let sky = daylight.value.as_deref();
+            // Wrong keys are the room's own error.
+            let shade = sky.and_then(|sky| ground_shade(scene, &sky.outside, sky.sun.as_ref()).ok().flatten());
+            self.0 = Some((daylight.revision, scene.clone(), shade));
+        }
+        self.0.as_ref().and_then(|(.., shade)| shade.as_ref())
+    }
 }
 
 /// The CIE's overcast skies: its standard and its traditional one (ISO 15469).
@@ -159,6 +180,7 @@ impl Drawn for Drawing {
             room: [scene.room.width, scene.room.depth, scene.room.height],
             apertures: &openings,
             outside: &boxes,
+            ground: if look.view == RoomView::Plan { None } else { self.ground.find(state) },
             nx,
             ny,
             cells: self

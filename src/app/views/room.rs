@@ -4,6 +4,7 @@
 
 mod boxes;
 mod elevation;
+mod ground;
 mod handles;
 mod input;
 mod lit;
@@ -193,7 +194,10 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     // A row that was kept on a finer grid may be beyond this one.
     let row = cell.map(|(i, _)| i).or(state.row).unwrap_or(input.nx / 2).min(input.nx.max(1) - 1);
     match (side, input.complete()) {
-        (true, _) => elevation::show(ui, &frame, input, row, &scale, &palette),
+        (true, _) => {
+            ground::section(ui, &frame, input, row, &palette);
+            elevation::show(ui, &frame, input, row, &scale, &palette);
+        }
         (false, true) => plan::show(ui, &frame, input, row, &mut state.pictures, &scale, &palette),
         (false, false) => plan::outline(ui, &frame, input, &palette),
     }

@@ -15,6 +15,7 @@
 //! | `scenery` | what stands there, and the ground: bodies and their surfaces |
 //! | `faces`, `vista`, `received`, `open_ground`, `equations` | the light on these |
 //! | `prepared`, `dome`, `sunlit` | light on surfaces under many skies and suns |
+//! | `ground_shade` | the sun's shade on the ground, for pictures |
 //! | `incident` | illuminance of an aperture per cell of a basis |
 //! | `samples` | the same for smooth skies by fixed directions |
 //! | `sun` | the disc |
@@ -29,6 +30,7 @@ mod dome;
 mod equations;
 pub mod faces;
 mod gradated;
+mod ground_shade;
 mod horizontal;
 mod incident;
 mod integral;
@@ -54,6 +56,7 @@ mod vista;
 
 pub use distribution::Distribution;
 pub use equations::{Counts, SparseSum};
+pub use ground_shade::GroundShade;
 pub use incident::{incident_illuminances, incident_illuminances_within};
 pub use integral::{irradiance, mean_luminance};
 pub use opening::irradiance_through;

@@ -8,6 +8,9 @@ use crate::compute::surroundings::solid::{Face, Solid};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
+/// Cosine of incidence below which the sun does not light a face.
+const GRAZING: f64 = 1e-6;
+
 /// Surface property of a box.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Finish {
@@ -39,6 +42,26 @@ impl Setting {
             building: self.building.as_ref().map(|(solid, reflectance)| (solid.turned(turn), *reflectance)),
             ground: self.ground,
         }
+    }
+
+    /// Returns the bodies as far as they rise above the ground: the boxes; last the building, or the room's own box.
+    fn bodies(&self) -> Vec<Solid> {
+        let above = |solid: &Solid| solid.above(self.ground);
+        let mut bodies: Vec<Solid> = self.boxes.iter().map(|(solid, _)| above(solid)).collect();
+        // What a room above the ground stands on hides from faces what is behind it, whatever it is.
+        bodies.push(self.building.as_ref().map_or(self.room.down_to(self.ground), |(solid, _)| above(solid)));
+        bodies
+    }
+
+    /// Number of bodies that stand before the ground: all, or without a building all but the last.
+    fn before_ground(&self) -> usize {
+        self.boxes.len() + usize::from(self.building.is_some())
+    }
+
+    /// Returns the shadows on the ground as (x, y) in the setting's own frame; `sun`: towards the sun in that frame.
+    pub(super) fn shadows_on_ground(&self, sun: DVec3) -> Vec<Vec<DVec2>> {
+        let face = Surface::ground(self.ground, 0.0, [1.0, 0.0]).face;
+        shadows(&face, self.bodies().iter().take(self.before_ground()), sun)
     }
 }
 
@@ -85,6 +108,14 @@ impl Surface {
     }
 }
 
+/// Returns the shadows of bodies on a face, in the face's coordinates; none where it does not face the sun.
+fn shadows<'a>(face: &Face, bodies: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<Vec<DVec2>> {
+    if face.normal.dot(sun) <= GRAZING {
+        return Vec::new();
+    }
+    bodies.map(|solid| shadow(solid, face, sun)).filter(|outline| outline.len() >= 3).collect()
+}
+
 /// Share of the sun's disc above horizon and skyline.
 pub(super) fn share_above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
     match skyline {
@@ -127,10 +158,7 @@ pub(super) fn scenery<'a>(
     turn: [f64; 2],
 ) -> Scenery<'a> {
     let height = setting.ground;
-    let above = |solid: &Solid| solid.above(height);
-    let mut bodies: Vec<Solid> = setting.boxes.iter().map(|(solid, _)| above(solid)).collect();
-    // What a room above the ground stands on hides from faces what is behind it, whatever it is.
-    bodies.push(setting.building.as_ref().map_or(setting.room.down_to(height), |(solid, _)| above(solid)));
+    let bodies = setting.bodies();
     let finishes = setting.boxes.iter().map(|(_, finish)| *finish);
     let last = setting.building.as_ref().map_or(0.0, |(_, reflectance)| *reflectance);
     let mut surfaces = Vec::with_capacity(6 * bodies.len() + 1);
@@ -146,18 +174,17 @@ pub(super) fn scenery<'a>(
         }
     }
     surfaces.push(Surface::ground(height, outside.ground_reflectance(), turn));
-    let from_ground = setting.boxes.len() + usize::from(setting.building.is_some());
+    let from_ground = setting.before_ground();
     let mut scenery = Scenery { open: outside, skyline, bodies, from_ground, surfaces };
     if let Some((sun, normal)) = direct_sun {
         for index in 0..scenery.surfaces.len() {
             let Surface { face, reflectance, stated, .. } = &scenery.surfaces[index];
             let towards = face.normal.dot(sun);
-            if stated.is_some() || *reflectance <= 0.0 || towards <= 1e-6 {
+            if stated.is_some() || *reflectance <= 0.0 || towards <= GRAZING {
                 continue;
             }
             let light = reflectance * normal * towards / PI;
-            let cast = scenery.others(index).map(|(_, solid)| shadow(solid, face, sun));
-            let shadows = cast.filter(|outline| outline.len() >= 3).collect();
+            let shadows = shadows(face, scenery.others(index).map(|(_, solid)| solid), sun);
             (scenery.surfaces[index].sun, scenery.surfaces[index].shadows) = (light, shadows);
         }
     }

@@ -3,6 +3,7 @@
 use crate::app::paint::tile::Status;
 use crate::app::room_look::{RoomLook, RoomView};
 use crate::compute::direction::Surface;
+use crate::compute::sky::GroundShade;
 use crate::drawing::ticks::{number, si};
 use crate::study::SurfaceLight;
 use crate::study::scene_file::BoxKeys;
@@ -82,6 +83,8 @@ pub struct Input<'a> {
     pub apertures: &'a [Opening],
     /// What stands outside, and what it is called.
     pub outside: &'a [(BoxKeys, String)],
+    /// The ground outside with the sun's shade on it; `None` where there is nothing outside above ground at the floor.
+    pub ground: Option<&'a GroundShade>,
     /// Sensors along x.
     pub nx: usize,
     /// Sensors along y.
@@ -117,6 +120,7 @@ impl Input<'_> {
             room: [0.0; 3],
             apertures: &[],
             outside: &[],
+            ground: None,
             nx: 0,
             ny: 0,
             cells: &[],

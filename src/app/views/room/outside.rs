@@ -3,6 +3,7 @@
 
 use super::input::{Frame, Input, Span};
 use crate::app::paint::palette::Palette;
+use crate::compute::sky::GroundShade;
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::BoxKeys;
 use crate::texts::{fixed, tiles as say};
@@ -18,6 +19,8 @@ const MARGIN_CUT: f64 = 0.6;
 const MOST_OF_DEPTH: f64 = 0.4;
 /// ... nor more than so much. \[m\]
 const MOST: f64 = 3.0;
+/// The ground is shown where it lies no more below the floor than this times the height of the room.
+const GROUND_SHOWN: f64 = 1.25;
 /// Height of the line that tells what lies beyond the picture. \[points\]
 pub(super) const TOLD_HEIGHT: f32 = 18.0;
 
@@ -41,6 +44,23 @@ pub(super) fn outline(keys: &BoxKeys, side: bool) -> [[f64; 2]; 4] {
     } else {
         [0b000, 0b001, 0b011, 0b010].map(|bits: usize| [corners[bits].y, corners[bits].x])
     }
+}
+
+/// Distance from the room within which boxes are drawn in perspective: far ones would be lines across the picture. \[m\]
+pub(super) fn reach(input: &Input<'_>) -> f64 {
+    0.5 * DVec3::from_array(input.room).length()
+}
+
+/// Returns the boxes that are drawn in perspective.
+pub(super) fn near<'a>(input: &Input<'a>) -> impl Iterator<Item = Solid> + use<'a> {
+    let (corners, reach) = (room(input.room).corners(), reach(input));
+    let solids = input.outside.iter().map(|(keys, _)| solid(keys));
+    solids.filter(move |solid| solid.gap_to(&corners) < reach)
+}
+
+/// Whether the ground is shown in the section.
+fn shows_ground(ground: &GroundShade, room: [f64; 3]) -> bool {
+    -ground.height <= GROUND_SHOWN * room[2]
 }
 
 fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
@@ -75,6 +95,11 @@ pub(super) fn span(input: &Input<'_>, side: bool) -> Span {
             shown[axis][1] = shown[axis][1].max(to_high.min(high + most));
         }
     }
+    if let Some(ground) = input.ground.filter(|_| side) {
+        let shows = shows_ground(ground, input.room);
+        shown[1][0] = shown[1][0].min(if shows { ground.height - MARGIN } else { -MARGIN_CUT });
+        shown[0][0] = shown[0][0].min(if shows { -most } else { 0.0 });
+    }
     Span(shown)
 }
 
@@ -108,12 +133,16 @@ fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
         let distance = fixed(solid(keys).gap_to(&corners), 1);
         Some((say::box_far(name, distance), Some(place.center())))
     };
-    input.outside.iter().filter_map(told).collect()
+    let ground = input.ground.filter(|ground| frame.side && !shows_ground(ground, input.room)).map(|ground| {
+        let under = frame.screen(0.5 * input.room[1], ground.height);
+        (say::ground_below(fixed(-ground.height, 1)), Some(under))
+    });
+    input.outside.iter().filter_map(told).chain(ground).collect()
 }
 
 /// Lines that the picture is drawn over: the boxes, and marks on its border for those beyond it.
 pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
-    if input.outside.is_empty() {
+    if input.outside.is_empty() && !(frame.side && input.ground.is_some()) {
         return;
     }
     let painter = ui.painter().with_clip_rect(frame.view.intersect(ui.clip_rect()));
@@ -182,7 +211,8 @@ pub(super) fn tells(input: &Input<'_>, side: bool, span: Span) -> bool {
     let holds = |extent: [[f64; 2]; 2]| {
         (0..2).all(|axis| span.0[axis][0] <= extent[axis][0] + 1e-9 && extent[axis][1] <= span.0[axis][1] + 1e-9)
     };
-    input.outside.iter().any(|(keys, _)| !holds(extent(keys, side)))
+    let below = input.ground.is_some_and(|ground| side && !shows_ground(ground, input.room));
+    below || input.outside.iter().any(|(keys, _)| !holds(extent(keys, side)))
 }
 
 #[cfg(test)]

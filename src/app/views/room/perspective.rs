@@ -3,6 +3,7 @@
 //! A box from inside: walls that turn their back are left out, and what remains covers nothing of each other, so that no
 //! order of drawing is needed but that of things over walls.
 
+use super::ground;
 use super::input::Input;
 use super::lit::{self, Piece};
 use super::outside;
@@ -202,16 +203,8 @@ fn openings(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette
 
 /// What stands near outside, by its edges.
 fn around(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
-    let corners = outside::room(input.room).corners();
-    let reach = 0.5 * DVec3::from_array(input.room).length();
-    for (keys, _) in input.outside {
-        let solid = outside::solid(keys);
-        // Far ones would be lines across the picture.
-        if solid.gap_to(&corners) < reach {
-            for ends in solid.visible_edges(view.eye) {
-                line(painter, view, ends, Stroke::new(1.5, palette.weak));
-            }
-        }
+    for ends in outside::near(input).flat_map(|solid| solid.visible_edges(view.eye)) {
+        line(painter, view, ends, Stroke::new(1.5, palette.weak));
     }
 }
 
@@ -323,6 +316,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (boo
     let size = DVec3::from_array(input.room);
     let view = state.camera.view(0.5 * size, 0.5 * size.length().max(1e-3), area);
     let painter = ui.painter_at(area);
+    ground::perspective(&painter, &view, input, &palette);
     let mut foot = Foot::from(say::SURFACES_COMING);
     let mut pointed = None;
     if let Some((light, revision)) = input.surfaces {
@@ -344,7 +338,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (boo
             let legend = Rect::from_min_max(pos2(rect.left(), rect.bottom() - LEGEND_HEIGHT + 2.0), rect.max);
             scale.paint_legend(ui.painter(), legend, "lx", pointed, &palette);
         }
-        tile::name(ui, &response, say::ROOM_PERSPECTIVE, summary(light).full());
+        let said: Vec<String> =
+            [summary(light).full().to_owned()].into_iter().chain(ground::words_of_middle(input)).collect();
+        tile::name(ui, &response, say::ROOM_PERSPECTIVE, &said.join(" · "));
     } else {
         tile::name(ui, &response, say::ROOM_PERSPECTIVE, say::BEING_COMPUTED.get());
     }
