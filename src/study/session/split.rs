@@ -326,7 +326,7 @@ struct Cut {
     most: f64,
 }
 
-const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 5e-4, most: 40.0 };
+const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 2e-4, most: 40.0 };
 const TILES_OF_CELLS: Cut = Cut { part: 1.25, near: 0.2, allowed: 1.5e-3, most: 8.0 };
 
 impl Cut {
