@@ -7,6 +7,7 @@ mod coefficients;
 mod common;
 mod control;
 mod exactness;
+mod exchange;
 mod glare;
 mod ground;
 mod luminaire_daylight;
