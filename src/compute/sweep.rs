@@ -59,8 +59,9 @@ impl<const N: usize> Piece<N> {
     /// Takes the points of the next rule, too.
     fn improve(&mut self, f: &mut impl FnMut(f64) -> [f64; N]) {
         let (middle, half) = (0.5 * (self.ends[0] + self.ends[1]), 0.5 * (self.ends[1] - self.ends[0]));
-        for at in COUNTS[self.rule]..COUNTS[self.rule + 1] {
-            self.values[at] = f(middle + half * POINTS[at].0);
+        let fresh = COUNTS[self.rule]..COUNTS[self.rule + 1];
+        for ((x, _), values) in POINTS[fresh.clone()].iter().zip(&mut self.values[fresh]) {
+            *values = f(middle + half * x);
         }
         self.rule += 1;
     }
