@@ -16,6 +16,8 @@ const POINTS: [(f64, [f64; 3]); 7] = [
 ];
 /// Number of points of each rule.
 const COUNTS: [usize; 3] = [1, 3, 7];
+/// Length up to which three points tell whether a piece is smooth: of a longer one they miss a kink near its ends. \[rad\]
+const SHORT: f64 = 0.05;
 /// Halvings of a piece at most.
 const DEPTH: u32 = 12;
 /// Most points of [`rule`].
@@ -53,6 +55,9 @@ impl<const N: usize> Piece<N> {
         let mut piece = Self { ends, depth, rule: 0, values: [[0.0; N]; 7] };
         piece.values[0] = f(0.5 * (ends[0] + ends[1]));
         piece.improve(f);
+        if ends[1] - ends[0] > SHORT {
+            piece.improve(f);
+        }
         piece
     }
 

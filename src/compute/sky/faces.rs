@@ -48,7 +48,7 @@ const LOOSE: f64 = 0.05;
 const MOST: usize = 48;
 const FEWEST: usize = 1;
 /// Panels of the ground that is seen are no longer than this times the size of what stands near, or its distance.
-const FINE_GROUND: f64 = 2.0;
+const FINE_GROUND: f64 = 1.0;
 /// Apertures count as so high above the ground at least. \[m\]
 const LOWEST_EYE: f64 = 0.5;
 /// Relative error of the light on a face beside that between its nodes.
