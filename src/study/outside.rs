@@ -1,8 +1,7 @@
 //! Obstructions of a scene from `[[outside]]`, `[building]` and `site.ground_height`.
 
 use super::error::StudyError;
-use super::scene_file::{BuildingKeys, OutsideKeys, SceneFile, USUAL_REFLECTANCE};
-use super::session::ORDINARY_TARGET;
+use super::scene_file::{BuildingKeys, ORDINARY_TARGET, OutsideKeys, SceneFile, USUAL_REFLECTANCE};
 use crate::compute::direction::{Orientation, Surface};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::limits;

@@ -21,6 +21,9 @@ use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 pub use outside::{BoxKeys, BuildingKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
 use serde::{Deserialize, Serialize};
 
+/// Relative error that a scene asks for which names none.
+pub(super) const ORDINARY_TARGET: f64 = 0.01;
+
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

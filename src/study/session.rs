@@ -60,7 +60,6 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
 pub use surfaces::{PatchLight, SurfaceLight};
-pub(super) use targets::ORDINARY_TARGET;
 use targets::cubature;
 use unit_beams::UnitBeams;
 use weights::{ByCells, Response};

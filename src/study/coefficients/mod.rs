@@ -32,12 +32,13 @@ mod views;
 
 use super::error::StudyError;
 use super::scene::Scene;
+use super::scene_file::ORDINARY_TARGET;
+use super::session::Session;
 use super::session::data_share::DataShare;
 use super::session::far;
 use super::session::interreflected::{PATCHES, REST};
 use super::session::responses::Responses;
 use super::session::unit_beams::UnitBeams;
-use super::session::{ORDINARY_TARGET, Session};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use crate::compute::estimate::{Estimate, Progress};

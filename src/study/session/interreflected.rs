@@ -2,7 +2,7 @@
 
 use super::lights::Lights;
 use super::seen::{Gathered, gathered, in_blocks, inside, keeps};
-use super::{ORDINARY_TARGET, STEPS, Session, aperture_key, basis_key, check, sensor_key};
+use super::{STEPS, Session, aperture_key, basis_key, check, sensor_key};
 use crate::compute::basis::RingBasis;
 use crate::compute::dot::dot;
 use crate::compute::estimate::{Estimate, Progress};
@@ -16,6 +16,7 @@ use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::{Key, bits};
 use crate::study::error::StudyError;
 use crate::study::scene::{Scene, SceneAperture};
+use crate::study::scene_file::ORDINARY_TARGET;
 use rayon::prelude::*;
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@
 
 use super::creases::{creases, cut_along};
 use super::part::{Part, WHOLE, area, halves, middle, part_of};
-use super::{ORDINARY_TARGET, Session, check};
+use super::{Session, check};
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{CellLight, Emission, Facing};
 use crate::compute::polygon::projected_solid_angle;
@@ -17,6 +17,7 @@ use crate::compute::room::aperture::Aperture;
 use crate::compute::room::beams_past::outer_face;
 use crate::compute::room::direct::Sensor;
 use crate::study::scene::Scene;
+use crate::study::scene_file::ORDINARY_TARGET;
 use glam::DVec3;
 use rayon::prelude::*;
 

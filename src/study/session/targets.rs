@@ -10,6 +10,3 @@ pub(super) fn cubature(error_target: Option<f64>) -> f64 {
 /// Relative error of direct light that costs no digit that anyone sees. Its table is printed by
 /// `examples/stated_errors.rs` (rows "made, direct").
 const SEEN: f64 = 5e-5;
-
-/// What a scene that names no error gets. \[relative\]
-pub(in crate::study) const ORDINARY_TARGET: f64 = 0.01;
