@@ -54,7 +54,7 @@ const LOWEST_EYE: f64 = 0.5;
 /// Relative error of the light on a face beside that between its nodes.
 const REST: f64 = 2e-4;
 /// Of the change that the fine panels made, what still finer ones would: only light from surfaces that are not seen stays coarse.
-const LEFT_OVER: f64 = 0.03;
+const LEFT_OVER: f64 = 0.1;
 
 /// From where obstructions are seen, and how exactly their light is to be found.
 pub struct Viewing<'a> {

@@ -29,7 +29,7 @@ const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 /// lie along borders.
 const TRIED: [[f64; 2]; 2] = [[-0.9, -0.9], [0.9, 0.9]];
 /// Of what it is off at these, what counts: between the points it is off less, and to both sides.
-const TRIED_SHARE: f64 = 0.1;
+const TRIED_SHARE: f64 = 0.2;
 /// Weights of the nine.
 const NODES: [f64; 9] = {
     let mut all = [0.0; 9];
