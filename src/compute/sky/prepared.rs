@@ -8,7 +8,7 @@
 
 use super::dome::Dome;
 use super::equations::{Counts, Exchange, Panels, SparseSum, sparse};
-use super::faces::{Fineness, assembled, direct_sun, lights, wanted};
+use super::faces::{Fineness, assembled, beside, direct_sun, lights, wanted};
 use super::open_ground::OpenGround;
 use super::outside::Outside;
 use super::region::Frame;
@@ -198,11 +198,13 @@ impl Prepared {
         let ground = OpenGround::of(&tried, &viewpoints);
         let wanted = wanted(&tried, &viewpoints);
         let mut seen = lights(&tried, &ground, &wanted, &viewpoints, &PANELS, progress)?;
+        let mut all = Panels::coarse(&tried, &ground).lights;
+        beside(&tried, &viewpoints).into_iter().for_each(|index| all[index] = seen[index].clone());
         let unseen = |index: &usize| tried.surfaces[*index].reflects() && !wanted.contains(index);
         (0..seen.len()).filter(unseen).for_each(|index| seen[index] = FaceLight::even(0.0));
         // Without a sun every part of a surface is collected, whether it will be sunlit or not.
         let scenery = scenery(&sky, skyline, None, &setting, turn);
-        let (panels, all) = (Panels::new(seen), Panels::coarse(&scenery, &ground));
+        let (panels, all) = (Panels::new(seen), Panels::new(all));
         let sources = |[spacing, side, least]: [f64; 3], wanted: Option<&[usize]>| {
             let cells = SunCells::new(&scenery, &ground, wanted, &viewpoints, [side, least]);
             Sources { dome: Dome::new(spacing), cells }
