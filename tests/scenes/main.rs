@@ -6,6 +6,7 @@ mod coefficients;
 #[path = "../common/mod.rs"]
 mod common;
 mod control;
+mod courts;
 mod exactness;
 mod exchange;
 mod glare;
