@@ -5,7 +5,7 @@ use super::equations::Panels;
 use super::open_ground::OpenGround;
 use super::scenery::{Scenery, Surface};
 use crate::compute::polygon::area;
-use crate::compute::surroundings::face_light::{FaceLight, Limits};
+use crate::compute::surroundings::face_light::{Branch, FaceLight, Limits};
 use crate::compute::surroundings::shading::without;
 use glam::{DVec2, DVec3};
 
@@ -20,8 +20,8 @@ const NOTHING: f64 = 1e-9;
 /// Cells of all surfaces that reflect, numbered throughout.
 pub(super) struct SunCells {
     panels: Panels,
-    /// Sides of every cell. \[m\]
-    limits: Vec<Limits>,
+    /// Tree of the cells of every surface, and number of its first cell.
+    trees: Vec<(Vec<Branch>, usize)>,
 }
 
 impl SunCells {
@@ -56,13 +56,20 @@ impl SunCells {
             FaceLight::panelled(if level { ground.limits } else { surface.face.limits }, true, &cut)
         };
         let panels = Panels::new(scenery.surfaces.iter().enumerate().map(of).collect());
-        let limits = panels.lights.iter().flat_map(FaceLight::limits).collect();
-        Self { panels, limits }
+        let mut first = 0;
+        let tree = |(index, light): (usize, &FaceLight)| {
+            let limits = if index == scenery.ground() { ground.limits } else { scenery.surfaces[index].face.limits };
+            let tree = (light.branches(limits), first);
+            first += light.values().len();
+            tree
+        };
+        let trees = panels.lights.iter().enumerate().map(tree).collect();
+        Self { panels, trees }
     }
 
     /// Returns the number of cells.
     pub const fn len(&self) -> usize {
-        self.limits.len()
+        self.panels.places.len()
     }
 
     /// Calls `add` with the cell at a point of a surface, if there is one.
@@ -71,51 +78,91 @@ impl SunCells {
     }
 
     /// Returns the luminance that the sun adds to every cell, its mean where a shadow's edge crosses it. \[cd/m²\]
-    pub fn luminances<'a>(&'a self, scenery: &'a Scenery<'_>) -> impl Iterator<Item = f64> + 'a {
-        let bounds: Vec<Vec<Limits>> =
-            scenery.surfaces.iter().map(|surface| surface.shadows.iter().map(|one| bounds(one)).collect()).collect();
-        self.panels.places.iter().zip(&self.limits).map(move |(&(index, _), cell)| {
-            let surface = &scenery.surfaces[index];
-            if surface.sun > 0.0 { surface.sun * lit_share(cell, &surface.shadows, &bounds[index]) } else { 0.0 }
-        })
+    pub fn luminances(&self, scenery: &Scenery<'_>) -> Vec<f64> {
+        let mut all = vec![0.0; self.len()];
+        for (surface, (tree, first)) in scenery.surfaces.iter().zip(&self.trees) {
+            if surface.sun > 0.0 {
+                let shadows: Vec<Shadow<'_>> = surface.shadows.iter().map(|outline| Shadow::new(outline)).collect();
+                let shadows: Vec<&Shadow<'_>> = shadows.iter().collect();
+                light_up(tree, 0, &shadows, surface.sun, &mut all[*first..]);
+            }
+        }
+        all
     }
 }
 
-fn bounds(polygon: &[DVec2]) -> Limits {
-    let range = |of: fn(&DVec2) -> f64| {
-        let values = || polygon.iter().map(of);
-        [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
-    };
-    [range(|p| p.x), range(|p| p.y)]
+/// A convex shadow on a surface.
+struct Shadow<'a> {
+    outline: &'a [DVec2],
+    bounds: Limits,
 }
 
-/// Share of a cell outside of all shadows.
-fn lit_share(cell: &Limits, shadows: &[Vec<DVec2>], bounds: &[Limits]) -> f64 {
-    let [[a, b], [c, d]] = *cell;
-    let corners = [DVec2::new(a, c), DVec2::new(b, c), DVec2::new(b, d), DVec2::new(a, d)];
-    let whole = (b - a) * (d - c);
-    let mut pieces = Vec::new();
-    for (shadow, bounds) in shadows.iter().zip(bounds) {
-        if (0..2).any(|axis| bounds[axis][0] >= cell[axis][1] || bounds[axis][1] <= cell[axis][0]) {
-            continue;
+/// What of a rectangle a shadow covers.
+enum Cover {
+    Nothing,
+    Part,
+    All,
+}
+
+impl<'a> Shadow<'a> {
+    fn new(outline: &'a [DVec2]) -> Self {
+        let range = |of: fn(&DVec2) -> f64| {
+            let values = || outline.iter().map(of);
+            [values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max)]
+        };
+        Self { outline, bounds: [range(|p| p.x), range(|p| p.y)] }
+    }
+
+    fn cover(&self, rectangle: &Limits) -> Cover {
+        if (0..2).any(|axis| self.bounds[axis][0] >= rectangle[axis][1] || self.bounds[axis][1] <= rectangle[axis][0]) {
+            return Cover::Nothing;
         }
-        let sides = || shadow.iter().zip(shadow.iter().cycle().skip(1));
-        let inside = |p: &DVec2, (from, to): (&DVec2, &DVec2)| (*to - *from).perp_dot(*p - *from) >= 0.0;
-        if sides().any(|side| corners.iter().all(|p| !inside(p, side))) {
-            continue;
+        let corners = corners(rectangle);
+        let mut cover = Cover::All;
+        for (k, from) in self.outline.iter().enumerate() {
+            let along = self.outline[(k + 1) % self.outline.len()] - *from;
+            match corners.iter().filter(|p| along.perp_dot(**p - *from) >= 0.0).count() {
+                0 => return Cover::Nothing,
+                4 => {}
+                _ => cover = Cover::Part,
+            }
         }
-        if sides().all(|side| corners.iter().all(|p| inside(p, side))) {
-            return 0.0;
-        }
-        if pieces.is_empty() {
-            pieces.push(corners.to_vec());
-        }
-        pieces = without(pieces, shadow, NOTHING * whole);
-        if pieces.is_empty() {
-            return 0.0;
+        cover
+    }
+}
+
+const fn corners(&[[a, b], [c, d]]: &Limits) -> [DVec2; 4] {
+    [DVec2::new(a, c), DVec2::new(b, c), DVec2::new(b, d), DVec2::new(a, d)]
+}
+
+/// Writes the luminance of the cells of a part of the tree: what `shadows` leave of `sun`, all of them that may reach the part.
+/// \[cd/m²\]
+fn light_up(tree: &[Branch], part: usize, shadows: &[&Shadow<'_>], sun: f64, all: &mut [f64]) {
+    let Branch { limits, halves, values } = &tree[part];
+    let mut near = Vec::with_capacity(shadows.len());
+    for shadow in shadows {
+        match shadow.cover(limits) {
+            Cover::Nothing => {}
+            Cover::Part => near.push(*shadow),
+            Cover::All => return,
         }
     }
-    if pieces.is_empty() { 1.0 } else { pieces.iter().map(|piece| area(piece).abs()).sum::<f64>() / whole }
+    match halves {
+        Some(halves) if !near.is_empty() => halves.iter().for_each(|half| light_up(tree, *half, &near, sun, all)),
+        _ => all[values.clone()].fill(sun * lit_share(limits, &near)),
+    }
+}
+
+/// Share of a rectangle outside of all shadows.
+fn lit_share(rectangle: &Limits, shadows: &[&Shadow<'_>]) -> f64 {
+    if shadows.is_empty() {
+        return 1.0;
+    }
+    let whole = corners(rectangle).to_vec();
+    let size = area(&whole);
+    let clear = |pieces, shadow: &&Shadow<'_>| without(pieces, shadow.outline, NOTHING * size);
+    let lit: f64 = shadows.iter().fold(vec![whole], clear).iter().map(|piece| area(piece).abs()).sum();
+    lit / size
 }
 
 #[cfg(test)]
@@ -127,10 +174,21 @@ mod tests {
         let square = |a: f64, b: f64, c: f64, d: f64| {
             vec![DVec2::new(a, c), DVec2::new(b, c), DVec2::new(b, d), DVec2::new(a, d)]
         };
+        // Alone, and in cells of a quarter of its sides.
         let cell = [[0.0, 2.0], [0.0, 1.0]];
-        let lit = |shadows: &[Vec<DVec2>]| {
-            let bounds: Vec<Limits> = shadows.iter().map(|one| bounds(one)).collect();
-            lit_share(&cell, shadows, &bounds)
+        let lit = |shadows: &[Vec<DVec2>], least: f64| {
+            let halved = |panel: &Limits| {
+                let axis = usize::from(panel[1][1] - panel[1][0] > panel[0][1] - panel[0][0]);
+                let [low, high] = panel[axis];
+                (high - low > least).then_some((axis, 0.5 * (low + high)))
+            };
+            let cells = FaceLight::panelled(cell, true, &halved);
+            let shadows: Vec<Shadow<'_>> = shadows.iter().map(|outline| Shadow::new(outline)).collect();
+            let mut all = vec![0.0; cells.values().len()];
+            light_up(&cells.branches(cell), 0, &shadows.iter().collect::<Vec<_>>(), 1.0, &mut all);
+            let width = |[[a, b], [c, d]]: Limits| (b - a) * (d - c) / 2.0;
+            let panels = cells.branches(cell).into_iter().filter(|branch| branch.halves.is_none());
+            panels.map(|panel| all[panel.values.start] * width(panel.limits)).sum::<f64>()
         };
         let triangle = vec![DVec2::new(0.0, 0.0), DVec2::new(2.0, 0.0), DVec2::new(0.0, 1.0)];
         for (shadows, share) in [
@@ -143,7 +201,10 @@ mod tests {
             (vec![triangle.clone()], 0.5),
             (vec![triangle, square(-1.0, 3.0, 0.5, 3.0)], 0.125),
         ] {
-            assert!((lit(&shadows) - share).abs() < 1e-12, "{shadows:?}: {}", lit(&shadows));
+            for least in [2.0, 0.25] {
+                let lit = lit(&shadows, least);
+                assert!((lit - share).abs() < 1e-12, "{shadows:?} {least}: {lit}");
+            }
         }
     }
 }

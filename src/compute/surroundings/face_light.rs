@@ -1,5 +1,7 @@
 //! The luminance of one face: smooth light in panels of polynomials, the sun's as a constant with sharp shadows.
 
+use std::ops::Range;
+
 /// Nodes along each side of a panel.
 const NODES: usize = 3;
 /// Of a panel, places at which its polynomial is tried, as shares of its sides: between its nodes, and beyond them on
@@ -35,6 +37,17 @@ enum Part {
     /// A rectangle with so many nodes along each side, the first of their values, and what its polynomial is off between
     /// them in the mean. \[cd/m²\]
     Panel { limits: Limits, nodes: usize, first: usize, off: f64 },
+}
+
+/// A part of a face with all panels in it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Branch {
+    /// Its borders. \[m\]
+    pub limits: Limits,
+    /// Places of its halves in the tree; `None` for a panel.
+    pub halves: Option<[usize; 2]>,
+    /// Places of its values among those of the face.
+    pub values: Range<usize>,
 }
 
 /// A panel that is still to be judged.
@@ -250,15 +263,30 @@ impl FaceLight {
         places
     }
 
-    /// Limits of its panels of a single value, in the order of their values.
-    pub fn limits(&self) -> Vec<Limits> {
-        let mut all = vec![[[0.0; 2]; 2]; self.values.len()];
-        for part in &self.parts {
-            if let Part::Panel { limits, nodes: 1, first, .. } = part {
-                all[*first] = *limits;
+    /// Returns the tree of its panels, the whole of `limits` first, every part before its halves.
+    pub fn branches(&self, limits: Limits) -> Vec<Branch> {
+        let mut tree: Vec<Branch> = self.parts.iter().map(|_| Branch { limits, halves: None, values: 0..0 }).collect();
+        for (index, part) in self.parts.iter().enumerate() {
+            match part {
+                Part::Even(_) => {}
+                Part::Cut { axis, at, sides } => {
+                    tree[index].halves = Some(*sides);
+                    for (side, half) in sides.iter().enumerate() {
+                        tree[*half].limits = tree[index].limits;
+                        tree[*half].limits[*axis][1 - side] = *at;
+                    }
+                }
+                Part::Panel { nodes, first, .. } => tree[index].values = *first..first + nodes * nodes,
             }
         }
-        all
+        // One half was filled after the other: their values stand together.
+        for index in (0..tree.len()).rev() {
+            if let Some([a, b]) = tree[index].halves {
+                let (a, b) = (tree[a].values.clone(), tree[b].values.clone());
+                tree[index].values = a.start.min(b.start)..a.end.max(b.end);
+            }
+        }
+        tree
     }
 
     /// Its panels' values. \[cd/m²\]

@@ -32,8 +32,10 @@ use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// Skies whose sums are found at once.
-pub(in crate::study) const TOGETHER: usize = 32;
+/// Maximum number of skies whose sums are found at once.
+pub(in crate::study) const TOGETHER: usize = 128;
+/// Number of skies of which there are as many, or dark ones besides, so that no sky's sums hang on the number of others.
+const COLUMNS: usize = 32;
 
 /// One aperture.
 pub(super) struct AperturePart {
@@ -299,8 +301,8 @@ impl AperturePart {
     /// The same of many skies with all that its error needs.
     pub fn add_sums(&self, scene: &Scene, index: usize, skies: &[(&Outside, Way<'_>)], sums: &mut [Sums]) {
         for (skies, sums) in skies.chunks(TOGETHER).zip(sums.chunks_mut(TOGETHER)) {
-            // As many columns whatever is asked, so that no sky's sums hang on the others'.
-            let mut light = Mat::zeros(self.tables.ncols(), TOGETHER);
+            let columns = skies.len().next_multiple_of(COLUMNS);
+            let mut light = Mat::zeros(self.tables.ncols(), columns);
             let lights = match &self.sky {
                 // Together they cost less.
                 Seen::Behind(prepared, _) => {
@@ -313,7 +315,7 @@ impl AperturePart {
             for (column, light) in light.col_iter_mut().zip(lights) {
                 column.iter_mut().zip(light).for_each(|(to, e)| *to = (factor * e) as f32);
             }
-            let mut all: Mat<f32> = Mat::zeros(self.tables.nrows(), TOGETHER);
+            let mut all: Mat<f32> = Mat::zeros(self.tables.nrows(), columns);
             matmul(all.as_mut(), Accum::Replace, &self.tables, &light, 1.0, Par::Seq);
             for ((found, (outside, way)), sums) in all.col_iter().zip(skies).zip(sums) {
                 let parts = [&mut sums.total, &mut sums.reflected, &mut sums.doubtful, &mut sums.interpolated];
