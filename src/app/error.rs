@@ -78,7 +78,7 @@ pub enum AppError {
     HandOnEnding(&'static str),
     /// A tile's picture has no file.
     #[error("{}", shell::no_picture(.0))]
-    Picture(#[from] image::ImageError),
+    Picture(#[from] png::EncodingError),
     /// An error that is about a file of this name or path.
     #[error("{0}: {1}")]
     About(String, Box<Self>),

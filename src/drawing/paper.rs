@@ -53,16 +53,17 @@ impl Drawing {
     ///
     /// # Errors
     /// More pixels than a PNG can have.
-    pub fn to_png(&self) -> Result<Vec<u8>, image::ImageError> {
-        self.png(1.0)
+    pub fn to_png(&self) -> Result<Vec<u8>, png::EncodingError> {
+        self.png(1.0, None)
     }
 
-    /// As PNG bytes, so many pixels a unit.
+    /// Returns the drawing as PNG bytes with `scale` pixels a unit. `per_metre`: pixels a metre of paper, which the file then
+    /// states, where the picture has a size on paper.
     ///
     /// # Errors
-    /// More pixels than a PNG can have.
-    pub fn png(&self, scale: f64) -> Result<Vec<u8>, image::ImageError> {
-        self.raster(scale).to_png()
+    /// Returns an error if there are more pixels than a PNG can have.
+    pub fn png(&self, scale: f64, per_metre: Option<f64>) -> Result<Vec<u8>, png::EncodingError> {
+        self.raster(scale).to_png(per_metre)
     }
 
     /// Width, height and the pixels, row by row from above.
@@ -111,7 +112,7 @@ mod tests {
         let middle = 0.5 * f64::from(rows[0] + rows[rows.len() - 1]);
         assert!((middle - 21.5).abs() < 1.6 && rows.len() >= 8 && rows.len() <= 12, "{rows:?}");
         // Twice as fine.
-        let png = image::load_from_memory(&cross().png(2.0).unwrap()).unwrap().to_rgb8();
+        let png = image::load_from_memory(&cross().png(2.0, None).unwrap()).unwrap().to_rgb8();
         assert_eq!((png.dimensions(), png.get_pixel(68, 48).0), ((80, 60), [0, 0, 200]));
     }
 

@@ -2,7 +2,7 @@
 
 use super::font::{MIDDLE, outlines, width};
 use super::shape::{Point, Rgb, Shape};
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use png::{BitDepth, ColorType, Encoder, EncodingError, PixelDimensions, Unit};
 
 pub(super) struct Raster {
     pub(super) width: usize,
@@ -17,11 +17,19 @@ impl Raster {
         Self { width, height, pixels: vec![255; 3 * width * height], cover: vec![0.0; width * height] }
     }
 
-    pub(super) fn to_png(&self) -> Result<Vec<u8>, image::ImageError> {
+    /// Returns PNG bytes. `per_metre`: pixels a metre of paper, where the picture has a size on paper.
+    pub(super) fn to_png(&self, per_metre: Option<f64>) -> Result<Vec<u8>, EncodingError> {
         // More than a PNG can have fails in the encoder, which checks the bytes against the size.
         let [width, height] = [self.width, self.height].map(|size| u32::try_from(size).unwrap_or(u32::MAX));
         let mut bytes = Vec::new();
-        PngEncoder::new(&mut bytes).write_image(&self.pixels, width, height, ExtendedColorType::Rgb8)?;
+        let mut encoder = Encoder::new(&mut bytes, width, height);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Eight);
+        let density = per_metre.map(|dots| dots.round() as u32);
+        encoder.set_pixel_dims(density.map(|dots| PixelDimensions { xppu: dots, yppu: dots, unit: Unit::Meter }));
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.pixels)?;
+        writer.finish()?;
         Ok(bytes)
     }
 

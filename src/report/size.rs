@@ -89,8 +89,9 @@ impl Size {
     ///
     /// # Errors
     /// The picture cannot be encoded.
-    pub fn png(&self, drawing: &Drawing) -> Result<Vec<u8>, image::ImageError> {
-        drawing.png(self.pixels()[0] / drawing.width)
+    pub fn png(&self, drawing: &Drawing) -> Result<Vec<u8>, png::EncodingError> {
+        let per_metre = (self.unit == Unit::Millimetres).then_some(1000.0 * DOTS);
+        drawing.png(self.pixels()[0] / drawing.width, per_metre)
     }
 }
 
@@ -130,8 +131,17 @@ mod tests {
         assert_eq!((size.to_string(), size.paper()), ("160x120mm".to_owned(), [640.0, 480.0]));
         let drawing = Drawing::new(640.0, 480.0);
         assert!(size.svg(&drawing).contains("width=\"160mm\" height=\"120mm\""));
-        let png = image::load_from_memory(&size.png(&drawing).unwrap()).unwrap();
+        let bytes = size.png(&drawing).unwrap();
+        let png = image::load_from_memory(&bytes).unwrap();
         assert_eq!((png.width(), png.height()), (1890, 1417));
+        // 300 pixels an inch are 11 811 a metre; of a size in pixels nobody knows how large it is on paper.
+        let density = |bytes: &[u8]| {
+            let read = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+            read.info().pixel_dims.map(|dims| [dims.xppu, dims.yppu])
+        };
+        assert_eq!(density(&bytes), Some([11_811; 2]));
+        let size: Size = "800x600".parse().unwrap();
+        assert_eq!(density(&size.png(&Drawing::new(800.0, 600.0)).unwrap()), None);
         for wrong in ["", "1600", "ax3", "100x100", "9000x1000", "NaNx500", "-1600x1200", "10x10mm"] {
             let error = wrong.parse::<Size>().unwrap_err().to_string();
             assert!(error.contains("expected e.g. 1600x1200"), "{error}");

@@ -35,7 +35,7 @@ pub enum LuminaireFileError {
     Extension(String),
     /// The diagram could not be encoded.
     #[error("the diagram could not be encoded: {0}")]
-    Image(#[from] image::ImageError),
+    Image(#[from] png::EncodingError),
 }
 
 impl LidFormat {

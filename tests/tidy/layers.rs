@@ -24,7 +24,7 @@ const LAYERS: [Layer; 9] = [
     Layer {
         name: "compute",
         below: &[],
-        forbidden: &[DISK, WINDOW, TEXT, SHELL, &["std::io", "rusqlite", "image", "csv", "zip", "jiff"]],
+        forbidden: &[DISK, WINDOW, TEXT, SHELL, &["std::io", "rusqlite", "image", "png", "csv", "zip", "jiff"]],
         silent: true,
     },
     Layer {
