@@ -132,6 +132,8 @@ pub struct Choices {
     pub series: Series,
     /// Datasets as text (.btdf.txt) instead of BSDF XML.
     pub text: bool,
+    /// Tables with decimal commas and semicolons.
+    pub decimal_comma: bool,
 }
 
 impl Default for Choices {
@@ -153,6 +155,7 @@ impl Default for Choices {
             without_beam: false,
             series: Series::default(),
             text: false,
+            decimal_comma: false,
         }
     }
 }

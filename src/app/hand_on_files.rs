@@ -10,6 +10,7 @@ use crate::compute::direction::Incident;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::drawing::Drawing;
 use crate::drawing::colours::Inks;
+use crate::formats::decimal_comma::with_decimal_commas;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire_index::{self, Row};
 use crate::formats::write_dataset;
@@ -136,7 +137,10 @@ impl Order {
                 let lid = self.engine.lid(&self.question, progress)?;
                 self.engine.luminaire(&lid, path)?
             }
-            What::Table => self.numbers.clone().ok_or(AppError::NoNumbers)?.into_bytes(),
+            What::Table => {
+                let table = self.numbers.as_deref().ok_or(AppError::NoNumbers)?;
+                if choices.decimal_comma { with_decimal_commas(table) } else { table.as_bytes().to_vec() }
+            }
             What::Dataset => {
                 let dataset = self.dataset.as_deref().ok_or(AppError::NoProduct)?;
                 let written = write_dataset(choices.format(), std::slice::from_ref(dataset));

@@ -6,6 +6,7 @@ use super::writing::Over;
 use crate::formats::FileKind;
 use crate::study::control::year::{Moment, Moving, Situation, Summary, moving, summary, year};
 use crate::study::{Library, SystemLibrary as _, read_scene_file};
+use crate::texts::csv_cell;
 use anyhow::anyhow;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -110,17 +111,12 @@ fn csv(list: &[Moving], moments: &[Moment]) -> String {
         for (one, setting) in list.iter().zip(&moment.settings) {
             let psi = number(setting.profile_angle.map(f64::to_degrees));
             let passes = setting.passes.map_or("", |passes| if passes { "1" } else { "0" });
-            let key = field(&one.device.keys[setting.state]);
+            let key = csv_cell(&one.device.keys[setting.state]);
             let _ = write!(text, ",{psi},{},{key},{passes},{}", number(setting.demanded), setting.reason.word());
         }
         text.push('\n');
     }
     text
-}
-
-/// A text as a field of the table.
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 fn json(list: &[Moving], sums: &[Summary], situation: &Situation, step: u32) -> serde_json::Value {

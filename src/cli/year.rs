@@ -9,6 +9,7 @@ use crate::study::fingerprint::of_results;
 use crate::study::inputs::with_absolute_names;
 use crate::study::year::{Kept, PATIENCE, Step, Year, figures, opening, scene_at, year, year_kept};
 use crate::study::{Library, SceneFile, Session, StudyError, read_scene_file};
+use crate::texts::csv_cell;
 use anyhow::{Context as _, anyhow, bail};
 use jiff::civil::{Date, DateTime};
 use std::fmt::Write as _;
@@ -226,7 +227,7 @@ fn csv(year: &Year) -> String {
             number(hour.diffuse_horizontal)
         );
         for (one, &state) in year.moving.iter().zip(&year.states[k]) {
-            let _ = write!(text, ",{}", if hour.is_lit() { field(&one.device.keys[state]) } else { String::new() });
+            let _ = write!(text, ",{}", if hour.is_lit() { csv_cell(&one.device.keys[state]) } else { String::new() });
         }
         let own = row * places..(row + 1) * places;
         for value in [Some(&*year.light.values), Some(&*year.light.errors), sun]
@@ -260,9 +261,4 @@ fn csv(year: &Year) -> String {
         text.push('\n');
     }
     text
-}
-
-/// A text as a field of the table.
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

@@ -6,7 +6,7 @@ use super::colours::{ColourMap, ColourScale, Inks};
 use super::plot::{Axis, Plot, Unit};
 use super::ticks::number;
 use super::{Align, Drawing, Frame, Rgb, Shape, TEXT, font, legend};
-use crate::texts::{words::MONTHS, year as say};
+use crate::texts::{csv_cell, words::MONTHS, year as say};
 use std::fmt::Write as _;
 
 /// Days before each month of a common year, and of a leap year.
@@ -197,16 +197,13 @@ impl HourMap {
             Colours::Scale(_, unit) if !unit.is_empty() => format!(" ({unit})"),
             _ => String::new(),
         };
-        let quoted = |text: &str| {
-            if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-        };
-        let mut out = format!("month,day,start,{}\n", quoted(&format!("{}{unit}", self.name)));
+        let mut out = format!("month,day,start,{}\n", csv_cell(&format!("{}{unit}", self.name)));
         for cell in 0..self.values.len() {
             let (month, day, start) = self.date(cell);
             let value = match (&self.colours, self.values[cell]) {
                 (_, value) if value.is_nan() => String::new(),
                 (Colours::Scale(..), value) => value.to_string(),
-                (Colours::Names(names), value) => quoted(names.get(value as usize).map_or("", String::as_str)),
+                (Colours::Names(names), value) => csv_cell(names.get(value as usize).map_or("", String::as_str)),
             };
             // Writing to a String cannot fail.
             let _ = writeln!(out, "{month},{day},{:02}:{:02},{value}", start / 60, start % 60);

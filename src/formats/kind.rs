@@ -96,15 +96,18 @@ fn is_json(text: &str) -> bool {
 fn is_csv(text: &str) -> bool {
     // The last line may be cut.
     let whole = text.rfind('\n').map_or(text, |end| &text[..end]);
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(whole.as_bytes());
-    let mut records = reader.records();
     let named = |record: &csv::StringRecord| {
         record.len() > 1
             && record.iter().all(|name| !name.contains('='))
             && record.iter().any(|name| name.contains(char::is_alphabetic))
     };
-    records.next().is_some_and(|first| first.is_ok_and(|first| named(&first)))
-        && records.take(100).all(|one| one.is_ok())
+    b",;".iter().any(|delimiter| {
+        let mut builder = csv::ReaderBuilder::new();
+        let mut reader = builder.has_headers(false).delimiter(*delimiter).from_reader(whole.as_bytes());
+        let mut records = reader.records();
+        records.next().is_some_and(|first| first.is_ok_and(|first| named(&first)))
+            && records.take(100).all(|one| one.is_ok())
+    })
 }
 
 #[cfg(test)]
@@ -137,6 +140,7 @@ mod tests {
     #[test]
     fn a_cut_table_is_one_and_prose_is_none() {
         assert!(FileKind::Csv.may_be(&TABLE.as_bytes()[..TABLE.len() - 3]));
+        assert!(FileKind::Csv.may_be(&super::super::decimal_comma::with_decimal_commas(TABLE)));
         assert!(!FileKind::Csv.may_be(b"Dear colleague,\nhere are, as asked, the numbers.\n"));
         assert!(!FileKind::Csv.may_be(b"a = 1,2\n"));
         assert!(!FileKind::Csv.may_be(b""));

@@ -10,6 +10,7 @@ pub mod btdf_text;
 pub mod compact_rows;
 pub mod control_curve;
 pub mod dataset_blob;
+pub mod decimal_comma;
 pub mod encoding;
 pub mod eulumdat;
 mod family;

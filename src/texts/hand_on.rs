@@ -179,6 +179,8 @@ texts! {
     const SERIES = "Luminaire series" | "Leuchtenserie";
     const SERIES_TIP = "A luminaire file for each of many hours and states, with an index" | "Eine Leuchtendatei für jede von vielen Stunden und Stellungen, mit Verzeichnis";
     const TABLE = "Table" | "Tabelle";
+    const DECIMAL_COMMA = "Decimal commas, semicolons between fields" | "Dezimalkommas, Semikolons zwischen den Feldern";
+    const DECIMAL_COMMA_TIP = "As a German Excel opens the table by a double click" | "Wie ein deutsches Excel die Tabelle mit einem Doppelklick öffnet";
     const TABLE_TIP = "The numbers of a tile (.csv)" | "Die Zahlen einer Kachel (.csv)";
     const DATASET = "Dataset" | "Datensatz";
     const DATASET_TIP = "The scattering data of the state that is shown" | "Die Streudaten der Stellung, die zu sehen ist";

@@ -7,9 +7,11 @@
 //! What comes from data (names of products, paths) and units are no texts. Names of things are the field's own:
 //! CIE S 017 (ILV) and DIN 5034 for German.
 
+mod csv_cell;
 mod plain;
 mod spoken;
 
+pub use csv_cell::{csv_cell, inert_cell};
 pub use plain::{message, one_line, short_numbers, visible};
 pub use spoken::{Language, Speaking, Text, decimal, decimal_sign, fixed, language, speak};
 

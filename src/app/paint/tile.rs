@@ -271,8 +271,3 @@ pub fn name(ui: &Ui, response: &egui::Response, name: impl Into<String>, value: 
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name.as_str()));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(value));
 }
-
-/// A CSV field: quoted when it must be.
-pub fn csv_field(text: &str) -> String {
-    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}

@@ -5,6 +5,7 @@ use crate::app::hand_on::{Choices, MOST_FILES, Preview, ReportKind, What};
 use crate::app::jobs::Lane;
 use crate::app::state::PathUse;
 use crate::app::theme;
+use crate::app::typed_path::typed_path;
 use crate::app::window::App;
 use crate::report::size::Unit;
 use crate::report::tender::spoken;
@@ -12,7 +13,6 @@ use crate::report::{Size, TileKind};
 use crate::texts::words::MONTHS;
 use crate::texts::{Text, hand_on as texts, stages};
 use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, TextureOptions, Ui, vec2};
-use std::path::PathBuf;
 
 /// Height of the fields of longer texts. \[rows\]
 const ROWS: usize = 5;
@@ -89,7 +89,10 @@ fn options(ui: &mut Ui, choices: &mut Choices, candidates: usize) {
             luminaire(ui, choices);
             series(ui, choices);
         }
-        What::Table => tiles(ui, choices),
+        What::Table => {
+            tiles(ui, choices);
+            ui.checkbox(&mut choices.decimal_comma, texts::DECIMAL_COMMA.get()).on_hover_text(texts::DECIMAL_COMMA_TIP);
+        }
         What::Dataset => {
             ui.horizontal_wrapped(|ui| {
                 ui.selectable_value(&mut choices.text, false, ".xml").on_hover_text(texts::XML_TIP);
@@ -195,7 +198,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     if text != state.path {
         commands.push(Command::EditPath(text.clone()));
     }
-    let path = PathBuf::from(text.trim());
+    let path = typed_path(&text);
     let ready = !text.trim().is_empty();
     if state.replace.as_ref() == Some(&path) {
         let words = if state.settings.hand_on.what == What::Series { texts::THESE_EXIST } else { texts::THIS_EXISTS };

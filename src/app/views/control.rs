@@ -12,7 +12,7 @@ use crate::app::paint::plot::{self, LEFT, Look, Shown};
 use crate::app::paint::tile::{self, Words};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::{number, tick};
-use crate::texts::tiles as say;
+use crate::texts::{csv_cell, tiles as say};
 use egui::{
     Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, pos2, vec2,
 };
@@ -293,8 +293,7 @@ pub fn csv(input: &Input<'_>) -> String {
     let mut out = String::from("day,hour,state,value\n");
     for (k, index) in input.year.iter().enumerate() {
         let state = index.and_then(|i| input.states.get(usize::from(i)));
-        let (key, value) =
-            state.map_or((String::new(), String::new()), |s| (tile::csv_field(&s.key), s.value.to_string()));
+        let (key, value) = state.map_or((String::new(), String::new()), |s| (csv_cell(&s.key), s.value.to_string()));
         let _ = writeln!(out, "{},{},{key},{value}", k / 24 + 1, k % 24);
     }
     out

@@ -2,7 +2,7 @@
 //! errors together.
 
 use super::figures::{Facts, Figure, Sense, Value};
-use crate::texts::{Language, compare as texts, speak};
+use crate::texts::{Language, compare as texts, csv_cell, speak};
 
 /// What a row says of its values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,17 +74,13 @@ pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
     }
 }
 
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
-
 /// The rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`; its words are English, as in
 /// all data files.
 pub fn csv(rows: &[Row], names: &[String]) -> String {
     let _english = speak(Language::English);
     let mut out = String::from("figure,unit,better_is");
     for name in names {
-        out.push_str(&format!(",{},{}", field(name), field(&format!("error of {name}"))));
+        out.push_str(&format!(",{},{}", csv_cell(name), csv_cell(&format!("error of {name}"))));
     }
     out.push_str(",better\n");
     let number = |value: Option<f64>| value.map(|value| format!("{value:.6}")).unwrap_or_default();
@@ -94,7 +90,7 @@ pub fn csv(rows: &[Row], names: &[String]) -> String {
             let error = value.and_then(|value| value.error);
             out.push_str(&format!(",{},{}", number(value.map(|value| value.value)), number(error)));
         }
-        out.push_str(&format!(",{}\n", field(&verdict_words(&row.verdict, names))));
+        out.push_str(&format!(",{}\n", csv_cell(&verdict_words(&row.verdict, names))));
     }
     out
 }

@@ -3,6 +3,7 @@
 use super::list::{List, Row};
 use super::words::why;
 use crate::drawing::ticks::nine_digits;
+use crate::texts::inert_cell;
 
 /// Columns before the figures.
 pub const WHERE: [&str; 4] = ["scene", "climate", "azimuth", "product"];
@@ -65,7 +66,9 @@ pub fn ranked_table(lists: &[List], figures: &[String]) -> Vec<Vec<String>> {
 pub fn csv_text(rows: &[Vec<String>]) -> String {
     let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
     for row in rows {
-        writer.write_record(row).expect("memory takes all that is written to it");
+        writer
+            .write_record(row.iter().map(|text| inert_cell(text).into_owned()))
+            .expect("memory takes all that is written to it");
     }
     let bytes = writer.into_inner().expect("memory takes all that is written to it");
     String::from_utf8(bytes).expect("it was made of text")

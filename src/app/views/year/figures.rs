@@ -54,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
 
 /// Section, name, value, error, lowest and highest of the sensors, unit, what limits say. Shares are 0 … 1.
 pub(super) fn csv(rows: &[Row]) -> String {
-    let quoted = crate::app::paint::tile::csv_field;
+    let quoted = crate::texts::csv_cell;
     let mut out = String::from("section,figure,value,error,lowest,highest,unit,said\n");
     for row in rows {
         let [low, high] = row.between.map_or_else(Default::default, |ends| ends.map(|end| end.to_string()));
