@@ -3,6 +3,7 @@
 use super::error::AppError;
 use super::state::PathUse;
 use crate::texts::{Text, shell};
+use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 /// Asks the user for paths.
@@ -18,16 +19,58 @@ pub trait FileDialogs: Send + Sync {
 }
 
 /// The desktop's own dialogs.
-pub struct NativeDialogs;
+pub struct NativeDialogs(());
+
+thread_local! {
+    /// Whether the last dialog of this thread could not be shown.
+    static REFUSED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Hears from the dialog library that neither the desktop's portal nor zenity answers: without a result it tells that in no
+/// other way from a dialog that was closed.
+struct Ear;
+
+impl log::Log for Ear {
+    fn enabled(&self, what: &log::Metadata<'_>) -> bool {
+        what.level() == log::Level::Error && what.target().starts_with("rfd")
+    }
+
+    fn log(&self, record: &log::Record<'_>) {
+        if self.enabled(record.metadata()) && record.args().to_string().contains("zenity") {
+            REFUSED.set(true);
+        }
+    }
+
+    fn flush(&self) {}
+}
+
+impl NativeDialogs {
+    /// Returns the dialogs, and listens from now on to what their library says.
+    pub fn listening() -> Self {
+        // Where somebody else listens already, a dialog that cannot be shown looks closed.
+        if log::set_logger(&Ear).is_ok() {
+            log::set_max_level(log::LevelFilter::Error);
+        }
+        Self(())
+    }
+
+    /// Shows a dialog and returns what was chosen, or that it could not be shown.
+    fn shown<T>(dialog: impl FnOnce() -> Option<T>) -> Result<Option<T>, AppError> {
+        REFUSED.set(false);
+        let chosen = dialog();
+        if REFUSED.get() { Err(AppError::NoDialog) } else { Ok(chosen) }
+    }
+}
 
 impl FileDialogs for NativeDialogs {
     fn open(&self) -> Result<Vec<PathBuf>, AppError> {
         let dialog = rfd::FileDialog::new().set_title(shell::DIALOG_OPEN).add_filter(shell::ALL_FILES, &["*"]);
-        Ok(dialog.pick_files().unwrap_or_default())
+        Ok(Self::shown(|| dialog.pick_files())?.unwrap_or_default())
     }
 
     fn open_folder(&self, title: Text) -> Result<Vec<PathBuf>, AppError> {
-        Ok(rfd::FileDialog::new().set_title(title).pick_folders().unwrap_or_default())
+        let dialog = rfd::FileDialog::new().set_title(title);
+        Ok(Self::shown(|| dialog.pick_folders())?.unwrap_or_default())
     }
 
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError> {
@@ -55,7 +98,7 @@ impl FileDialogs for NativeDialogs {
                 dialog.add_filter(shell::SCENE, &["toml"])
             }
         };
-        Ok(dialog.save_file())
+        Self::shown(|| dialog.save_file())
     }
 }
 

@@ -5,7 +5,9 @@ use super::command::Command;
 use super::dialogs::NativeDialogs;
 use super::offer::pressed;
 use super::restoring::sessions_folder;
+use super::text_size::SMALLEST_WINDOW;
 use super::window::{App, Services};
+use super::window_place::{bring_on_screen, mend_saved};
 use super::{language, panels, theme, title};
 use crate::catalogue::SourceFile;
 use crate::study::{Library, fault};
@@ -27,6 +29,10 @@ impl App {
         }
         self.follow_text_size(ctx);
         self.poll();
+        // Another window or the command line may have changed the catalogue meanwhile.
+        if ctx.input(|input| input.events.contains(&egui::Event::WindowFocused(true))) {
+            self.search();
+        }
         self.write_exports();
         for command in pressed(ctx) {
             self.apply(command);
@@ -96,6 +102,9 @@ impl eframe::App for App {
     }
 }
 
+/// Name under which the desktop knows the window, and the folder of what is kept of it.
+const APP_ID: &str = "cfs";
+
 /// The window's icon, as desktops show it that have no desktop file of ours.
 const ICON: &[u8] = include_bytes!("../../assets/desktop/cfs-256.png");
 
@@ -106,19 +115,23 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     let sessions = sessions_folder();
     let icon =
         eframe::icon_data::from_png_bytes(ICON).map_err(|error| anyhow::anyhow!("the window's icon: {error}"))?;
+    if let Some(folder) = eframe::storage_dir(APP_ID) {
+        mend_saved(&folder.join("app.ron"));
+    }
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_inner_size([1280.0, 720.0])
-            .with_min_inner_size([960.0, 600.0])
+            .with_min_inner_size(SMALLEST_WINDOW)
             .with_title("cfs")
             .with_icon(icon)
-            .with_app_id("cfs"),
+            .with_app_id(APP_ID),
         ..Default::default()
     };
     eframe::run_native(
         "cfs",
         options,
         Box::new(move |cc| {
+            bring_on_screen(cc);
             let settings = cc
                 .storage
                 .and_then(|storage| storage.get_string(SETTINGS_KEY))
@@ -128,7 +141,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
             let services = Services {
                 open_catalogue: Arc::new(move || open_shelf(catalogue.as_deref())),
                 read: SourceFile::read,
-                dialogs: Arc::new(NativeDialogs),
+                dialogs: Arc::new(NativeDialogs::listening()),
                 engine: Arc::new(StudyEngine::new(library.clone())),
             };
             let mut app = App::new(services, settings);
@@ -141,5 +154,29 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
             Ok(Box::new(app))
         }),
     )
-    .map_err(|error| anyhow::anyhow!("the window cannot be opened: {error}"))
+    .map_err(|error| anyhow::anyhow!(no_window(&error.to_string())))
+}
+
+/// Says why there is no window, without the place in a library's code where that was found, and what works without one.
+fn no_window(error: &str) -> String {
+    let placed = error.split_once("os error at ").and_then(|(_, rest)| rest.split_once(": "));
+    let reason = placed.map_or(error, |(_, reason)| reason).trim_end_matches('.');
+    format!("the window cannot be opened: {reason}; without a display use the commands that cfs --help lists")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_display_one_line_names_the_way_out() {
+        let of_winit =
+            "winit EventLoopError: os error at /src/linux/mod.rs:765: neither WAYLAND_DISPLAY nor DISPLAY is set.";
+        assert_eq!(
+            no_window(of_winit),
+            "the window cannot be opened: neither WAYLAND_DISPLAY nor DISPLAY is set; without a display use the commands that \
+             cfs --help lists"
+        );
+        assert!(no_window("no OpenGL: none").starts_with("the window cannot be opened: no OpenGL: none; "));
+    }
 }

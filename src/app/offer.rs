@@ -23,7 +23,7 @@ use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};
 use crate::texts::tiles as tiles_say;
 use crate::texts::{self, Language::English, Text, catalogue, choose, language, scene, shell, speak, year};
-use egui::{Key, KeyboardShortcut, Modifiers};
+use egui::{Event, Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
 /// The menus, in the order of the bar.
@@ -358,6 +358,10 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     // Egui matches Ctrl+Z also while Shift is down: ask for the longer combination first.
     list.sort_by_key(|(keys, _)| std::cmp::Reverse((keys.modifiers.command, keys.modifiers.shift)));
     ctx.input_mut(|input| {
+        let offered = |key, held: Modifiers| {
+            list.iter().any(|(keys, _)| keys.logical_key == key && held.matches_logically(keys.modifiers))
+        };
+        input.events.iter_mut().for_each(|event| digit_by_place(event, offered));
         let mut pressed: Vec<(KeyboardShortcut, &Command)> =
             list.into_iter().filter(|(keys, _)| input.consume_shortcut(keys)).collect();
         // What is typed after it, in a frame that takes its time, is meant for the field that it opens.
@@ -373,9 +377,40 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     })
 }
 
+/// Takes a key of the row of digits for its digit where the keyboard has a sign there without Shift, as in France and Bohemia,
+/// that is nothing `offered`. What else a key with a digit on it may be stays: the number pad moves the cursor, too.
+fn digit_by_place(event: &mut Event, offered: impl Fn(Key, Modifiers) -> bool) {
+    let Event::Key { key, physical_key: Some(place), modifiers, .. } = event else { return };
+    let sign = matches!(key, Key::Quote | Key::Minus | Key::Plus | Key::Exclamationmark);
+    let digit = (Key::Num0..=Key::Num9).contains(place);
+    if sign && digit && !modifiers.shift && !offered(*key, *modifiers) {
+        *key = *place;
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn digits_are_where_they_stand_on_the_keyboard() {
+        let pressed_at = |key: Key, place: Key, modifiers: Modifiers| {
+            let ctx = egui::Context::default();
+            let event = Event::Key { key, physical_key: Some(place), pressed: true, repeat: false, modifiers };
+            let input = egui::RawInput { events: vec![event], modifiers, ..Default::default() };
+            let mut commands = Vec::new();
+            let _ = ctx.run_ui(input, |ui| commands = pressed(ui.ctx()));
+            commands
+        };
+        let fourth = pressed_at(Key::Num4, Key::Num4, Modifiers::NONE);
+        assert!(matches!(fourth[..], [Command::Maximise(Some(_))]), "{fourth:?}");
+        // France, where ' is on the key of the 4; with Shift it is a 4 itself.
+        assert_eq!(pressed_at(Key::Quote, Key::Num4, Modifiers::NONE), fourth);
+        // A minus with Ctrl is something else wherever it stands, and the number pad's 4 moves to the left.
+        let smaller = pressed_at(Key::Minus, Key::Minus, Modifiers::COMMAND);
+        assert_eq!(pressed_at(Key::Minus, Key::Num6, Modifiers::COMMAND), smaller);
+        assert_ne!(pressed_at(Key::ArrowLeft, Key::Num4, Modifiers::NONE), fourth);
+    }
 
     #[test]
     fn keys_are_written_as_on_the_keyboard() {

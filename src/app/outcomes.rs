@@ -189,6 +189,8 @@ impl App {
             Outcome::Surfaces(result) => self.results.surfaces.take(result),
             Outcome::Compared(id, what) => self.compare.take(id, *what),
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
+            // Who pressed a button for it sees nothing else.
+            Outcome::Target(PathUse::HandOn, Err(error)) => self.toasts.info(error.to_string()),
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
             // Chosen, not yet written: the preview goes on.

@@ -9,6 +9,10 @@ pub const SIZES: [f32; 8] = [0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0];
 /// The least window in which everything can be read at the desktop's own size. \[points\]
 pub const LEAST_WINDOW: Vec2 = Vec2::new(960.0, 600.0);
 
+/// Minimum size of the window, with text of the smallest size: that which a screen of 1366 × 768 pixels shown at 150 % leaves
+/// beside a task bar and the window's title. \[points of the desktop\]
+pub const SMALLEST_WINDOW: Vec2 = Vec2::new(768.0, 440.0);
+
 /// Another text size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextSize {
@@ -31,11 +35,11 @@ impl TextSize {
     }
 }
 
-/// The largest of the sizes up to the wanted one for which a window of this size \[points of the desktop\] has room; the
-/// desktop's own, or a smaller one that is wanted, has it always.
+/// Returns the largest of the sizes up to the wanted one for which a window of this size \[points of the desktop\] has room, or
+/// else the smallest.
 pub fn fitting(wanted: f32, window: Vec2) -> f32 {
     let most = (window / LEAST_WINDOW).min_elem();
-    let fits = |size: &f32| *size <= wanted + 1e-3 && (*size <= 1.0 || *size <= most + 1e-3);
+    let fits = |size: &f32| *size <= wanted + 1e-3 && *size <= most + 1e-3;
     SIZES.into_iter().rev().find(fits).unwrap_or(SIZES[0])
 }
 
@@ -61,8 +65,9 @@ mod tests {
         assert_eq!(fitting(2.0, vec2(1920.0, 1200.0)), 2.0);
         assert_eq!(fitting(1.25, vec2(1920.0, 1200.0)), 1.25);
         assert_eq!(fitting(0.8, vec2(1920.0, 1200.0)), 0.8);
-        // A window of a tiny screen, and a file that says nonsense.
-        assert_eq!(fitting(1.5, vec2(640.0, 480.0)), 1.0);
+        // Windows of small screens, and a file that says nonsense.
+        assert_eq!(fitting(1.0, vec2(900.0, 560.0)), 0.9);
+        assert_eq!(fitting(1.5, SMALLEST_WINDOW), 0.8);
         assert_eq!(fitting(0.0, LEAST_WINDOW), 0.8);
         assert_eq!(fitting(f32::NAN, LEAST_WINDOW), 0.8);
     }

@@ -7,6 +7,7 @@ use super::jobs::Lane;
 use super::naming::start_path;
 use super::shelving::Shelving;
 use super::state::{PathUse, Sheet, Tile};
+use super::typed_path::with_ending;
 use super::window::App;
 use super::work::{Outcome, export_lid, save_scene};
 use crate::texts::hand_on as texts;
@@ -40,6 +41,7 @@ impl App {
 
     /// Writes where nothing is yet; else the sheet asks.
     pub(super) fn write_new(&mut self, what: PathUse, path: PathBuf) {
+        let path = with_ending(&self.state, what, path);
         if matches!(what, PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe) {
             return self.write(what, path);
         }

@@ -187,7 +187,7 @@ texts! {
     fn not_text(encoding, byte, what) = "it is {encoding} from byte {byte} on; {what} is a text file in UTF-8" | "Ab Byte {byte} ist es {encoding}; erwartet wird eine Textdatei in UTF-8 ({what})";
     fn tile_ending(ending) = "the ending \"{ending}\" is none that a tile's numbers are written as: use .csv; pictures are handed on by Ctrl+E" | "in der Endung „{ending}“ werden keine Zahlen einer Kachel geschrieben: .csv verwenden; Bilder gibt Strg+E weiter";
     const MEASURED_ENDING = "an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt" | "in dieser Endung wird nichts geschrieben; möglich sind .cfsp (alle Stellungen), .xml oder .btdf.txt";
-    const NO_DIALOG = "no file dialog here" | "hier gibt es keinen Dateidialog";
+    const NO_DIALOG = "The desktop shows no file dialog (neither its portal nor zenity answers): type the path" | "Der Desktop zeigt keinen Dateidialog (weder sein Portal noch zenity antwortet): Pfad eintippen";
     fn product_in_state(product, state) = "{product}, state {state}" | "{product}, Stellung {state}";
     fn no_state(product) = "{product} has no state: import it again" | "{product} hat keine Stellung: erneut importieren";
     const NO_STATES = "the system has no states: give it at least one angle" | "das System hat keine Stellungen: mindestens einen Winkel angeben";

@@ -34,8 +34,8 @@ fn state<'a>(harness: &'a Harness<'_, App>) -> &'a State {
     &harness.state().state
 }
 
-/// Stores a product whose datasets have a name of their own, as a maker's file has.
-fn add(harness: &mut Harness<'_, App>, name: &str, states: &[(&str, f64)]) -> String {
+/// Stores a product whose datasets have a name of their own, as a maker's file has; the window does not know of it.
+fn store(harness: &Harness<'_, App>, name: &str, states: &[(&str, f64)]) -> String {
     let dataset = |(key, tau): &(&str, f64)| {
         let mut dataset = Dataset { name: "Single Clear45".to_owned(), state: (*key).to_owned(), ..Dataset::default() };
         dataset.visible.transmission_front = Some(Btdf::ideal_diffuse(*tau));
@@ -43,9 +43,26 @@ fn add(harness: &mut Harness<'_, App>, name: &str, states: &[(&str, f64)]) -> St
     };
     let product = NewProduct { name: name.to_owned(), kind: "venetian".to_owned(), ..NewProduct::default() };
     let datasets = states.iter().map(dataset).collect();
-    let key = state(harness).shelf().unwrap().add(&Addition { datasets, product }).unwrap();
+    state(harness).shelf().unwrap().add(&Addition { datasets, product }).unwrap()
+}
+
+/// Stores such a product and lists it.
+fn add(harness: &mut Harness<'_, App>, name: &str, states: &[(&str, f64)]) -> String {
+    let key = store(harness, name, states);
     find(harness, "");
     key
+}
+
+#[test]
+fn a_list_that_was_changed_from_outside_is_renewed_when_the_window_is_used_again() {
+    let mut h = window();
+    store(&h, "My venetian 45", &[("", 0.4)]);
+    settle(&mut h);
+    let is_listed = |h: &Harness<'_, App>| state(h).found.entries.iter().any(|entry| entry.name == "My venetian 45");
+    assert!(!is_listed(&h));
+    h.event(egui::Event::WindowFocused(true));
+    settle(&mut h);
+    assert!(is_listed(&h));
 }
 
 #[test]

@@ -7,11 +7,11 @@ use crate::app::jobs::Lane;
 use crate::app::offer::{key_words, listed};
 use crate::app::state::{CatalogueState, PathUse, Sheet, State};
 use crate::app::theme;
+use crate::app::typed_path::typed_path;
 use crate::app::views::accuracy;
 use crate::app::window::App;
 use crate::texts::{catalogue as texts, shell};
 use egui::{Id, Key, RichText, ScrollArea, TextEdit, Ui};
-use std::path::PathBuf;
 
 /// Draws the sheet that is open.
 pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command>) {
@@ -125,7 +125,7 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
     }
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     let ready = !text.trim().is_empty();
-    let path = PathBuf::from(text.trim());
+    let path = typed_path(&text);
     if state.replace.as_ref() == Some(&path) {
         ui.colored_label(theme::palette(ui).warning, shell::EXISTS);
         ui.horizontal(|ui| {

@@ -4,6 +4,7 @@ use crate::app::moment;
 use crate::app::panels::fields::{figure, lines, number, optional};
 use crate::app::scene::follow;
 use crate::app::theme;
+use crate::app::typed_path::typed_path;
 use crate::compute::sky::availability::Cover;
 use crate::study::scene_file::{IlluminanceKey, LightKey, OffsetKey, SceneFile, SkyKeys, SkyModelKey};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};
@@ -181,7 +182,7 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
             let name = ui.label(texts::SCAN_FILE);
             let field = ui.add(TextEdit::singleline(&mut path).desired_width(f32::INFINITY)).labelled_by(name.id);
             if field.changed() {
-                sky.file = Some(path.into());
+                sky.file = Some(typed_path(&path));
             }
         }
         SkyModelKey::Uniform => {}

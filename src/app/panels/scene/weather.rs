@@ -5,6 +5,7 @@ use crate::app::panels::fields::{lines, number, typed};
 use crate::app::state::Shown;
 use crate::app::theme;
 use crate::app::title::coordinates;
+use crate::app::typed_path::typed_path;
 use crate::app::views::calendar;
 use crate::app::year::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
 use crate::compute::weather::Station;
@@ -16,7 +17,6 @@ use crate::study::weather::{YEARS, short_name, warning_words, words};
 use crate::study::year_keys::{DaysKey, LampControlKey, YearKeys};
 use crate::texts::{Text, fixed, one_line, year as texts};
 use egui::{ComboBox, Label, RichText, Ui};
-use std::path::PathBuf;
 
 /// The weather as it was read, and how it is looked at.
 pub struct Weather<'a> {
@@ -72,7 +72,7 @@ fn choice(ui: &mut Ui, scene: &SceneFile, commands: &mut Vec<Command>) {
     combo.response.on_hover_text(texts::WEATHER_TIP).accessible_name(texts::WEATHER.get());
     let read = |text: &str| match text.trim() {
         "" => Err(texts::WEATHER_TIP.to_string()),
-        name => Ok(PathBuf::from(name)),
+        name => Ok(typed_path(name)),
     };
     let path = if chosen.is_some() { shown } else { String::new() };
     if let Some(name) = typed(ui, texts::WEATHER, &path, texts::WEATHER_PATH_TIP, read) {
