@@ -5,7 +5,7 @@ use crate::catalogue::CatalogueError;
 use crate::compute::doctor::RepairError;
 use crate::formats::FormatError;
 use crate::formats::control_curve::CurveError;
-use crate::formats::encoding::NotText;
+use crate::formats::encoding::{Encoding, NotText};
 use crate::report::ReportError;
 use crate::study::StudyError;
 use crate::study::fault::Fault;
@@ -23,6 +23,14 @@ pub enum JobError {
     /// It was never started; what the system says.
     #[error("{}", shell::no_thread(.0))]
     NoThread(String),
+}
+
+/// Says why bytes are not the text of `what`.
+fn not_text(error: &NotText, what: &str) -> String {
+    match error.encoding {
+        Encoding::WebPage => shell::web_page(what),
+        encoding => shell::not_text(encoding.name(), error.byte, what),
+    }
 }
 
 /// Why the window could not do what it was asked.
@@ -82,8 +90,8 @@ pub enum AppError {
     /// An error that is about a file of this name or path.
     #[error("{0}: {1}")]
     About(String, Box<Self>),
-    /// Bytes where text in UTF-8 is expected: what they are, and what is expected, e.g. `a scene`.
-    #[error("{}", shell::not_text(.0.encoding.name(), .0.byte, .1))]
+    /// Bytes where text is expected: what they are, and what is expected, e.g. `a scene`.
+    #[error("{}", not_text(.0, .1))]
     NotText(NotText, &'static str),
     /// An ending other than that of a tile's numbers.
     #[error("{}", shell::tile_ending(.0))]

@@ -9,7 +9,7 @@ use super::work::{Outcome, ReadDataset};
 use crate::catalogue::Grouping;
 use crate::compute::estimate::Progress;
 use crate::formats::control_curve::read_control_curve;
-use crate::formats::encoding::utf8;
+use crate::formats::encoding::decode;
 use crate::study::intake::{Single, take_in};
 use crate::study::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
@@ -31,8 +31,8 @@ pub struct Asked {
 
 fn text_of(path: &Path, what: &'static str) -> Result<String, AppError> {
     let bytes = read_bytes(path)?;
-    let text = utf8(&bytes).map_err(|error| AppError::NotText(error, what).about(path.display()))?;
-    Ok(text.to_owned())
+    let text = decode(&bytes).map_err(|error| AppError::NotText(error, what).about(path.display()))?;
+    Ok(text.into_owned())
 }
 
 /// Reads a file that is opened by itself.

@@ -6,7 +6,7 @@ use super::progress::TerminalProgress;
 use super::writing::Over;
 use crate::drawing::colours::Inks;
 use crate::formats::FileKind;
-use crate::formats::encoding::utf8;
+use crate::formats::encoding::decode;
 use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
 use crate::report::study::{Study, pages as study_pages};
@@ -85,7 +85,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
         bail!("--out {}: a report is written as .pdf", out.display());
     }
     let template = match &args.tender {
-        Some(path) => utf8(&files::read(path)?).with_context(|| path.display().to_string())?.to_owned(),
+        Some(path) => decode(&files::read(path)?).with_context(|| path.display().to_string())?.into_owned(),
         None => tender::TEMPLATE.to_owned(),
     };
     args.over.check([Path::new(what)], Some(out), FileKind::Pdf)?;

@@ -3,7 +3,7 @@
 //! Read: separated by commas, semicolons, tabs or blanks; a header, which may name further columns, or two bare columns
 //! in this order; comments from `#` on. Not read: decimal commas, units other than degrees.
 
-use super::encoding::{NotText, TooLong, not_too_long, utf8};
+use super::encoding::{NotText, TooLong, decode, not_too_long};
 
 /// Most points that a curve may have.
 const MOST_POINTS: usize = 10_000;
@@ -54,7 +54,7 @@ pub enum CurveError {
 
 /// Reads (profile angle \[°\], value) points.
 pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
-    let text = utf8(not_too_long(bytes)?)?;
+    let text = decode(not_too_long(bytes)?)?;
     let mut columns = [0, 1];
     let mut points: Vec<[f64; 2]> = Vec::new();
     let mut first = true;
@@ -131,6 +131,7 @@ mod tests {
             let error = read_control_curve(text.as_bytes()).unwrap_err().to_string();
             assert!(error.contains(words), "{text:?}: {error}");
         }
-        assert!(matches!(read_control_curve(&[0x30, 0xff]), Err(CurveError::NotText(NotText { byte: 1, .. }))));
+        assert!(matches!(read_control_curve(&[0x00, 0xff]), Err(CurveError::NotText(NotText { byte: 1, .. }))));
+        assert_eq!(read_control_curve(b"# \xb0\r0,1\r5,2e-0001\r").unwrap(), [[0.0, 1.0], [5.0, 0.2]]);
     }
 }

@@ -1,6 +1,10 @@
-//! How a file's text is encoded: what is not UTF-8 is called by its name.
+//! How a file's text is encoded: UTF-8, UTF-16 and Latin-1 are read, with any line ends; everything else, and a web page
+//! that was saved in place of a file, is called by its name.
 
+use crate::compute::btdf::Finding;
 use crate::compute::limits;
+use std::borrow::Cow;
+use std::fmt;
 
 /// How text is encoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -11,6 +15,8 @@ pub enum Encoding {
     Latin1,
     /// Not at all.
     Binary,
+    /// HTML, in whatever encoding.
+    WebPage,
 }
 
 impl Encoding {
@@ -20,13 +26,13 @@ impl Encoding {
             Self::Utf16 => "UTF-16",
             Self::Latin1 => "Latin-1 (Windows-1252)",
             Self::Binary => "8-bit data",
+            Self::WebPage => "an HTML page",
         }
     }
 }
 
-/// Bytes that are no text in UTF-8.
+/// Bytes that are not the text that was expected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the file is {} from byte {byte} on, not UTF-8; expected text saved as UTF-8", .encoding.name())]
 pub struct NotText {
     /// The first byte that is wrong.
     pub byte: usize,
@@ -35,6 +41,24 @@ pub struct NotText {
     /// What the bytes seem to be.
     pub encoding: Encoding,
 }
+
+impl NotText {
+    /// A web page in place of the file that it shows.
+    pub(super) const WEB_PAGE: Self = Self { byte: 0, line: 1, encoding: Encoding::WebPage };
+}
+
+impl fmt::Display for NotText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, byte) = (self.encoding.name(), self.byte);
+        match self.encoding {
+            Encoding::WebPage => write!(f, "the file is {name}; expected {RAW_FILE}"),
+            _ => write!(f, "the file is {name} from byte {byte} on, not UTF-8; expected text saved as UTF-8"),
+        }
+    }
+}
+
+/// The file that is expected in place of a web page, and how to get it.
+pub(super) const RAW_FILE: &str = "the file that the page shows: download the raw file";
 
 /// A text of more bytes than its kind of file ever has: its lines and words alone would fill memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -75,6 +99,49 @@ pub fn utf8(bytes: &[u8]) -> Result<&str, NotText> {
             let binary = bytes[..bytes.len().min(LOOK)].iter().any(control);
             Err(wrong(error.valid_up_to(), if binary { Encoding::Binary } else { Encoding::Latin1 }))
         }
+    }
+}
+
+/// Decodes text in UTF-8, UTF-16 or Latin-1: without a byte-order mark, its lines ended by `\n` alone.
+///
+/// # Errors
+/// Returns an error if the bytes are a web page or no text at all.
+pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
+    if is_web_page(bytes) {
+        return Err(NotText::WEB_PAGE);
+    }
+    let text = match utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(error) if error.encoding == Encoding::Binary => return Err(error),
+        Err(_) => Cow::Owned(any_text(bytes).0),
+    };
+    Ok(if text.contains('\r') { Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")) } else { text })
+}
+
+/// Returns the finding about a dataset file that is expected in UTF-8 and was read as Latin-1.
+pub(super) fn repaired(bytes: &[u8]) -> Option<Finding> {
+    let NotText { byte, encoding, .. } = utf8(bytes).err()?;
+    (encoding != Encoding::Utf16).then(|| {
+        let name = Encoding::Latin1.name();
+        let message = format!("The file is not valid UTF-8 from byte {byte}; it was read as {name}.");
+        Finding::warning("encoding-repaired", message)
+    })
+}
+
+/// Whether bytes are an HTML page, which browsers save in place of the file that the page shows.
+pub fn is_web_page(bytes: &[u8]) -> bool {
+    let (head, _) = any_text(&bytes[..bytes.len().min(LOOK)]);
+    let mut rest = head.trim_start();
+    // An XML declaration and comments may stand before the first tag.
+    while let Some(end) = [("<?", "?>"), ("<!--", "-->")].iter().find(|(begin, _)| rest.starts_with(begin)) {
+        rest = rest.split_once(end.1).map_or("", |(_, rest)| rest.trim_start());
+    }
+    let Some(tag) = rest.strip_prefix('<') else { return false };
+    let mut words = tag.split(|c: char| c.is_whitespace() || c == '>').map(str::to_ascii_lowercase);
+    match words.next().as_deref() {
+        Some("html" | "head" | "body") => true,
+        Some("!doctype") => words.next().is_some_and(|root| root == "html"),
+        _ => false,
     }
 }
 
@@ -138,5 +205,43 @@ mod tests {
         assert_eq!(utf8(b"\x00\xff\x01\x80").unwrap_err().encoding, Encoding::Binary);
         assert_eq!(utf8("\u{feff}ä".as_bytes()), Ok("ä"));
         assert_eq!(utf8(b""), Ok(""));
+    }
+
+    #[test]
+    fn text_is_the_same_however_it_travelled() {
+        let text = "Müller\n0.5 1e-0003\n";
+        let latin: Vec<u8> = text.chars().map(|c| u32::from(c) as u8).collect();
+        let files = [
+            text.replace('\n', "\r").into_bytes(),
+            text.replace('\n', "\r\n").into_bytes(),
+            format!("\u{feff}{text}").into_bytes(),
+            utf16(text, true, true),
+            utf16(&text.replace('\n', "\r"), false, false),
+            latin,
+        ];
+        for file in files {
+            assert_eq!(decode(&file).unwrap(), text, "{file:?}");
+        }
+        assert!(matches!(decode(text.as_bytes()), Ok(Cow::Borrowed(_))), "nothing is copied without need");
+        assert_eq!(decode(b"\x00\xff\x01\x80").unwrap_err().encoding, Encoding::Binary);
+        assert_eq!("1e-0003".parse(), Ok(0.001), "exponents of four digits");
+    }
+
+    #[test]
+    fn a_web_page_is_known_by_its_first_tag() {
+        let pages = [
+            "<!DOCTYPE html>\n<html lang=\"en\">",
+            "\n\n<!doctype HTML PUBLIC \"-//W3C//DTD XHTML 1.0 Strict//EN\">",
+            "<?xml version=\"1.0\"?>\n<!-- saved -->\n<html xmlns=\"http://www.w3.org/1999/xhtml\">",
+            "<HTML><body>",
+        ];
+        for page in pages {
+            assert!(is_web_page(page.as_bytes()) && is_web_page(&utf16(page, false, true)), "{page}");
+            let told = decode(page.as_bytes()).unwrap_err().to_string();
+            assert!(told.contains("HTML page") && told.contains("download the raw file"), "{told}");
+        }
+        for file in ["<?xml version=\"1.0\"?>\n<WindowElement>", "<!DOCTYPE a [", "<header>", "<!-- html", "html", ""] {
+            assert!(!is_web_page(file.as_bytes()), "{file}");
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Where in a file something is wrong, and the error that every reader returns.
 
-use super::encoding::TooLong;
+use super::encoding::{Encoding, NotText, RAW_FILE, TooLong};
 use crate::compute::limits;
 use crate::texts::message;
 use std::fmt;
@@ -92,6 +92,16 @@ impl From<TooLong> for FormatError {
             format!("a text of {} bytes", error.0),
             format!("at most {} bytes", limits::TEXT_BYTES),
         )
+    }
+}
+
+impl From<NotText> for FormatError {
+    fn from(error: NotText) -> Self {
+        let found = error.encoding.name();
+        match error.encoding {
+            Encoding::WebPage => Self::new(Location::file(), found, RAW_FILE),
+            _ => Self::new(Location::line(error.line), found, "text saved as UTF-8"),
+        }
     }
 }
 

@@ -12,7 +12,7 @@
 //! | `apart_lx` | what it gives across itself \[lx\] |
 //! | `set` | name of the series' member that the file belongs to |
 
-use super::encoding::not_too_long;
+use super::encoding::{decode, not_too_long};
 use super::{FormatError, Location};
 use crate::compute::direction::Surface;
 use crate::compute::lid::c_gamma::Aim;
@@ -104,16 +104,14 @@ fn quoted(text: &str) -> String {
 /// # Errors
 /// A needed column or number missing, a size that is none, an unknown word; told with the line.
 pub fn read(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
-    // The reader counts a line that ends in CR LF only when it reads the next one.
-    let bytes: Vec<u8> = not_too_long(bytes)?.iter().copied().filter(|byte| *byte != b'\r').collect();
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes.as_slice());
+    let text = decode(not_too_long(bytes)?)?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let broken = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line) as usize;
         FormatError::new(Location::line(line), "what is no CSV in UTF-8", "comma-separated values, one file a line")
     };
     let header = reader.headers().map_err(|error| broken(&error))?.clone();
-    let columns: HashMap<&str, usize> =
-        header.iter().map(|name| name.trim_start_matches('\u{feff}')).zip(0..).collect();
+    let columns: HashMap<&str, usize> = header.iter().zip(0..).collect();
     for needed in ["file", "x", "y", "z", "width", "height", "flux_lm"] {
         if !columns.contains_key(needed) {
             let expected = "the columns file, x, y, z, width, height, flux_lm of an index of luminaire files";

@@ -77,12 +77,11 @@ impl Format {
 
     /// By content, then by name.
     pub fn sniff(name: &str, bytes: &[u8]) -> Option<Self> {
-        let head = &bytes[..bytes.len().min(4096)];
-        let holds = |word: &[u8]| head.windows(word.len()).any(|window| window == word);
-        if holds(b"<WindowElement") {
+        let (head, _) = encoding::any_text(&bytes[..bytes.len().min(4096)]);
+        if head.contains("<WindowElement") {
             return Some(Self::BsdfXml);
         }
-        if holds(b"cfs-btdf") {
+        if head.contains("cfs-btdf") {
             return Some(Self::BtdfText);
         }
         Self::from_name(name)
@@ -127,13 +126,8 @@ pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatErro
         Some(Format::BsdfXml) => Ok(vec![bsdf_xml::read(bytes)?]),
         Some(Format::BtdfText) => Ok(vec![btdf_text::read(bytes)?]),
         None if bytes.is_empty() => Err(FormatError::new(Location::file(), "an empty file", Format::list())),
-        None => {
-            let found = match encoding::utf8(bytes) {
-                Err(encoding::NotText { encoding: encoding::Encoding::Utf16, .. }) => "UTF-16 text",
-                _ => "an unknown format",
-            };
-            Err(FormatError::new(Location::file(), found, Format::list()))
-        }
+        None if encoding::is_web_page(bytes) => Err(encoding::NotText::WEB_PAGE.into()),
+        None => Err(FormatError::new(Location::file(), "an unknown format", Format::list())),
     }
 }
 

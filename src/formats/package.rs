@@ -4,6 +4,7 @@
 //! BLAKE3 hash of its bytes, which is checked on reading.
 
 use super::dataset_blob::content_hash;
+use super::encoding::{NotText, is_web_page};
 use crate::compute::limits;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, HashSet};
@@ -183,6 +184,9 @@ pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
 
 /// Reads a package and checks every dataset against its hash. Entries nothing refers to are not read.
 pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
+    if is_web_page(bytes) {
+        return Err(PackageError::Content(NotText::WEB_PAGE.to_string()));
+    }
     let mut zip = ZipArchive::new(Cursor::new(bytes))?;
     if zip.len() > MOST_ENTRIES {
         return Err(PackageError::Content(format!("{} entries (at most {MOST_ENTRIES})", zip.len())));

@@ -4,7 +4,7 @@
 //! 145 in all; or a table with a header that has a column `L_mean_cdm2`, `luminance` or, failing these,
 //! `L_centre_cdm2`, with 145 rows in order. Lines that begin with `#` are comments. Not read: other lattices, gaps.
 
-use super::encoding::{NotText, TooLong, not_too_long, utf8};
+use super::encoding::{NotText, TooLong, decode, not_too_long};
 use super::location::excerpt;
 use crate::compute::limits;
 use crate::compute::sky::Scan;
@@ -39,7 +39,7 @@ pub enum ScanError {
 
 /// Reads 145 luminances. \[cd/m²\]
 pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
-    let text = utf8(not_too_long(bytes)?)?;
+    let text = decode(not_too_long(bytes)?)?;
     let mut values = Vec::with_capacity(145);
     let mut column = None;
     let mut first = true;

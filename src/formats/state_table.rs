@@ -9,7 +9,7 @@
 //! Times are local standard time, rising; each state holds until the next row. Month, day and time of day count: years of
 //! typical weather are put together from many. Further columns are not read, nor are decimal seconds and time zones.
 
-use super::encoding::{NotText, TooLong, not_too_long, utf8};
+use super::encoding::{NotText, TooLong, decode, not_too_long};
 use super::location::excerpt;
 use crate::compute::limits::WEATHER_RECORDS;
 use jiff::civil::{Date, DateTime};
@@ -63,8 +63,7 @@ pub fn of_year(time: DateTime) -> f64 {
 /// # Errors
 /// With the line: a row without time or state, times that do not rise.
 pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
-    // Lines of other systems are counted like ours.
-    let text = utf8(not_too_long(bytes)?)?.replace("\r\n", "\n");
+    let text = decode(not_too_long(bytes)?)?;
     let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
     let header = reader.headers().map_err(|_| StateTableError::Header)?;
     let column = |name: &str| header.iter().position(|field| field == name).ok_or(StateTableError::Header);

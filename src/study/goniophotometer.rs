@@ -13,7 +13,7 @@ use crate::compute::system::measure::directions::measured_at_directions;
 use crate::compute::system::measure::{Quality, Setting};
 use crate::compute::system::stack::LayerSource;
 use crate::formats::dataset_blob;
-use crate::formats::encoding::utf8;
+use crate::formats::encoding::decode;
 use crate::formats::system_toml::{self, MOST_NESTED, SystemFile, is_system_file};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -86,8 +86,8 @@ impl Described {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
         let base = Base::Folder(path.parent().unwrap_or(Path::new(".")).to_owned());
-        let text = utf8(&bytes).map_err(|e| error(e.to_string()))?;
-        Self::from_text(text, base).map_err(|e| error(e.to_string()))
+        let text = decode(&bytes).map_err(|e| error(e.to_string()))?;
+        Self::from_text(&text, base).map_err(|e| error(e.to_string()))
     }
 
     /// A built-in one by the name of its file.

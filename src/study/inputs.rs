@@ -3,6 +3,7 @@
 use super::luminaires::{self, INDEX};
 use super::scene_file::SceneFile;
 use super::weather::BUILTIN;
+use crate::formats::encoding::decode;
 use crate::formats::system_toml::{MOST_NESTED, is_system_file};
 use std::path::{Path, PathBuf};
 
@@ -65,7 +66,8 @@ fn named_in(value: &toml::Value, base: &Path, depth: usize, list: &mut Vec<PathB
             // Layers of a stack are files beside it.
             if is_system_file(word)
                 && depth < MOST_NESTED
-                && let Ok(text) = std::fs::read_to_string(&path)
+                && let Ok(bytes) = std::fs::read(&path)
+                && let Ok(text) = decode(&bytes)
                 && let Ok(table) = text.parse::<toml::Table>()
             {
                 let folder = path.parent().unwrap_or(base).to_owned();

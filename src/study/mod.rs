@@ -70,15 +70,15 @@ pub use scene_file::SceneFile;
 pub use session::{LidResult, OutsideSeen, PatchLight, RoomResult, SensorResult, Session, SurfaceLight};
 pub use system::{System, SystemLibrary};
 
-use crate::formats::encoding::utf8;
+use crate::formats::encoding::decode;
 use std::path::Path;
 
 /// Reads a scene file. The error names the file.
 pub fn read_scene_file(path: &Path) -> Result<SceneFile, StudyError> {
     let error = |message: String| StudyError::File { path: path.to_owned(), message };
     let bytes = files::read(path)?;
-    let text = utf8(&bytes).map_err(|e| error(e.to_string()))?;
-    SceneFile::parse(text).map_err(|e| error(e.to_string()))
+    let text = decode(&bytes).map_err(|e| error(e.to_string()))?;
+    SceneFile::parse(&text).map_err(|e| error(e.to_string()))
 }
 
 /// Reads and resolves a scene file. The error names the file.

@@ -185,6 +185,7 @@ texts! {
     fn wrong_ending(ending) = "what is handed on ends in {ending}; give the name that ending, or choose another form" | "was weitergegeben wird, endet auf {ending}; dem Namen diese Endung geben oder eine andere Form wählen";
     fn no_picture(error) = "the picture cannot be encoded: {error}" | "das Bild lässt sich nicht kodieren: {error}";
     fn not_text(encoding, byte, what) = "it is {encoding} from byte {byte} on; {what} is a text file in UTF-8" | "Ab Byte {byte} ist es {encoding}; erwartet wird eine Textdatei in UTF-8 ({what})";
+    fn web_page(what) = "it is an HTML page, not {what}: download the raw file" | "es ist eine HTML-Seite, erwartet wird eine andere Datei ({what}): die Rohdatei herunterladen";
     fn tile_ending(ending) = "the ending \"{ending}\" is none that a tile's numbers are written as: use .csv; pictures are handed on by Ctrl+E" | "in der Endung „{ending}“ werden keine Zahlen einer Kachel geschrieben: .csv verwenden; Bilder gibt Strg+E weiter";
     const MEASURED_ENDING = "an ending that nothing is written in; expected .cfsp (all states), .xml or .btdf.txt" | "in dieser Endung wird nichts geschrieben; möglich sind .cfsp (alle Stellungen), .xml oder .btdf.txt";
     const NO_DIALOG = "The desktop shows no file dialog (neither its portal nor zenity answers): type the path" | "Der Desktop zeigt keinen Dateidialog (weder sein Portal noch zenity antwortet): Pfad eintippen";

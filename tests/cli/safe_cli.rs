@@ -224,10 +224,18 @@ fn encodings_keys_and_units_are_named() {
     assert!(told.contains("UTF-16"), "{told}");
     let flux = |text: &str| text.lines().find(|line| line.starts_with("Flux")).unwrap().to_owned();
     assert_eq!(flux(&told), flux(&done(at, &["info", "a.ldt"])));
-    std::fs::write(at.join("b.toml"), utf16(&toml)).unwrap();
-    refused(at, &["room", "b.toml"], &["b.toml", "UTF-16", "UTF-8"]);
-    std::fs::write(at.join("b.toml"), [b"# B\xfcro\n", toml.as_bytes()].concat()).unwrap();
-    refused(at, &["room", "b.toml"], &["b.toml", "Latin-1"]);
+    let room = done(at, &["room", "a.toml"]);
+    for other in [utf16(&toml), [b"# B\xfcro\n", toml.as_bytes()].concat(), toml.replace('\n', "\r").into_bytes()] {
+        std::fs::write(at.join("b.toml"), other).unwrap();
+        assert_eq!(done(at, &["room", "b.toml"]), room);
+    }
+    std::fs::write(at.join("b.toml"), [&[0, 0xff][..], toml.as_bytes()].concat()).unwrap();
+    refused(at, &["room", "b.toml"], &["b.toml", "8-bit data", "UTF-8"]);
+    for name in ["b.toml", "b.xml", "b.btdf.txt", "b.system.toml", "b"] {
+        std::fs::write(at.join(name), "<!DOCTYPE html>\n<html></html>").unwrap();
+        let command = if name == "b.toml" { "room" } else { "info" };
+        refused(at, &[command, name], &[name, "HTML page", "download the raw file"]);
+    }
     std::fs::write(at.join("b.toml"), toml.replacen("width = ", "width = \"wide\" # ", 1)).unwrap();
     refused(at, &["room", "b.toml"], &["room.width", "string \"wide\"", "a number in m"]);
 }

@@ -404,5 +404,5 @@ fn scans_are_read_bare_and_as_tables() {
     assert_eq!(read_scan(b""), Err(ScanError::Count(0)));
     assert_eq!(read_scan(b"1\n-2\n"), Err(ScanError::Number { line: 2, found: "-2".to_owned() }));
     assert_eq!(read_scan(b"a,b\n1,2\n"), Err(ScanError::Header { line: 1 }));
-    assert!(matches!(read_scan(&[b'1', 0xff]), Err(ScanError::NotText(_))));
+    assert!(matches!(read_scan(&[0, 0xff]), Err(ScanError::NotText(_))));
 }

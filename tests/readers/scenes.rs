@@ -5,7 +5,7 @@ use super::{again, edits, told};
 use cfs::app::session::Kept;
 use cfs::app::tiles::{Layout, TILES};
 use cfs::app::typing;
-use cfs::formats::encoding::utf8;
+use cfs::formats::encoding::decode;
 use cfs::formats::{system_toml, toml_place};
 use cfs::study::control::ControlQuestion;
 use cfs::study::scene_file::SystemKeys;
@@ -166,11 +166,11 @@ pub fn make_scene(choices: &mut Choices) -> Vec<u8> {
 }
 
 pub fn read_scene(bytes: &[u8]) -> bool {
-    let text = match utf8(bytes) {
+    let text = match decode(bytes) {
         Ok(text) => text,
         Err(error) => return told(&error),
     };
-    let file = match SceneFile::parse(text) {
+    let file = match SceneFile::parse(&text) {
         Ok(file) => file,
         Err(error) => return told(&error),
     };
@@ -314,7 +314,7 @@ pub fn read_system(bytes: &[u8]) -> bool {
     };
     let states = file.system.states();
     assert!(!states.is_empty(), "a system without states");
-    let text = utf8(bytes).expect("it was read as text");
+    let text = &*decode(bytes).expect("it was read as text");
     if let Some(states) = system_toml::states(text) {
         assert!(
             !states.is_empty() && system_toml::described(text, &states[0]).is_some(),

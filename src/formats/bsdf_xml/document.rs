@@ -1,6 +1,7 @@
 //! From bytes to an XML tree that is safe to walk: encodings, junk before the declaration, depth, places of errors.
 
 use crate::compute::btdf::Finding;
+use crate::formats::encoding::{self, Encoding, NotText};
 use crate::formats::location::{FormatError, Location, excerpt};
 use roxmltree::{Document, Node, ParsingOptions};
 
@@ -21,7 +22,7 @@ pub(super) struct Source {
 }
 
 impl Source {
-    /// Decodes, cuts off junk, refuses what is no XML or nested too deeply.
+    /// Decodes, cuts off junk, refuses a web page and what is no XML or nested too deeply.
     pub(super) fn new(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<Self, FormatError> {
         if bytes.is_empty() {
             return Err(FormatError::new(Location::file(), "an empty file", "a BSDF XML file"));
@@ -159,47 +160,19 @@ fn end_of_tag(rest: &[u8]) -> (Option<usize>, usize) {
     (end, attributes)
 }
 
+/// Decodes text, with a finding where a file that does not declare Latin-1 is not UTF-8.
 fn decode(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<String, FormatError> {
-    let utf16 = |bytes: &[u8], from: fn([u8; 2]) -> u16| -> Result<String, FormatError> {
-        let units = bytes.chunks_exact(2).map(|pair| from([pair[0], pair[1]]));
-        char::decode_utf16(units).collect::<Result<String, _>>().map_err(|_unpaired| {
-            FormatError::new(Location::file(), "broken UTF-16 text", "UTF-8, or well-formed UTF-16")
-        })
+    let text = match encoding::decode(bytes) {
+        Ok(text) => text.into_owned(),
+        // Junk before the XML may be of any bytes.
+        Err(NotText { encoding: Encoding::Binary, .. }) => encoding::any_text(bytes).0,
+        Err(error) => return Err(error.into()),
     };
-    match bytes {
-        [0xEF, 0xBB, 0xBF, rest @ ..] => Ok(decode_bytes(rest, findings)),
-        [0xFF, 0xFE, rest @ ..] => without_declaration(utf16(rest, u16::from_le_bytes)?),
-        [0xFE, 0xFF, rest @ ..] => without_declaration(utf16(rest, u16::from_be_bytes)?),
-        _ => Ok(decode_bytes(bytes, findings)),
+    let declaration = text.chars().take(200).collect::<String>().to_ascii_lowercase();
+    if !["iso-8859-1", "windows-1252"].iter().any(|name| declaration.contains(name)) {
+        findings.extend(encoding::repaired(bytes));
     }
-}
-
-/// The declared encoding no longer holds once the text is decoded; the rest of the declaration does not matter.
-fn without_declaration(text: String) -> Result<String, FormatError> {
-    Ok(match (text.find("<?xml"), text.find("?>")) {
-        (Some(0), Some(end)) => text[end + 2..].to_owned(),
-        _ => text,
-    })
-}
-
-fn decode_bytes(bytes: &[u8], findings: &mut Vec<Finding>) -> String {
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).to_ascii_lowercase();
-    match std::str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) if head.contains("iso-8859-1") || head.contains("windows-1252") => {
-            bytes.iter().map(|byte| char::from(*byte)).collect()
-        }
-        Err(error) => {
-            findings.push(Finding::warning(
-                "encoding-repaired",
-                format!(
-                    "The file is not valid UTF-8 from byte {}; unknown characters were replaced.",
-                    error.valid_up_to()
-                ),
-            ));
-            String::from_utf8_lossy(bytes).into_owned()
-        }
-    }
+    Ok(text)
 }
 
 fn start_of_xml(text: &str) -> Option<usize> {

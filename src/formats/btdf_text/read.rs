@@ -11,7 +11,7 @@ use super::{FAMILY, MOST_INCIDENCES, MOST_VALUES, SAME_DIRECTION, incidence};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, CellMatrix, Component, Dataset, Finding, Indicatrices, Scattered};
 use crate::compute::direction::{Dir, Facade, Incident};
-use crate::formats::encoding::utf8;
+use crate::formats::encoding::{decode, repaired};
 use crate::formats::location::{FormatError, Location};
 use std::sync::Arc;
 
@@ -33,9 +33,11 @@ const ROUNDING: f64 = 1.001;
 /// unknown keys or words, counts that do not fit, values that are below zero by more than noise or no finite numbers, incidences that are
 /// given twice or lie off the lattice that the header names, more light than came.
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
-    let Split { mut header, body, body_line } = split(text(bytes)?)?;
+    let text = decode(bytes)?;
+    let Split { mut header, body, body_line } = split(&text)?;
     let told = header.told.take();
     let Measured { list, rows, basis, mut findings } = records(&header, body, body_line)?;
+    findings.extend(repaired(bytes));
     plausible(&header, &list, &rows, &basis, &mut findings)?;
     let (names, rows, lattice) = complete(&header, &list, rows, &basis, &mut findings)?;
     if header.mean_not_told {
@@ -87,13 +89,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
 /// # Errors
 /// Of the header.
 pub fn catalogue_fields(bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
-    Ok(split(text(bytes)?)?.header.fields)
-}
-
-fn text(bytes: &[u8]) -> Result<&str, FormatError> {
-    utf8(bytes).map_err(|error| {
-        FormatError::new(Location::line(error.line), format!("{} text", error.encoding.name()), "UTF-8 text")
-    })
+    Ok(split(&decode(bytes)?)?.header.fields)
 }
 
 /// What the file itself holds.

@@ -11,7 +11,7 @@ mod sheets;
 mod solar;
 mod transparent;
 
-use super::encoding::utf8;
+use super::encoding::decode;
 use super::toml_place::{TomlPlace, place};
 pub use contained::{described, self_contained, states};
 pub use layers::{EACH_STATE, MOST_NESTED};
@@ -74,8 +74,8 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     if bytes.len() > MOST_BYTES {
         return Err(FormatError::new(Location::file(), format!("{} bytes", bytes.len()), "at most 1 MB of TOML"));
     }
-    let text = utf8(bytes)
-        .map_err(|error| FormatError::new(Location::line(error.line), error.encoding.name(), "text saved as UTF-8"))?;
+    let text = decode(bytes)?;
+    let text = &*text;
     let keys: Keys = toml::from_str(text).map_err(|error| {
         let TomlPlace { line, key, message, .. } = place(text, &error, 0, |_| None);
         let at = if key.is_empty() { Location::line(line) } else { Location::line(line).in_element(key) };
