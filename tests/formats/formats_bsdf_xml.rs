@@ -148,13 +148,81 @@ fn the_same_numbers_in_every_dress() {
         plain.replace("AngleBasis>Five", "AngleBasis>fIVE").into_bytes(),
         plain.replace(">Visible<", ">\r\n\t\tvisible\t<").into_bytes(),
         plain.replace(",\t", " ").replace(",\n", "\n\n").into_bytes(),
-        utf16,
+        utf16.clone(),
+        utf16[2..].to_vec(),
+        plain.replace('\n', "\r").into_bytes(),
+        [b"<!-- \xe9 -->\n", plain.as_bytes()].concat(),
     ];
     for (k, dress) in dresses.iter().enumerate() {
         let got = read(dress).unwrap_or_else(|error| panic!("dress {k}: {error}"));
         assert_eq!(got.visible, expected.visible, "dress {k}");
         assert_eq!(got.solar, expected.solar, "dress {k}");
     }
+}
+
+/// A `WavelengthData` element of a layer.
+fn of_layer(layer: &str, direction: &str, data: &str) -> String {
+    format!(
+        "<WavelengthData><LayerNumber>{layer}</LayerNumber><Wavelength>Visible</Wavelength><WavelengthDataBlock>\
+         <WavelengthDataDirection>{direction}</WavelengthDataDirection><ColumnAngleBasis>Five</ColumnAngleBasis>\
+         <RowAngleBasis>Five</RowAngleBasis><ScatteringData>{data}</ScatteringData></WavelengthDataBlock></WavelengthData>"
+    )
+}
+
+#[test]
+fn data_of_layers_are_not_those_of_the_system() {
+    let plain = File::matrix(&[("Visible", "Transmission Front", uneven())]).xml();
+    let with = |more: &str| plain.replacen("<WavelengthData>", &format!("{more}<WavelengthData>"), 1);
+    let absorbed = of_layer("1", "Absorbed Front", "0.1 0.1 0.1 0.1 0.2") + &of_layer("System", "Absorbed Back", "0.1");
+    let layer = of_layer("2", "Transmission Front", &"0.1 ".repeat(N * N));
+    let expected = read(plain.as_bytes()).unwrap();
+    for (more, code) in [(absorbed, "absorbed-not-read"), (layer.clone(), "layers-not-read")] {
+        let got = read(with(&more).as_bytes()).unwrap();
+        assert_eq!(got.visible, expected.visible, "{code}");
+        assert_eq!(codes(&got).iter().filter(|one| **one == code).count(), 1, "{code}");
+    }
+    // One layer alone is the system; of two, neither is.
+    let system = plain.find("<WavelengthData>").unwrap();
+    let end = plain.find("</Layer>").unwrap();
+    let alone = [&plain[..system], &layer, &plain[end..]].concat();
+    // The sum of q over the projected hemisphere, 0.1 · π.
+    assert!((front(&read(alone.as_bytes()).unwrap()).tau_normal() - 0.1 * std::f64::consts::PI).abs() < 1e-12);
+    let other = of_layer("3", "Transmission Front", &"0.1 ".repeat(N * N));
+    let error = read([&plain[..system], &layer, &other, &plain[end..]].concat().as_bytes()).unwrap_err().to_string();
+    assert!(error.contains("layers 2, 3 and none of the system"), "{error}");
+}
+
+#[test]
+fn a_transmission_without_a_side_is_that_of_both() {
+    for rank in ["TensorTree3", "TensorTree4"] {
+        // A Lambertian sheet of q = 0.5/π transmits one half.
+        let half = read(File::tree(rank, "Transmission", "{ 0.15915494309 }").xml().as_bytes()).unwrap();
+        assert!((front(&half).tau_hemispherical() - 0.5).abs() < 1e-9 && codes(&half).contains(&"side-not-told"));
+        assert!(half.visible.transmission_back.is_some());
+    }
+    let leaves: Vec<String> = (0..16).map(|k| format!("{{{}}}", 0.01 * f64::from(k))).collect();
+    let tree = format!("{{{}}}", leaves.concat());
+    let visible = |name| read(File::tree("TensorTree4", name, &tree).xml().as_bytes()).unwrap().visible;
+    assert_eq!(visible("Transmission"), visible("Transmission Back"));
+    // Traced from outside alone, it has the reflection of the outside beside it.
+    let mut file = File::tree("TensorTree4", "Transmission", &tree);
+    file.blocks.push(("Visible", "Reflection Front", "{ 0.1 }".to_owned()));
+    let from_outside = read(file.xml().as_bytes()).unwrap().visible;
+    assert_eq!(from_outside.transmission_front, visible("Transmission Front").transmission_front);
+}
+
+#[test]
+fn a_back_of_one_number_is_a_placeholder_unless_it_agrees_with_the_front() {
+    let both = |front, back| {
+        let blocks = [("Visible", "Transmission Front", front), ("Visible", "Transmission Back", back)];
+        read(File::matrix(&blocks).xml().as_bytes()).unwrap()
+    };
+    for number in [1e-4, 1.0 / std::f64::consts::PI] {
+        let left_out = both(uneven(), [[number; N]; N]);
+        assert!(left_out.visible.transmission_back.is_none() && codes(&left_out).contains(&"back-placeholder"));
+    }
+    let measured = both([[0.16; N]; N], [[0.155; N]; N]);
+    assert!(measured.visible.transmission_back.is_some() && !codes(&measured).contains(&"back-placeholder"));
 }
 
 #[test]

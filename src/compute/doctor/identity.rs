@@ -1,4 +1,4 @@
-//! Who made what: words that programs leave in files where names should be.
+//! Identity of a dataset: words that programs leave where names should be, and a thickness that no product has.
 
 use super::Diagnosis;
 use crate::compute::btdf::{Dataset, Finding};
@@ -22,6 +22,10 @@ const TEMPLATE: [&str; 16] = [
     "new layer",
     "default",
 ];
+
+/// Thickness from which on a system is no product for a façade. \[m\] Chosen: above the deepest louvres and light shelves,
+/// and so low that a sheet of half a millimetre is found whose thickness was written in metres.
+const MAX_THICKNESS: f64 = 0.5;
 
 fn template(word: &str) -> bool {
     let word = word.trim().to_lowercase();
@@ -51,12 +55,29 @@ pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
             list.push(Finding::info("no-identity", format!("The file gives no {what}.")).into());
         }
     }
+    if let Some(thickness) = dataset.thickness.filter(|thickness| *thickness >= MAX_THICKNESS) {
+        let message = format!(
+            "The file states a thickness of {thickness} m; expected less than {MAX_THICKNESS} m. Millimetres may have been \
+             written as metres."
+        );
+        list.push(Finding::warning("thickness-implausible", message).into());
+    }
     list
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_thickness_in_millimetres_is_told() {
+        let thick = |thickness| {
+            let dataset = Dataset { format: "x".into(), thickness, ..Dataset::default() };
+            check(&dataset).iter().any(|one| one.finding.code == "thickness-implausible")
+        };
+        assert!(thick(Some(6.0)) && thick(Some(0.5)));
+        assert!(!thick(Some(0.2029)) && !thick(Some(0.0)) && !thick(None));
+    }
 
     #[test]
     fn template_words_are_told_from_names() {

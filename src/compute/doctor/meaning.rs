@@ -50,10 +50,11 @@ pub fn meaning(code: &str) -> &'static str {
         "orientation" | "sides" => "The one thing that numbers cannot show: compare it with the product.",
         "resolution" => "Finer effects than the cells are averaged away.",
         "template-word" | "no-identity" => "Nobody can tell later whose data these are; results are not affected.",
-        "front-by-reciprocity" => "As good as the back transmission that it is derived from.",
+        "side-not-told" | "front-by-reciprocity" => "As good as the back transmission that it is derived from.",
         "incomplete-matrix" => "Almost all directions are dark: only good for testing.",
         "several-layers" => "The other layers are missing from every result.",
-        "thickness-unreadable" => "Only the section drawing needs the thickness.",
+        "layers-not-read" => "Light passes the system as a whole, which the file describes by data of its own.",
+        "thickness-unreadable" | "thickness-implausible" => "Only the section drawing needs the thickness.",
         "band-not-read" => "Daylight needs the visible band alone.",
         _ => "",
     }

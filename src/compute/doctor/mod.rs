@@ -73,8 +73,8 @@ pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
 /// What is to be said about each of several datasets, side by side; states of the same data are examined once.
 pub fn examine_all(datasets: &[impl Borrow<Dataset> + Sync]) -> Vec<Vec<Diagnosis>> {
     let same = |a: &Dataset, b: &Dataset| {
-        (&a.name, &a.manufacturer, &a.format, &a.derived, &a.findings)
-            == (&b.name, &b.manufacturer, &b.format, &b.derived, &b.findings)
+        (&a.name, &a.manufacturer, &a.format, a.thickness, &a.derived, &a.findings)
+            == (&b.name, &b.manufacturer, &b.format, b.thickness, &b.derived, &b.findings)
             && a.visible == b.visible
             && a.solar == b.solar
     };

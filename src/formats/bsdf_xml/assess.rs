@@ -1,6 +1,6 @@
 //! What a reader does about a file's blocks: left out, derived, refused.
 
-use crate::compute::btdf::{Band, Component, Dataset, Finding, tau_max};
+use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, TreeNode, reciprocity_error, tau_max};
 use crate::compute::doctor::{by_reciprocity, same_values};
 use crate::formats::location::{FormatError, Location};
 
@@ -8,6 +8,9 @@ use crate::formats::location::{FormatError, Location};
 const IMPOSSIBLE: f64 = 150.0;
 /// Nor any other sum above this.
 const OVERFLOW: f64 = 1e6;
+/// Mean relative difference from reciprocity above which a back of one number is not that of the front's system. Chosen:
+/// where the data check calls the agreement of both sides no longer good.
+const MAX_DIFFERENCE: f64 = 0.1;
 
 /// Drops blocks that cannot be meant, refuses sums beyond any unit, derives a missing front transmission. Everything
 /// that can be asked of the numbers later is the data doctor's.
@@ -21,7 +24,10 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
     if let Some(solar) = &dataset.solar {
         plausible(solar, "Solar")?;
     }
-    placeholder(&mut dataset.visible, &mut findings);
+    placeholder(&mut dataset.visible, "Visible", &mut findings);
+    if let Some(solar) = &mut dataset.solar {
+        placeholder(solar, "Solar", &mut findings);
+    }
     derive_front(dataset, &mut findings);
     findings.sort_by_key(|finding| std::cmp::Reverse(finding.severity));
     dataset.findings = findings;
@@ -75,15 +81,38 @@ fn plausible(band: &Band, name: &str) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Some writers fill the back transmission with zeros.
-fn placeholder(band: &mut Band, findings: &mut Vec<Finding>) {
+/// Leaves out a back transmission that WINDOW filled with zeros or another number (Radiance, doc/notes/BSDFdirections.txt).
+fn placeholder(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     let (Some(front), Some(back)) = (&band.transmission_front, &band.transmission_back) else { return };
-    if tau_max(front) > 1e-6 && tau_max(back) == 0.0 {
+    let Some(number) = one_number(back).filter(|_| tau_max(front) > 1e-6) else { return };
+    if number == 0.0 || reciprocity_error(front, back).is_some_and(|difference| difference > MAX_DIFFERENCE) {
+        let what = if number == 0.0 { "zero".to_owned() } else { format!("{number} 1/sr in all cells") };
         findings.push(Finding::warning(
             "back-placeholder",
-            "Transmission Back (Visible) is zero although the front transmits: a placeholder, left out.",
+            format!(
+                "Transmission Back ({name}) is {what}, which contradicts the transmission of the front: a placeholder, \
+                 left out."
+            ),
         ));
         band.transmission_back = None;
+    }
+}
+
+/// Returns the number that all cells hold, if they hold the same. \[1/sr\]
+fn one_number(btdf: &Btdf) -> Option<f64> {
+    match &btdf.scattered {
+        Some(Scattered::Cells(matrix)) => {
+            let values = matrix.values();
+            let first = *values.first()?;
+            values.iter().all(|value| *value == first).then_some(first)
+        }
+        Some(Scattered::Tree(tree)) => {
+            let leaf = |node: &TreeNode| if let TreeNode::Leaf(value) = node { Some(*value) } else { None };
+            let mut leaves = tree.nodes().iter().filter_map(leaf);
+            let first = leaves.next()?;
+            leaves.all(|value| value == first).then_some(first)
+        }
+        _ => None,
     }
 }
 

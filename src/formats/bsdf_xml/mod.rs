@@ -10,13 +10,14 @@
 //! knows again: the dataset has its [`described`](Dataset::described) and the key of its state. Where numbers were
 //! changed since, or a newer version wrote the instruction, it is left out and the finding `beams-not-restored` tells.
 //!
-//! Not read: geometry (MGF), other bands and CIE X/Z or u′/v′ colour data (a finding tells),
-//! more than one layer of a file, document type declarations. Nothing is repaired silently: see the findings.
+//! Not read: geometry (MGF), other bands and CIE X/Z or u′/v′ colour data, data of single layers and what they absorb
+//! (findings tell), more than one `Layer` element, document type declarations. Nothing is repaired silently: see the findings.
 
 mod assess;
 mod basis;
 mod beams;
 mod document;
+mod layers;
 mod material;
 mod numbers;
 mod write;
@@ -74,15 +75,18 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
             "<WindowElement>, the root of a BSDF XML file",
         ));
     }
-    let layer = layer(&source, root, &mut findings)?;
+    let layer = layers::layer(&source, root, &mut findings)?;
+    let of_system = layers::of_system(&source, layer, &mut findings)?;
     let definition = child(layer, "DataDefinition").or_else(|| child(root, "DataDefinition"));
     let structure = structure(&source, layer, definition)?;
     let bases = Bases::read(&source, definition, &mut findings)?;
 
     let mut dataset = Dataset { findings, ..Dataset::default() };
     material::describe(&mut dataset, root, layer);
-    let mut reader = Reader { source: &source, bases: &bases, structure, dataset: &mut dataset, found_visible: false };
-    for data in children(layer, "WavelengthData") {
+    let without_side = layers::without_side(layer);
+    let mut reader =
+        Reader { source: &source, bases: &bases, structure, without_side, dataset: &mut dataset, found_visible: false };
+    for data in of_system {
         reader.wavelength(data)?;
     }
     if !reader.found_visible {
@@ -106,25 +110,6 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     Ok(dataset)
 }
 
-fn layer<'a, 'd>(
-    source: &Source,
-    root: Node<'a, 'd>,
-    findings: &mut Vec<Finding>,
-) -> Result<Node<'a, 'd>, FormatError> {
-    let mut layers = root.descendants().filter(|node| child(*node, "WavelengthData").is_some());
-    let first = layers.next().ok_or_else(|| {
-        FormatError::new(source.place(root), "no WavelengthData", "<Optical><Layer> with WavelengthData elements")
-    })?;
-    let more = layers.count();
-    if more > 0 {
-        findings.push(Finding::warning(
-            "several-layers",
-            format!("The file holds data of {} layers; only the first is read.", more + 1),
-        ));
-    }
-    Ok(first)
-}
-
 fn structure(source: &Source, layer: Node<'_, '_>, definition: Option<Node<'_, '_>>) -> Result<Structure, FormatError> {
     let node = definition.and_then(|d| child(d, "IncidentDataStructure"));
     let word = node.map(text).unwrap_or_default();
@@ -145,6 +130,7 @@ struct Reader<'r> {
     source: &'r Source,
     bases: &'r Bases,
     structure: Structure,
+    without_side: Component,
     dataset: &'r mut Dataset,
     found_visible: bool,
 }
@@ -164,7 +150,7 @@ impl Reader<'_> {
             }
         };
         self.found_visible |= band == BandName::Visible;
-        for block in children(data, "WavelengthDataBlock") {
+        for block in children(data, "WavelengthDataBlock").filter(|block| !layers::is_absorbed(*block)) {
             self.block(band, block)?;
         }
         Ok(())
@@ -172,7 +158,12 @@ impl Reader<'_> {
 
     fn block(&mut self, band: BandName, block: Node<'_, '_>) -> Result<(), FormatError> {
         let word = child_text(block, "WavelengthDataDirection");
-        let component = match word.to_ascii_lowercase().split_whitespace().collect::<Vec<_>>().as_slice() {
+        let words = layers::direction(block);
+        let component = match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            ["transmission"] => {
+                self.tell_without_side();
+                self.without_side
+            }
             ["transmission", "front"] => Component::TransmissionFront,
             ["transmission", "back"] => Component::TransmissionBack,
             ["reflection", "front"] => Component::ReflectionFront,
@@ -337,6 +328,16 @@ impl Reader<'_> {
             format!("{} numbers{hint}", values.len()),
             format!("{expected} numbers, {} rows × {} columns", rows.len(), columns.len()),
         ))
+    }
+
+    fn tell_without_side(&mut self) {
+        self.dataset.findings.push(Finding::info(
+            "side-not-told",
+            format!(
+                "Transmission without a side, as genBSDF wrote until 2012, is that of both sides: it is read as {}.",
+                self.without_side.words()
+            ),
+        ));
     }
 
     fn tell_negative(&mut self, (count, least): (usize, f64), title: &str) {
