@@ -6,8 +6,8 @@ use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{BandName, Btdf, Component, Dataset, Scattered, SolarSource, matrix_on};
 use crate::formats::{FileKind, Format, Written, btdf_text, format_to_write, write_dataset};
-use crate::study::Library;
 use crate::study::goniophotometer::{Computed, Described, Request};
+use crate::study::{Library, StudyError};
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -151,6 +151,17 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
             states.len()
         );
     }
+    // Before anything is computed: no state is written if another cannot be.
+    if let Target::States(path, format) = &target {
+        for state in &states {
+            let path = path_of_state(path, state, states.len() > 1);
+            let components = if *format == Format::BtdfText { &Component::ALL[..] } else { &Component::ALL[..1] };
+            for component in components {
+                let path = path_of_component(&path, *component);
+                args.over.check([], Some(&path), FileKind::Dataset(*format))?;
+            }
+        }
+    }
     let keep = args.out.as_deref().map(|path| {
         let mut folder = path.as_os_str().to_owned();
         folder.push(".part");
@@ -160,9 +171,30 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
         // Without it an interrupted run starts anew, no more.
         drop(std::fs::create_dir_all(folder));
     }
-    let progress = TerminalProgress::new();
     let kept = keep.as_deref().filter(|_| states.len() > 1);
-    let computed = described.measure_all(&states, &request, library, kept, &progress);
+    let told = results(args, library, &target, &described, &request, &states, kept);
+    // What is refused would be refused again; where the files alone could not be written, the next run goes on.
+    let is_resumable = told.as_ref().is_err_and(|error| error.is::<StudyError>());
+    if let Some(folder) = keep.filter(|_| !is_resumable) {
+        // What is left of a folder of kept states costs nothing but room.
+        drop(std::fs::remove_dir_all(folder));
+    }
+    output::print(&told?)
+}
+
+/// Computes the states and writes them; returns the summary.
+fn results(
+    args: &GoniophotometerArgs,
+    library: &Library,
+    target: &Target<'_>,
+    described: &Described,
+    request: &Request,
+    states: &[String],
+    kept: Option<&Path>,
+) -> anyhow::Result<String> {
+    let name = args.system.display();
+    let progress = TerminalProgress::new();
+    let computed = described.measure_all(states, request, library, kept, &progress);
     let computed = computed.map_err(|error| anyhow!("{name}: {error}"))?;
     drop(progress);
     for one in &computed {
@@ -177,19 +209,15 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
         let value = json!({
             "system": described.file.system.name,
             "kind": described.file.system.family().word(),
-            "method": described.method(&request),
+            "method": described.method(request),
             "states": computed.iter().map(to_json).collect::<Vec<_>>(),
         });
         serde_json::to_string_pretty(&value)? + "\n"
     } else {
-        to_text(&described, &request, &computed)?
+        to_text(described, request, &computed)?
     };
-    write_results(args.over, &target, &described, &request, computed.into_iter().map(|one| one.dataset).collect())?;
-    if let Some(folder) = &keep {
-        // What is left of a folder of kept states costs nothing but room.
-        drop(std::fs::remove_dir_all(folder));
-    }
-    output::print(&told)
+    write_results(args.over, target, described, request, computed.into_iter().map(|one| one.dataset).collect())?;
+    Ok(told)
 }
 
 fn write_results(
@@ -210,11 +238,11 @@ fn write_results(
             Ok(over.write(path, FileKind::Package, &bytes)?)
         }
         Target::States(path, format) => {
-            let count = datasets.len();
+            let several = datasets.len() > 1;
             let mut told = BTreeSet::new();
             let mut files = Vec::new();
             for mut dataset in datasets {
-                let path = if count == 1 { (*path).to_owned() } else { path_with(path, &dataset.state) };
+                let path = path_of_state(path, &dataset.state, several);
                 if *format == Format::BtdfText {
                     on_cells(&mut dataset, request);
                 }
@@ -247,11 +275,30 @@ fn on_cells(dataset: &mut Dataset, request: &Request) {
     }
 }
 
-/// `blind.xml` and `45` become `blind_45.xml`.
+/// Returns the file of a state: `blind.xml`, or `blind_45.xml` beside those of other states.
+fn path_of_state(path: &Path, state: &str, several: bool) -> PathBuf {
+    if several { path_with(path, state) } else { path.to_owned() }
+}
+
+/// Returns the file of a function: that of the transmission has the name of its state alone.
+fn path_of_component(path: &Path, component: Component) -> PathBuf {
+    match component {
+        Component::TransmissionFront => path.to_owned(),
+        other => path_with(path, &other.key().replace('_', "-")),
+    }
+}
+
+/// Makes `blind_45.xml` of `blind.xml` and `45`. A name need not be UTF-8; the extension of a format is.
 fn path_with(path: &Path, word: &str) -> PathBuf {
-    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let stem = Format::stem(&name);
-    path.with_file_name(format!("{stem}_{word}{}", &name[stem.len()..]))
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let extension = &name[Format::stem(&name).len()..];
+    let mut stem = path.file_name().unwrap_or_default();
+    for _ in extension.matches('.') {
+        stem = Path::new(stem).file_stem().unwrap_or_default();
+    }
+    let mut name = stem.to_owned();
+    name.push(format!("_{word}{extension}"));
+    path.with_file_name(name)
 }
 
 /// The files of one state, with what is to be told of them.
@@ -265,10 +312,7 @@ fn written_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Resu
         Format::BtdfText => {
             let mut files = Vec::new();
             for component in Component::ALL {
-                let path = match component {
-                    Component::TransmissionFront => path.to_owned(),
-                    other => path_with(path, &other.key().replace('_', "-")),
-                };
+                let path = path_of_component(path, component);
                 let written = btdf_text::write_component(dataset, component).map_err(told)?;
                 files.push((path, written));
             }

@@ -143,6 +143,12 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         LidFormat::Svg => FileKind::Svg,
     };
     if needs_index(&wish, &members) {
+        if args.out.file_name().is_none_or(|name| name.to_str().is_none()) {
+            bail!(
+                "--out {}: a name that is not UTF-8, in which the index names files; expected another",
+                args.out.display()
+            );
+        }
         args.over.check([&**path], Some(&args.out.with_extension("index.csv")), FileKind::Csv)?;
     } else {
         args.over.check([&**path], Some(&args.out), kind)?;
@@ -229,7 +235,11 @@ fn all(
             SetError::Study(error) => anyhow::Error::from(error).context(about()),
             SetError::File(error) => anyhow::Error::from(error).context(args.out.display().to_string()),
         })?;
-        let target = |file: &TileFile| args.out.with_file_name(&file.row.file);
+        // A file alone has the name that was asked for, which need not be UTF-8.
+        let named = needs_index(wish, members);
+        let target = |file: &TileFile| {
+            if named { args.out.with_file_name(&file.row.file) } else { args.out.clone() }
+        };
         let list: Vec<_> = set.files.iter().map(|file| (target(file), written.kind, &*file.bytes)).collect();
         written.put(&list)?;
         rows.extend(set.files.iter().map(|file| Row { set: member.name.clone(), ..file.row.clone() }));
@@ -242,7 +252,7 @@ fn all(
         let path = args.out.with_extension("index.csv");
         written.put(&[(path.clone(), FileKind::Csv, &luminaire_index::write(&rows))])?;
         if !args.json {
-            tell!("{}: index of {} files", path.display(), rows.len());
+            tell!("{}: index of {} files", absolute(&path).display(), rows.len());
         }
         written.index = Some(path);
     }
@@ -311,9 +321,15 @@ fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> serde_json::V
     })
 }
 
+/// Returns the path from the root of the file system, where the system knows it.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// For people.
 fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
-    let shown = args.out.with_file_name(file_name(&args.out, &member.tag, None));
+    let out = absolute(&args.out);
+    let shown = if member.tag.is_empty() { out } else { out.with_file_name(file_name(&args.out, &member.tag, None)) };
     tell!(
         "{}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
         shown.display(),

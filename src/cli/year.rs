@@ -8,7 +8,7 @@ use crate::formats::FileKind;
 use crate::study::fingerprint::of_results;
 use crate::study::inputs::with_absolute_names;
 use crate::study::year::{Kept, PATIENCE, Step, Year, figures, opening, scene_at, year, year_kept};
-use crate::study::{Library, SceneFile, Session, StudyError, read_scene_file};
+use crate::study::{Library, SceneFile, Session, StudyError, files, read_scene_file};
 use crate::texts::csv_cell;
 use anyhow::{Context as _, anyhow, bail};
 use jiff::civil::{Date, DateTime};
@@ -95,7 +95,7 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     let wanted = wanted(args)?;
     let session = Session::new();
     // Beside a device nothing can be kept.
-    let table = args.out.as_deref().filter(|path| !path.exists() || path.is_file());
+    let table = args.out.as_deref().filter(|path| !files::is_standard(path) && (!path.exists() || path.is_file()));
     let kept = table.map(|path| kept(args, path, &file, base, library)).transpose().map_err(told)?;
     let year = match kept {
         None => year(&file, base, library, &session, &*wanted, &progress).map_err(told)?,
@@ -103,7 +103,17 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
             if kept.count() > 0 {
                 tell!("{}: goes on behind {} hours", kept.path().display(), kept.count());
             }
-            let year = year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress).map_err(told)?;
+            let year = match year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress) {
+                Ok(year) => year,
+                // Hours that could not be kept can be once there is room; a year that is refused would be again.
+                Err(StudyError::File { path, message }) if path == kept.path() => {
+                    return Err(told(StudyError::File { path, message }));
+                }
+                Err(error) => {
+                    kept.done()?;
+                    return Err(told(error));
+                }
+            };
             if let Some(path) = table {
                 args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
             }

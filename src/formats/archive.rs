@@ -1,6 +1,8 @@
 //! A zip archive of files, as folders of data are sent around: its files by name, within limits that no archive gets past.
 
+use super::encoding::{NotText, is_web_page};
 use crate::compute::limits;
+use std::collections::{HashMap, HashSet};
 use std::io::{Cursor, Read};
 use zip::ZipArchive;
 
@@ -12,6 +14,9 @@ pub const MOST_FILE: u64 = limits::ENTRY_BYTES;
 /// Why an archive, or a file in it, cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum ArchiveError {
+    /// A web page that was saved in place of the archive.
+    #[error(transparent)]
+    WebPage(#[from] NotText),
     /// Not a zip file, or damaged.
     #[error("not a readable zip archive: {0}")]
     Zip(#[from] zip::result::ZipError),
@@ -31,42 +36,107 @@ pub fn looks_like_archive(bytes: &[u8]) -> bool {
     super::package::looks_like_package(bytes)
 }
 
+/// A file in an archive.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// Place in the archive, to read it by.
+    pub index: usize,
+    /// Name with its folders, divided by `/`; as it is stored where another file differs from it in `\\` alone.
+    pub name: String,
+}
+
+/// The files in an archive.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Contents {
+    /// Files that can be read, by name.
+    pub files: Vec<Entry>,
+    /// Names that several files have, of which none can be told from the others.
+    pub clashes: Vec<String>,
+}
+
 fn opened(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, ArchiveError> {
+    if is_web_page(bytes) {
+        return Err(NotText::WEB_PAGE.into());
+    }
     let zip = ZipArchive::new(Cursor::new(bytes))?;
     if zip.len() > MOST_ENTRIES { Err(ArchiveError::Entries(zip.len())) } else { Ok(zip) }
 }
 
-/// Names of the files in an archive, with their folders, sorted; what systems put there for themselves is left out.
+/// Lists the files in an archive; what systems put there for themselves is left out.
 ///
 /// # Errors
-/// No zip archive, or one of too many entries.
-pub fn names(bytes: &[u8]) -> Result<Vec<String>, ArchiveError> {
+/// Returns an error if the bytes are not a zip archive, or one of too many entries.
+pub fn contents(bytes: &[u8]) -> Result<Contents, ArchiveError> {
     let zip = opened(bytes)?;
-    let own = |name: &str| name.split('/').any(|part| part.starts_with('.') || part == "__MACOSX");
-    let files: Vec<_> = zip.file_names().collect::<Result<_, _>>()?;
-    let files = files.into_iter().map(|name| name.replace('\\', "/"));
-    let mut list: Vec<String> = files.filter(|name| !name.ends_with('/') && !own(name)).collect();
-    list.sort();
-    Ok(list)
+    let own = |name: &str| name.split(['/', '\\']).any(|part| part.starts_with('.') || part == "__MACOSX");
+    let repeated = repeated(bytes, &zip);
+    let mut contents = Contents::default();
+    for (index, (name, raw)) in zip.file_names().zip(zip.file_names_raw()).enumerate() {
+        let name = name?.into_owned();
+        if name.ends_with(['/', '\\']) || own(&name) {
+            continue;
+        }
+        if repeated.contains(raw) {
+            contents.clashes.push(name);
+        } else {
+            contents.files.push(Entry { index, name });
+        }
+    }
+    let mut count: HashMap<String, usize> = HashMap::new();
+    for file in &contents.files {
+        *count.entry(with_slashes(&file.name)).or_default() += 1;
+    }
+    for file in &mut contents.files {
+        let name = with_slashes(&file.name);
+        if count[&name] == 1 {
+            file.name = name;
+        }
+    }
+    contents.files.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(contents)
 }
 
-/// Do these names belong to an exchange package?
-pub fn holds_package(names: &[String]) -> bool {
-    names.iter().any(|name| name == "manifest.json")
+/// Divides folders by `/` alone.
+fn with_slashes(name: &str) -> String {
+    name.replace('\\', "/")
 }
 
-/// The bytes of one file; never more than `most`, whatever the archive says of itself.
+/// Returns the names that stand several times in the list at the end of an archive; the reader knows the last file of each
+/// alone.
+fn repeated<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> HashSet<&'a [u8]> {
+    let mut repeated = HashSet::new();
+    if !zip.has_duplicate_names() {
+        return repeated;
+    }
+    let mut seen = HashSet::new();
+    let mut rest =
+        usize::try_from(zip.central_directory_start()).ok().and_then(|at| bytes.get(at..)).unwrap_or_default();
+    // APPNOTE 4.3.12: 46 bytes, the lengths of three fields at 28, 30 and 32 among them; the first field is the name.
+    while let Some(head) = rest.get(..46).filter(|head| head.starts_with(b"PK\x01\x02")) {
+        let [name, extra, comment] = [28, 30, 32].map(|at| usize::from(u16::from_le_bytes([head[at], head[at + 1]])));
+        let Some(raw) = rest.get(46..46 + name) else { break };
+        if !seen.insert(raw) {
+            repeated.insert(raw);
+        }
+        rest = rest.get(46 + name + extra + comment..).unwrap_or_default();
+    }
+    repeated
+}
+
+/// Whether these files are those of an exchange package.
+pub fn holds_package(files: &[Entry]) -> bool {
+    files.iter().any(|file| file.name == "manifest.json")
+}
+
+/// Returns the bytes of the file at `index`; never more than `most`, whatever the archive says of itself.
 ///
 /// # Errors
-/// No such file, a damaged one, or a larger one.
-pub fn read(bytes: &[u8], name: &str, most: u64) -> Result<Vec<u8>, ArchiveError> {
+/// Returns an error if there is no such file, or it is damaged or larger.
+pub fn read(bytes: &[u8], index: usize, most: u64) -> Result<Vec<u8>, ArchiveError> {
     let mut zip = opened(bytes)?;
     let most = most.min(MOST_FILE);
-    let own = |other: &String| other.replace('\\', "/") == name;
-    let stored = zip.file_names().filter_map(|name| Some(name.ok()?.into_owned())).find(own);
-    let stored = stored.unwrap_or_else(|| name.to_owned());
     let mut unpacked = Vec::new();
-    zip.by_name(&stored)?.take(most + 1).read_to_end(&mut unpacked).map_err(ArchiveError::Unpack)?;
+    zip.by_index(index)?.take(most + 1).read_to_end(&mut unpacked).map_err(ArchiveError::Unpack)?;
     if unpacked.len() as u64 > most { Err(ArchiveError::Large(most >> 20)) } else { Ok(unpacked) }
 }
 
@@ -76,6 +146,10 @@ mod tests {
     use std::io::Write as _;
     use zip::ZipWriter;
     use zip::write::SimpleFileOptions;
+
+    fn names(files: &[Entry]) -> Vec<&str> {
+        files.iter().map(|file| file.name.as_str()).collect()
+    }
 
     fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
@@ -89,11 +163,29 @@ mod tests {
     #[test]
     fn files_are_found_by_name_and_what_systems_add_is_not() {
         let bytes = zip(&[("b/two.xml", b"2"), ("one.xml", b"1"), ("__MACOSX/._one.xml", b"x"), (".DS_Store", b"x")]);
-        let list = names(&bytes).unwrap();
-        assert_eq!(list, ["b/two.xml", "one.xml"]);
+        let list = contents(&bytes).unwrap().files;
+        assert_eq!(names(&list), ["b/two.xml", "one.xml"]);
         assert!(looks_like_archive(&bytes) && !holds_package(&list));
-        assert_eq!(read(&bytes, "b/two.xml", 10).unwrap(), b"2");
-        assert!(read(&bytes, "three.xml", 10).is_err() && names(b"PK\x03\x04 nothing").is_err());
+        assert_eq!(read(&bytes, list[0].index, 10).unwrap(), b"2");
+        assert!(read(&bytes, 4, 10).is_err() && contents(b"PK\x03\x04 nothing").is_err());
+        let page = contents(b"<!DOCTYPE html>\n<html>").unwrap_err().to_string();
+        assert!(page.contains("HTML page"), "{page}");
+    }
+
+    #[test]
+    fn files_of_one_name_are_told_and_those_of_similar_names_are_read_apart() {
+        let mut bytes = zip(&[("a/x.xml", b"1"), ("b/x.xml", b"2"), ("c\\y.xml", b"3"), ("c/y.xml", b"4")]);
+        // Writers refuse a name that is there already.
+        for at in 0..bytes.len() - 7 {
+            if bytes[at..].starts_with(b"b/x.xml") {
+                bytes[at] = b'a';
+            }
+        }
+        let Contents { files, clashes } = contents(&bytes).unwrap();
+        assert_eq!(clashes, ["a/x.xml"]);
+        assert_eq!(names(&files), ["c/y.xml", "c\\y.xml"]);
+        let held: Vec<_> = files.iter().map(|file| read(&bytes, file.index, 10).unwrap()).collect();
+        assert_eq!(held, [b"4", b"3"]);
     }
 
     #[test]
@@ -101,7 +193,7 @@ mod tests {
         // A million zeros take a thousand bytes.
         let bytes = zip(&[("bomb.xml", &vec![0; 1_000_000])]);
         assert!(bytes.len() < 5_000);
-        assert!(matches!(read(&bytes, "bomb.xml", 10_000), Err(ArchiveError::Large(_))));
-        assert_eq!(read(&bytes, "bomb.xml", 1_000_000).unwrap().len(), 1_000_000);
+        assert!(matches!(read(&bytes, 0, 10_000), Err(ArchiveError::Large(_))));
+        assert_eq!(read(&bytes, 0, 1_000_000).unwrap().len(), 1_000_000);
     }
 }

@@ -1,7 +1,8 @@
 //! Files on disk: read whole up to a size, written whole or not at all, and never over what they were made from.
 //!
 //! Every file that the program writes for somebody goes through [`write_all`]: it refuses to take the place of an input and
-//! of a file of another kind, writes beside, and renames when all bytes are there.
+//! of a file of another kind, writes beside, and renames when all bytes are there. The name `-` stands for standard input
+//! and output.
 
 use super::error::StudyError;
 use super::part::{Part, resolved};
@@ -31,7 +32,13 @@ fn wrong(path: &Path, message: String) -> StudyError {
 /// One sentence that names the file.
 pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
     let cannot = |error: std::io::Error| wrong(path, format!("cannot be read ({error}); check path and rights"));
+    if is_standard(path) {
+        return read_stream(path, std::io::stdin().lock());
+    }
     let meta = std::fs::metadata(path).map_err(cannot)?;
+    if is_pipe(&meta) {
+        return read_stream(path, std::fs::File::open(path).map_err(cannot)?);
+    }
     if !meta.is_file() {
         return Err(wrong(path, "not a file; expected one to read".to_owned()));
     }
@@ -43,8 +50,39 @@ pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
     std::fs::read(path).map_err(cannot)
 }
 
+/// Whether a path stands for standard input or output.
+pub fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Whether a path leads to a pipe, which can be read once.
+#[cfg(unix)]
+fn is_pipe(meta: &std::fs::Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&meta.file_type())
+}
+
+/// Whether a path leads to a pipe: other systems do not tell.
+#[cfg(not(unix))]
+const fn is_pipe(_: &std::fs::Metadata) -> bool {
+    false
+}
+
+/// Reads all bytes of a stream, whose length is known only at its end.
+fn read_stream(path: &Path, stream: impl std::io::Read) -> Result<Vec<u8>, StudyError> {
+    let mut bytes = Vec::new();
+    let read = stream.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
+    read.map_err(|error| wrong(path, format!("cannot be read ({error})")))?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        return Err(wrong(path, format!("more than {} MB", LARGEST_FILE >> 20)));
+    }
+    Ok(bytes)
+}
+
 /// Names a file that results depend on and that is read by other means.
 pub fn keep(path: &Path) {
+    if is_standard(path) {
+        return;
+    }
     // Where the program runs is not where it may be later.
     if let Ok(path) = std::path::absolute(path) {
         INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
@@ -86,6 +124,9 @@ pub struct Output<'a> {
 /// # Errors
 /// One sentence that names the file, what is there, and what would be right.
 pub fn check(path: &Path, replace: Replace<'_>) -> Result<(), StudyError> {
+    if is_standard(path) {
+        return Ok(());
+    }
     let there = match std::fs::metadata(path) {
         Ok(there) => there,
         Err(error) if error.kind() == ErrorKind::NotFound => {
@@ -159,6 +200,11 @@ pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
         }
         check(one.path, one.replace)?;
         let told = |error: std::io::Error| cannot_write(one.path, &error);
+        if is_standard(one.path) {
+            let mut output = std::io::stdout().lock();
+            output.write_all(one.bytes).and_then(|()| output.flush()).map_err(told)?;
+            continue;
+        }
         let target = resolved(one.path);
         if target.exists() && !target.is_file() {
             let mut device = std::fs::OpenOptions::new().write(true).open(&target).map_err(told)?;
@@ -271,6 +317,13 @@ mod tests {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "neither a new file nor a part");
         let told = said(write(&path("no/such.csv"), TABLE, PLAIN));
         assert!(told.contains("its folder"), "{told}");
+    }
+
+    #[test]
+    fn a_stream_is_read_to_its_end() {
+        assert_eq!(read_stream(Path::new("-"), TABLE).unwrap(), TABLE);
+        assert!(is_standard(Path::new("-")) && !is_standard(Path::new("./-")));
+        assert_eq!(said(check(Path::new("-"), PLAIN)), "");
     }
 
     #[cfg(unix)]

@@ -5,10 +5,11 @@ use crate::catalogue::{NewProduct, SourceFile, unpack};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::limits;
+use crate::formats::archive::{self, Contents, Entry};
 use crate::formats::luminaire::Luminaire;
 use crate::formats::system_toml::is_system_file;
 use crate::formats::weather::is_weather_file;
-use crate::formats::{Format, FormatError, archive, eulumdat, ies};
+use crate::formats::{Format, FormatError, eulumdat, ies};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,6 +19,8 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 const MOST_FILES: usize = limits::IMPORTED_FILES;
 /// Folders within folders that are looked into.
 const DEPTH: usize = 6;
+/// Archives within archives that are looked into.
+const ARCHIVES: usize = 2;
 /// Most bytes that all archives together may unpack to.
 const MOST_UNPACKED: u64 = limits::UNPACKED_BYTES;
 
@@ -119,12 +122,21 @@ impl Kind {
 struct Given {
     /// On disk; of a file in an archive the archive's.
     path: PathBuf,
-    /// The archive's bytes and the name in it.
-    within: Option<(Arc<Vec<u8>>, String)>,
+    /// The archive that it is in.
+    within: Option<Within>,
     /// What it is called in messages.
     name: String,
     /// Named by the user, not found in a folder or archive?
     named: bool,
+}
+
+/// A place in an archive.
+#[derive(Clone)]
+struct Within {
+    archive: Arc<Vec<u8>>,
+    index: usize,
+    /// Path of the file as if archives were folders.
+    place: PathBuf,
 }
 
 impl Given {
@@ -135,19 +147,16 @@ impl Given {
 
     /// Where it lies: files of one folder may be states of one product.
     fn folder(&self) -> String {
-        let Some((_, entry)) = &self.within else {
-            return self.path.parent().map(|folder| folder.display().to_string()).unwrap_or_default();
-        };
-        let inner = entry.rsplit_once('/').map_or("", |(folder, _)| folder);
-        self.path.join(inner).display().to_string().trim_end_matches('/').to_owned()
+        let place = self.within.as_ref().map_or(&self.path, |within| &within.place);
+        place.parent().map(|folder| folder.display().to_string()).unwrap_or_default()
     }
 
     fn bytes(&self, left: &AtomicU64) -> Result<Vec<u8>, String> {
-        let Some((archive, entry)) = &self.within else {
+        let Some(Within { archive, index, .. }) = &self.within else {
             return files::read(&self.path).map_err(|error| error.to_string());
         };
         let told = |error: archive::ArchiveError| format!("{}: {error}", self.name);
-        let bytes = archive::read(archive, entry, left.load(Ordering::Relaxed)).map_err(told)?;
+        let bytes = archive::read(archive, *index, left.load(Ordering::Relaxed)).map_err(told)?;
         let taken = |left: u64| left.checked_sub(bytes.len() as u64);
         match left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, taken) {
             Ok(_) => Ok(bytes),
@@ -171,11 +180,14 @@ struct Listing {
     left_out: Vec<String>,
     failures: Vec<String>,
     full: bool,
+    /// What all archives together may still unpack to. \[bytes\]
+    left: AtomicU64,
 }
 
 impl Listing {
     fn of(paths: &[PathBuf], progress: &dyn Progress) -> Self {
-        let mut list = Self { files: Vec::new(), left_out: Vec::new(), failures: Vec::new(), full: false };
+        let (files, left_out, failures) = (Vec::new(), Vec::new(), Vec::new());
+        let mut list = Self { files, left_out, failures, full: false, left: AtomicU64::new(MOST_UNPACKED) };
         for path in paths {
             if path.is_dir() {
                 let before = list.files.len() + list.left_out.len() + list.failures.len();
@@ -226,38 +238,45 @@ impl Listing {
         if self.files.len() >= MOST_FILES {
             self.full = true;
         } else if Kind::of(&file.name) == Kind::Archive {
-            self.unpack(&file);
+            self.unpack(&file, ARCHIVES);
         } else {
             self.files.push(file);
         }
     }
 
     /// The files of an archive, or the archive itself where it is a package by another name.
-    fn unpack(&mut self, file: &Given) {
-        let bytes = match files::read(&file.path) {
+    fn unpack(&mut self, file: &Given, depth: usize) {
+        let bytes = match file.bytes(&self.left) {
             Ok(bytes) => Arc::new(bytes),
-            Err(error) => return self.failures.push(error.to_string()),
+            Err(error) => return self.failures.push(error),
         };
-        let names = match archive::names(&bytes) {
-            Ok(names) => names,
+        let Contents { files, clashes } = match archive::contents(&bytes) {
+            Ok(contents) => contents,
             Err(error) => return self.failures.push(format!("{}: {error}", file.name)),
         };
-        if archive::holds_package(&names) {
-            let (path, name) = (file.path.clone(), format!("{}.cfsp", file.name));
-            return self.files.push(Given { path, within: None, name, named: file.named });
+        let (path, within) = (file.path.clone(), file.within.clone());
+        if archive::holds_package(&files) {
+            return self.files.push(Given { path, within, name: format!("{}.cfsp", file.name), named: file.named });
         }
-        if names.is_empty() {
+        if files.is_empty() && clashes.is_empty() {
             self.left_out.push(format!("{}: an archive without files", file.name));
         }
-        for entry in names {
+        let told = "several files of this name in the archive; unpack it and give each a name of its own";
+        self.failures.extend(clashes.iter().map(|clash| format!("{}/{clash}: {told}", file.name)));
+        let place = within.map_or(path, |within| within.place);
+        for Entry { index, name: entry } in files {
             let name = format!("{}/{entry}", file.name);
-            if Kind::of(&name) == Kind::Archive {
-                self.left_out.push(format!("{name}: an archive in an archive; unpack it first"));
-            } else if self.files.len() >= MOST_FILES {
+            let within = Some(Within { archive: bytes.clone(), index, place: place.join(entry.replace('\\', "/")) });
+            let inner = Given { path: file.path.clone(), within, name, named: false };
+            if self.files.len() >= MOST_FILES {
                 self.full = true;
+            } else if Kind::of(&inner.name) != Kind::Archive {
+                self.files.push(inner);
+            } else if depth == 0 {
+                let told = format!("an archive more than {ARCHIVES} levels down; unpack it first");
+                self.left_out.push(format!("{}: {told}", inner.name));
             } else {
-                let within = Some((bytes.clone(), entry));
-                self.files.push(Given { path: file.path.clone(), within, name, named: false });
+                self.unpack(&inner, depth - 1);
             }
         }
     }
@@ -330,7 +349,7 @@ fn read_one(file: &Given, left: &AtomicU64, read: ReadDataset) -> Read {
 /// Takes in all that the paths lead to. Files that the user named may also be scenes, systems and control curves; files
 /// that were found in folders and archives count as datasets and packages alone, and others are told.
 pub fn take_in(paths: &[PathBuf], read: ReadDataset, progress: &dyn Progress) -> Taken {
-    let Listing { files, left_out, failures, .. } = Listing::of(paths, progress);
+    let Listing { files, left_out, failures, left, .. } = Listing::of(paths, progress);
     let mut taken = Taken { left_out, failures, ..Taken::default() };
     let mut rest = Vec::new();
     for file in files {
@@ -345,7 +364,7 @@ pub fn take_in(paths: &[PathBuf], read: ReadDataset, progress: &dyn Progress) ->
             _ => rest.push(file),
         }
     }
-    let (done, left) = (AtomicUsize::new(0), AtomicU64::new(MOST_UNPACKED));
+    let done = AtomicUsize::new(0);
     let count = rest.len();
     progress.advance("files", 0, count);
     let each = |file: &Given| {

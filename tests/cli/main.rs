@@ -14,6 +14,7 @@ mod fault_cli;
 mod goniophotometer_cli;
 mod info_cli;
 mod keeping_cli;
+mod names_cli;
 mod program;
 mod rank_cli;
 mod report_cli;

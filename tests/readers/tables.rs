@@ -83,11 +83,11 @@ pub fn make_figures(choices: &mut Choices) -> Vec<u8> {
 }
 
 pub fn read_figures(bytes: &[u8]) -> bool {
-    let text = match encoding::utf8(bytes) {
+    let text = match encoding::decode(bytes) {
         Ok(text) => text,
         Err(error) => return told(&error),
     };
-    match figures_table::read(text, &ANGLES) {
+    match figures_table::read(&text, &ANGLES) {
         Ok(rows) => {
             let twin = again("a table of figures", figures_table::read(&figures_table::write(&rows, &ANGLES), &ANGLES));
             assert_eq!(twin.len(), rows.len(), "rows that got lost");
@@ -144,12 +144,12 @@ pub fn read_archive(bytes: &[u8]) -> bool {
     {
         kind.may_be(bytes);
     }
-    let names = match archive::names(bytes) {
-        Ok(names) => names,
+    let files = match archive::contents(bytes) {
+        Ok(contents) => contents.files,
         Err(error) => return told(&error),
     };
-    for name in names.iter().take(8) {
-        match archive::read(bytes, name, 1 << 20) {
+    for file in files.iter().take(8) {
+        match archive::read(bytes, file.index, 1 << 20) {
             Ok(file) => assert!(file.len() <= 1 << 20, "a file larger than it may be"),
             Err(error) => {
                 told(&error);

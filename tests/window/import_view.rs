@@ -355,7 +355,7 @@ fn an_archive_with_folders_and_a_package_in_it_is_taken_in_like_a_folder() {
         ("blinds/ven45.xml", steep.as_bytes()),
         ("blinds/readme.pdf", b"%PDF"),
         ("packed.cfsp", &package),
-        ("more.zip", b"PK\x03\x04"),
+        ("more.zip", &zip(&[("deeper.zip", &zip(&[("deepest.zip", &zip(&[("a.xml", b"x")]))]))])),
         ("damaged.xml", b"<WindowElement>"),
     ]);
     let folder = tempfile::tempdir().unwrap();
@@ -370,7 +370,10 @@ fn an_archive_with_folders_and_a_package_in_it_is_taken_in_like_a_folder() {
     );
     let left_out = &import(&harness).left_out;
     assert!(left_out.iter().any(|text| text.starts_with("all.zip/blinds/readme.pdf: not a dataset")), "{left_out:?}");
-    assert!(left_out.iter().any(|text| text.starts_with("all.zip/more.zip: an archive in an archive")), "{left_out:?}");
+    assert!(
+        left_out.iter().any(|text| text.starts_with("all.zip/more.zip/deeper.zip/deepest.zip: an archive more")),
+        "{left_out:?}"
+    );
     assert!(import(&harness).failures[0].starts_with("all.zip/damaged.xml: "));
     apply(&mut harness, Command::AddImport);
     assert_eq!(products(&harness), before + 2);

@@ -184,7 +184,7 @@ impl Kept {
         Ok(())
     }
 
-    /// The table is there: nothing is kept any more.
+    /// Removes what was kept: the table is there, or will never be.
     ///
     /// # Errors
     /// A part that cannot be removed.

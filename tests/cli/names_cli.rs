@@ -1,0 +1,83 @@
+//! Names and streams: bytes that are not UTF-8, `-`, and nothing that stays behind after a refusal.
+
+use crate::rooms::*;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+fn cfs(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cfs"));
+    command.current_dir(folder).env("CFS_CATALOGUE", folder.join("catalogue.cfsdb"));
+    command
+}
+
+fn scene(folder: &Path) {
+    let apertures = vec![facade([0.5, 1.0], [3.0, 1.5], "{ ideal = \"diffuse\", transmittance = 0.5 }")];
+    std::fs::write(folder.join("a.toml"), Text { apertures, ..Text::default() }.toml()).unwrap();
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[cfg(unix)]
+#[test]
+fn a_name_that_is_not_utf_8_is_written_and_its_sibling_stays() {
+    use std::{ffi::OsStr, os::unix::ffi::OsStrExt as _};
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    scene(at);
+    // What the name would be with its byte replaced.
+    std::fs::write(at.join("a\u{fffd}.ldt"), "mine").unwrap();
+    let name = OsStr::from_bytes(b"a\xff.ldt");
+    let output = cfs(at).args(["lid", "a.toml", "--out"]).arg(name).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(std::fs::metadata(at.join(name)).unwrap().len() > 1000);
+    assert_eq!(std::fs::read(at.join("a\u{fffd}.ldt")).unwrap(), b"mine");
+    let tiles = cfs(at).args(["lid", "a.toml", "--tiles", "2x1", "--out"]).arg(name).output().unwrap();
+    assert!(tiles.status.code() == Some(2) && said(&tiles).contains("not UTF-8"), "{}", said(&tiles));
+}
+
+#[test]
+fn what_is_written_is_named_by_its_absolute_path() {
+    let folder = tempfile::tempdir().unwrap();
+    scene(folder.path());
+    let output = cfs(folder.path()).args(["lid", "a.toml", "--out", "a.ldt"]).output().unwrap();
+    let path = folder.path().join("a.ldt").display().to_string();
+    assert!(said(&output).contains(&path), "{path} is not in: {}", said(&output));
+}
+
+#[test]
+fn a_dash_is_standard_input_and_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    scene(at);
+    let table = cfs(at).args(["room", "a.toml"]).output().unwrap().stdout;
+    let mut child = cfs(at)
+        .args(["room", "-", "--out", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(&std::fs::read(at.join("a.toml")).unwrap()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert_eq!(output.stdout, table);
+    assert!(!at.join("-").exists());
+}
+
+#[test]
+fn a_state_that_is_refused_leaves_nothing_behind() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let blind = "name = \"blind\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 1e-320\nangles = [0, 45]\n\
+                 upper = { reflectance = 0.5 }\nlower = { reflectance = 0.3 }\n";
+    std::fs::write(at.join("b.system.toml"), blind).unwrap();
+    for out in ["o.cfsp", "o.xml"] {
+        let output = cfs(at).args(["goniophotometer", "b.system.toml", "--out", out]).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+        let there: Vec<_> = std::fs::read_dir(at).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(there, ["b.system.toml"], "{out}");
+    }
+}
