@@ -69,7 +69,7 @@ impl Calendar {
         let failed = |message: String| StudyError::File { path: key.0.clone(), message };
         let moved = 60 * weather.hours(reading).map_err(|error| failed(error.to_string()))?.moved_clock();
         let maps = [true, false].map(|direct| weather_map(weather, reading, direct));
-        let start = |record: &Record| moment(record, f64::from(60 * i32::from(record.start) + moved));
+        let start = |record: &Record| moment(record, f64::from(record.start + moved));
         let starts = weather.records.iter().map(start).collect();
         let warnings = kept.warnings().map(|one| one.code).collect();
         Ok(Self { station: weather.station.clone(), closure: kept.summary.closure, warnings, maps, starts, key })

@@ -27,7 +27,7 @@ pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Cont
 /// First and last interval as people read them.
 fn period(weather: &Weather) -> [String; 2] {
     let words = |record: Option<&crate::compute::weather::Record>| {
-        record.map_or(String::new(), |one| format!("{} {}", one.day, one.clock_words(weather.interval)))
+        record.map_or(String::new(), |one| one.label(weather.interval))
     };
     [words(weather.records.first()), words(weather.records.last())]
 }
@@ -146,6 +146,12 @@ fn closure(weather: &Weather, summary: &Summary) -> String {
         return format!(
             "{:.1} W/m² with the table's clock of {:+} min, {:.1} W/m² without",
             one.best_rms, weather.clock, one.rms
+        );
+    }
+    if !one.closes() {
+        return format!(
+            "{:.1} W/m², at no clock better than {:.1} W/m²: irradiances contradict each other",
+            one.rms, one.best_rms
         );
     }
     if one.best_offset == 0.0 {

@@ -149,6 +149,11 @@ pub fn warning_words(code: &'static str) -> &'static str {
         "sun-down-light" => say::WEATHER_SUN_DOWN,
         "black-sky" => say::WEATHER_BLACK_SKY,
         "summer-time" => say::WEATHER_SUMMER_TIME,
+        "zone" => say::WEATHER_ZONE,
+        "direct-horizontal" => say::WEATHER_DIRECT_HORIZONTAL,
+        "not-closed" => say::WEATHER_NOT_CLOSED,
+        "unit-watt-hours" => say::WEATHER_WATT_HOURS,
+        "records-per-hour" => say::WEATHER_RECORDS,
         _ => return code,
     };
     words.get()

@@ -151,6 +151,11 @@ texts! {
     const WEATHER_SUN_DOWN = "The weather file has direct sun while the sun is below the horizon: clock, longitude or time zone are wrong" | "Die Wetterdatei hat direkte Sonne, während die Sonne unter dem Horizont steht: Uhr, Länge oder Zeitzone stimmen nicht";
     const WEATHER_BLACK_SKY = "The weather file has hours with a high sun and no diffuse light: their sky is black" | "Die Wetterdatei hat Stunden mit hoher Sonne ohne diffuses Licht: ihr Himmel ist schwarz";
     const WEATHER_SUMMER_TIME = "The weather file states summer time; its rows are read as standard time" | "Die Wetterdatei gibt Sommerzeit an; ihre Zeilen werden als Normalzeit gelesen";
+    const WEATHER_ZONE = "The clock of the weather file is that of no time zone, or does not belong to its longitude" | "Die Uhr der Wetterdatei ist die keiner Zeitzone, oder sie gehört nicht zu ihrer Länge";
+    const WEATHER_DIRECT_HORIZONTAL = "The direct normal irradiances of the weather file are those on the horizontal plane" | "Die direkt-normalen Bestrahlungsstärken der Wetterdatei sind die auf der waagrechten Ebene";
+    const WEATHER_NOT_CLOSED = "Global, direct and diffuse irradiances of the weather file contradict each other" | "Globale, direkte und diffuse Bestrahlungsstärken der Wetterdatei widersprechen sich";
+    const WEATHER_WATT_HOURS = "The irradiances of the weather file seem to be Wh/m² of short intervals; they are read as W/m²" | "Die Bestrahlungsstärken der Wetterdatei sind anscheinend Wh/m² kurzer Intervalle; gelesen werden sie als W/m²";
+    const WEATHER_RECORDS = "The weather file states another number of records per hour than it has; its rows count" | "Die Wetterdatei gibt eine andere Zahl von Werten je Stunde an, als sie hat; es zählen ihre Zeilen";
     fn weather_elsewhere(name) = "The weather is that of {name}, not of the scene's place: its place and clock count" | "Das Wetter ist das von {name}, nicht vom Ort der Szene: sein Ort und seine Uhr zählen";
     const TAKE_PLACE = "Take the weather's place" | "Ort des Wetters übernehmen";
     const TAKE_PLACE_TIP = "Latitude, longitude, clock and elevation of the scene become those of the weather" | "Breite, Länge, Uhr und Höhe der Szene werden die des Wetters";

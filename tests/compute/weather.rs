@@ -25,9 +25,9 @@ fn moved(minutes: f64) -> Reading {
 
 /// A station with a record an hour of one day.
 fn day_of(latitude: f64, day: Day, direct: f64, diffuse: f64) -> Weather {
-    let records = (0..24).map(|hour| Record {
+    let records = (0..24_u16).map(|hour| Record {
         day,
-        start: 60 * hour,
+        start: 3600 * i32::from(hour),
         direct: Some(direct),
         diffuse: Some(diffuse),
         global: None,

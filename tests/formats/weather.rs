@@ -35,7 +35,7 @@ fn rows_of_epw_mean_the_interval_that_ends_at_their_hour() {
     assert_eq!((station.latitude, station.longitude, station.utc_offset, station.elevation), (48.5, 9.25, 1.0, 250.0));
     assert_eq!((station.name.as_str(), station.region.as_str()), ("Somewhere", ""));
     let noon = &weather.records[0];
-    assert_eq!((noon.start, noon.line, weather.interval), (11 * 60, 9, 60));
+    assert_eq!((noon.start, noon.line, weather.interval), (11 * 3600, 9, 60));
     assert_eq!(noon.middle(60), "2005-06-21T11:30:00");
     assert_eq!((noon.global, noon.direct, noon.diffuse), (Some(800.0), Some(700.0), Some(100.0)));
     assert_eq!(
@@ -43,11 +43,11 @@ fn rows_of_epw_mean_the_interval_that_ends_at_their_hour() {
         (Some(-4.4), Some(65_900.0), Some(12_400.0))
     );
     let last = &weather.records[1];
-    assert_eq!(last.start, 23 * 60);
+    assert_eq!(last.start, 23 * 3600);
     // The minus of a zero is gone.
     assert!(last.diffuse.unwrap().is_sign_positive());
-    assert_eq!(weather.find(6, 21, 11 * 60), Some(0));
-    assert_eq!((weather.find(6, 21, 12 * 60), weather.find(6, 20, 11 * 60)), (None, None));
+    assert_eq!((weather.find(6, 21, 11 * 3600), weather.find(6, 21, 12 * 3600 - 1)), (Some(0), Some(0)));
+    assert_eq!((weather.find(6, 21, 12 * 3600), weather.find(6, 20, 11 * 3600)), (None, None));
 }
 
 #[test]
@@ -65,7 +65,7 @@ fn several_records_an_hour_end_with_their_minute() {
     let text = header.clone() + &row(15) + &row(30) + &row(45) + &row(0);
     let weather = good(text.as_bytes());
     assert_eq!(weather.interval, 15);
-    assert_eq!(weather.records.iter().map(|r| r.start).collect::<Vec<_>>(), [660, 675, 690, 705]);
+    assert_eq!(weather.records.iter().map(|r| r.start / 60).collect::<Vec<_>>(), [660, 675, 690, 705]);
     assert_eq!(weather.records[0].middle(15), "2005-06-21T11:07:30");
     let error = read("x.epw", (header + &row(20)).as_bytes()).unwrap_err().to_string();
     assert!(error.contains("line 9, column 14, field 5 (minute)") && error.contains("multiple of 15 min"), "{error}");
@@ -84,6 +84,43 @@ fn headers_in_latin_1_and_years_that_cannot_be_are_read() {
     assert_eq!(read("any.thing", &with_mark).unwrap().records, weather.records);
     let crlf = String::from_utf8(epw(&row("2005,6,21", 12, "8,7,1"))).unwrap().replace('\n', "\r\n");
     assert_eq!(good(crlf.as_bytes()).records.len(), 1);
+}
+
+/// A file is the same in every encoding and with every line end that it travels in.
+#[test]
+fn text_is_read_as_it_travels() {
+    let utf16 = |text: &str, big: bool, mark: bool| -> Vec<u8> {
+        let unit = |unit: u16| if big { unit.to_be_bytes() } else { unit.to_le_bytes() };
+        mark.then_some(0xfeff).into_iter().chain(text.encode_utf16()).flat_map(unit).collect()
+    };
+    let epw = String::from_utf8(epw(&row("2005,6,21", 12, "800,700,100"))).unwrap();
+    let wea = "place Somewhere\nlatitude 40.78\nlongitude 73.96\ntime_zone 75\nsite_elevation 40.0\n\
+               weather_data_file_units 1\n3 21 11.500 675 95\n3 21 12.500 725 136\n";
+    let table = "cfs-weather 1\nname = Somewhere\nlatitude = 48.5\nlongitude = 9.25\nutc_offset = 1\nelevation = 250\n\n\
+                 2005-06-21\n13,700.5,100,-4.4\n";
+    for text in [&*epw, wea, table] {
+        let plain = read("x", text.as_bytes()).unwrap();
+        let named = text.replace("Somewhere", "Zürich");
+        let latin: Vec<u8> = named.chars().map(|c| u32::from(c) as u8).collect();
+        for bytes in [
+            text.replace('\n', "\r").into_bytes(),
+            text.replace('\n', "\r\n").into_bytes(),
+            format!("\u{feff}{text}").into_bytes(),
+            utf16(text, false, true),
+            utf16(&text.replace('\n', "\r\n"), true, true),
+            utf16(text, false, false),
+            utf16(text, true, false),
+            latin,
+        ] {
+            let again = read("x", &bytes).unwrap();
+            assert_eq!((again.format, &again.records), (plain.format, &plain.records), "{bytes:?}");
+        }
+        assert_eq!(read("x", named.as_bytes()).unwrap().station.name, "Zürich");
+    }
+    for page in ["<!DOCTYPE html>\n<html>", "\n<html lang=\"en\">"] {
+        let error = read("x.epw", page.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains("an HTML page") && error.contains("download the raw file"), "{error}");
+    }
 }
 
 #[test]
@@ -128,7 +165,7 @@ fn summer_time_in_the_header_is_told_and_not_followed() {
     let text = String::from_utf8(epw(&row("2005,6,21", 12, "8,7,1"))).unwrap();
     let weather = good(text.replace("SAVINGS,No,0,0,0", "SAVINGS,Yes,3/29,10/25,0").as_bytes());
     assert!(codes(&weather).contains(&"summer-time"));
-    assert_eq!(weather.records[0].start, 660);
+    assert_eq!(weather.records[0].start, 11 * 3600);
 }
 
 #[test]
@@ -137,7 +174,7 @@ fn radiances_files_count_west_and_their_hours_are_middles() {
                 weather_data_file_units 1\n3 21 11.500 675 95\n3 21 12.500 725 136\n";
     let weather = read("x.wea", text.as_bytes()).unwrap();
     assert_eq!((weather.station.longitude, weather.station.utc_offset), (-73.96, -5.0));
-    assert_eq!((weather.interval, weather.records[1].start), (60, 720));
+    assert_eq!((weather.interval, weather.records[1].start), (60, 12 * 3600));
     assert_eq!(weather.records[0].middle(60), "2001-03-21T11:30:00");
     for (unit, quantity) in [("2", Quantity::HorizontalIrradiance), ("3", Quantity::NormalIlluminance)] {
         assert_eq!(
@@ -147,7 +184,7 @@ fn radiances_files_count_west_and_their_hours_are_middles() {
     }
     let quarter = text.replace("11.500", "12.125").replace("12.500", "12.375");
     let weather = read("x.wea", quarter.as_bytes()).unwrap();
-    assert_eq!((weather.interval, weather.records[0].start, weather.records[1].start), (15, 720, 735));
+    assert_eq!((weather.interval, weather.records[0].start, weather.records[1].start), (15, 43_200, 44_100));
     assert_eq!(read("x.wea", text.replace("3 21 11", "2 29 11").as_bytes()).unwrap().records[1].day.year, 2004);
     for (from, to, place) in [
         ("725 136", "-5 136", "line 8, column 13, column 4 (direct normal irradiance): \"-5\""),

@@ -25,6 +25,26 @@ impl Day {
         (1..=most).contains(&day).then_some(Self { year, month, day })
     }
 
+    /// Returns the next day of the calendar.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match (self.month, self.day) {
+            (12, 31) => Self { year: self.year + 1, month: 1, day: 1 },
+            (month, day) if day >= length(self.year, month) => Self { month: month + 1, day: 1, ..self },
+            (_, day) => Self { day: day + 1, ..self },
+        }
+    }
+
+    /// Returns the day before in the calendar.
+    #[must_use]
+    pub fn previous(self) -> Self {
+        match (self.month, self.day) {
+            (1, 1) => Self { year: self.year - 1, month: 12, day: 31 },
+            (month, 1) => Self { month: month - 1, day: length(self.year, month - 1), ..self },
+            (_, day) => Self { day: day - 1, ..self },
+        }
+    }
+
     /// Days since 1 January 1970. A 29th of February in a common year is the day behind the 28th, as its 1st of March.
     pub fn number(self) -> i64 {
         // Years from March on, so that the leap day is the last.
@@ -56,6 +76,12 @@ impl Day {
     }
 }
 
+/// Returns the number of days of a month, 1 … 12, in a year of the Gregorian calendar.
+fn length(year: i16, month: u8) -> u8 {
+    let leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    if month == 2 && !leap { 28 } else { LENGTHS[usize::from(month.clamp(1, 12)) - 1] }
+}
+
 impl fmt::Display for Day {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:04}-{:02}-{:02}", self.year, self.month, self.day)
@@ -84,6 +110,24 @@ mod tests {
             assert_eq!(Day::new(2001, month, number), None);
         }
         assert_eq!(day(958, 2, 3).to_string(), "0958-02-03");
+    }
+
+    #[test]
+    fn days_follow_each_other() {
+        let pairs = [
+            (day(2001, 2, 28), day(2001, 3, 1)),
+            (day(2004, 2, 28), day(2004, 2, 29)),
+            (day(2004, 2, 29), day(2004, 3, 1)),
+            (day(1900, 2, 28), day(1900, 3, 1)),
+            (day(2001, 6, 30), day(2001, 7, 1)),
+            (day(2001, 12, 31), day(2002, 1, 1)),
+            (day(2001, 6, 20), day(2001, 6, 21)),
+        ];
+        for (before, after) in pairs {
+            assert_eq!((before.next(), after.previous()), (after, before));
+        }
+        // A 29th of February that its year has not is followed by March all the same.
+        assert_eq!(day(2001, 2, 29).next(), day(2001, 3, 1));
     }
 
     #[test]

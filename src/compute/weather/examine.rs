@@ -1,7 +1,9 @@
 //! What is to be said about a weather file: period, gaps, clock, light with the sun down, sums.
 
-use super::hour::{HIGH_SUN, HourError, LightSource, Reading, SunOffset};
-use super::record::{Closure, Quantity, Record, Weather};
+use super::contradictions::DIRECT_HORIZONTAL;
+use super::count::Count;
+use super::hour::{HIGH_SUN, HourError, LightSource, MIN_ALTITUDE, Reading, SunOffset};
+use super::record::{Closure, Field, Quantity, Record, Weather};
 use super::sun_path::SunPath;
 use crate::compute::btdf::Finding;
 
@@ -50,24 +52,10 @@ const BEAM_AT_NIGHT: f64 = 50.0;
 /// One row of so many may lie at a sunset that another year's day has: it says nothing about the clock.
 const STRAY: usize = 1000;
 
-/// What happens again and again is told once, with the first place.
-#[derive(Default)]
-struct Count {
-    number: usize,
-    first: Option<u32>,
-}
-
-impl Count {
-    fn add(&mut self, record: &Record) {
-        self.number += 1;
-        self.first.get_or_insert(record.line);
-    }
-
-    /// `12 rows, first in line 40`
-    fn words(&self) -> String {
-        let rows = if self.number == 1 { "row" } else { "rows" };
-        format!("{} {rows}, first in line {}", self.number, self.first.unwrap_or(0))
-    }
+/// `true` if a number of days is that of whole years, with their leap days or without.
+fn are_years(days: usize) -> bool {
+    let years = days / 365;
+    years > 0 && days % 365 <= years.div_ceil(4)
 }
 
 impl Weather {
@@ -82,7 +70,14 @@ impl Weather {
         };
         let mut findings = self.findings.clone();
         let missing = self.sequence(&mut findings);
-        self.say_clock(closure, &mut findings);
+        let contradictions = self.contradictions(closure)?;
+        // A sum that holds another quantity says nothing about the clock.
+        let testable = contradictions.iter().all(|finding| finding.code != DIRECT_HORIZONTAL);
+        let closure = closure.filter(|_| testable);
+        if testable {
+            self.say_clock(closure, &mut findings);
+        }
+        findings.extend(contradictions);
         let mut summary = Summary {
             sums: Sums::default(),
             lit_hours: 0.0,
@@ -99,24 +94,23 @@ impl Weather {
 
     /// Gaps and repetitions; the number of intervals that are not there.
     fn sequence(&self, findings: &mut Vec<Finding>) -> usize {
-        let step = i64::from(self.interval);
+        let step = 60 * i64::from(self.interval);
         let (mut missing, mut gaps, mut back) = (0, Count::default(), Count::default());
         let mut first_gap = String::new();
         for pair in self.records.windows(2) {
             let (before, after) = (&pair[0], &pair[1]);
-            let minutes = before.minutes_to(after);
-            if minutes > step {
+            let seconds = before.seconds_to(after);
+            if seconds > step {
                 if gaps.number == 0 {
-                    let hours = (minutes - step) as f64 / 60.0;
+                    let hours = (seconds - step) as f64 / 3600.0;
                     first_gap = format!("{hours} h between lines {} and {}", before.line, after.line);
                 }
                 gaps.add(after);
-                missing += usize::try_from((minutes - step) / step).unwrap_or(0);
-            } else if minutes < step {
+                missing += usize::try_from((seconds - step) / step).unwrap_or(0);
+            } else if seconds < step {
                 back.add(after);
             }
         }
-        let per_day = 1440 / usize::from(self.interval);
         let rows = self.records.len();
         if gaps.number > 0 {
             let what = if gaps.number == 1 { "a gap".to_owned() } else { format!("{} gaps", gaps.number) };
@@ -127,13 +121,13 @@ impl Weather {
                 format!("{} that begin before the row above has ended: a repeated or misplaced row", back.words());
             findings.push(Finding::warning("order", message));
         }
-        if rows == 366 * per_day {
+        let days = rows * usize::from(self.interval) / 1440;
+        let whole = (rows * usize::from(self.interval)).is_multiple_of(1440) && are_years(days);
+        if whole && days == 366 {
             findings.push(Finding::info("leap-year", format!("{rows} rows: a year of 366 days")));
-        } else if !rows.is_multiple_of(365 * per_day) {
-            let message = format!(
-                "{rows} of {} rows of a year: what is there is used, figures of a year need all",
-                365 * per_day
-            );
+        } else if !whole {
+            let year = 365 * 1440 / usize::from(self.interval);
+            let message = format!("{rows} of {year} rows of a year: what is there is used, figures of a year need all");
             findings.push(Finding::warning("partial-year", message));
         }
         missing
@@ -162,12 +156,14 @@ impl Weather {
             }
             Some(_) => {}
             None => {
-                let why =
-                    if self.quantity == Quantity::NormalIrradiance && self.records.iter().any(|r| r.global.is_some()) {
-                        "too few hours with sun"
-                    } else {
-                        "no global horizontal irradiance beside direct normal and diffuse"
-                    };
+                let has_global = self.records.iter().any(|one| one.global.is_some());
+                let why = if self.quantity != Quantity::NormalIrradiance || !has_global {
+                    "no global horizontal irradiance beside direct normal and diffuse"
+                } else if self.records.iter().all(|one| one.completion().is_some()) {
+                    "direct normal or diffuse irradiance is missing in every row"
+                } else {
+                    "too few hours with sun"
+                };
                 findings.push(Finding::info("clock-untested", format!("the clock cannot be tested: {why}")));
             }
         }
@@ -178,6 +174,7 @@ impl Weather {
         let mut path = SunPath::new(&self.station);
         let length = f64::from(self.interval) / 60.0;
         let (mut absent, mut night, mut black) = (Count::default(), Count::default(), Count::default());
+        let (mut no_direct, mut no_diffuse) = (Count::default(), Count::default());
         let (mut dew, mut lit) = (0, 0);
         let sums = &mut summary.sums;
         for (index, record) in self.records.iter().enumerate() {
@@ -204,6 +201,11 @@ impl Weather {
             if !hour.is_lit() {
                 continue;
             }
+            match record.completion() {
+                Some(Field::Direct) => no_direct.add(record),
+                Some(Field::Diffuse) => no_diffuse.add(record),
+                None => {}
+            }
             lit += 1;
             dew += usize::from(record.dew_point.is_some());
             summary.told += usize::from(hour.light == LightSource::File);
@@ -226,6 +228,19 @@ impl Weather {
                 absent.words()
             );
             findings.push(Finding::warning("light-missing", message));
+        }
+        if no_direct.number > 0 {
+            let message = format!(
+                "direct normal irradiance is missing and computed as (global − diffuse) / sin h, with the sun less than \
+                 {MIN_ALTITUDE}° above the horizon as 0 under a sky that sends all: {}",
+                no_direct.words()
+            );
+            findings.push(Finding::info("direct-computed", message));
+        }
+        if no_diffuse.number > 0 {
+            let rows = no_diffuse.words();
+            let message = format!("diffuse irradiance is missing and computed as global − direct · sin h: {rows}");
+            findings.push(Finding::info("diffuse-computed", message));
         }
         if night.number > self.records.len() / STRAY {
             let message = format!(

@@ -8,6 +8,8 @@
 //! | `sun_path` | the sun's place at any minute of a day, fast |
 //! | `hour` | a record with its sun in the lit part, irradiances and illuminances |
 //! | `closure` | is the file's clock right? |
+//! | `contradictions` | irradiances, unit and clock that contradict each other or the place |
+//! | `count` | rows with a finding in common |
 //! | `examine` | gaps, missing values, light with the sun down, sums |
 //!
 //! Intervals are those of the file (an hour mostly), in local standard time all the year round. The sun of an interval
@@ -16,6 +18,8 @@
 
 mod calendar;
 mod closure;
+mod contradictions;
+mod count;
 mod examine;
 mod hour;
 mod record;

@@ -59,10 +59,11 @@ pub enum Field {
 /// One interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Record {
-    /// The day on which it begins, the row's own year.
+    /// Day that holds its middle, in local standard time; the row's own year.
     pub day: Day,
-    /// Minutes from midnight of local standard time to its begin.
-    pub start: u16,
+    /// Time from the midnight with which `day` begins to the begin of the interval, below 0 for an interval that holds
+    /// that midnight. \[s\]
+    pub start: i32,
     /// Of the sun, see [`Quantity`]; `None` where the file has a missing code.
     pub direct: Option<f64>,
     /// Of the sky, see [`Quantity`]; `None` where the file has a missing code.
@@ -90,7 +91,16 @@ pub struct Closure {
     pub best_rms: f64,
 }
 
+/// Maximum that is left over where irradiances belong together: files of measured and modelled years leave 0.5 to 5.7 W/m² at
+/// their best clock. \[W/m²\]
+const MAX_RMS: f64 = 30.0;
+
 impl Closure {
+    /// `true` if global = diffuse + direct · sin h holds at one of the clocks tried.
+    pub fn closes(&self) -> bool {
+        self.best_rms <= MAX_RMS
+    }
+
     /// Does the file's clock disagree with its own irradiances: by 20 minutes and 10 W/m² or more?
     pub fn is_off(&self) -> bool {
         self.best_offset.abs() >= 20.0 && self.rms - self.best_rms >= 10.0
@@ -123,14 +133,11 @@ pub struct Weather {
 }
 
 impl Weather {
-    /// The record that holds a moment, by month, day and minute of the day: the interval that begins at or before it.
-    /// The first where there are several (a file of several years).
-    pub fn find(&self, month: u8, day: u8, minute: u16) -> Option<usize> {
-        let length = self.interval;
-        self.records.iter().position(|record| {
-            (record.day.month, record.day.day) == (month, day)
-                && (record.start..record.start + length).contains(&minute)
-        })
+    /// Returns the record whose interval holds a moment, given by month, day and second of the day in local standard time;
+    /// the first of several (a file of several years).
+    pub fn find(&self, month: u8, day: u8, second: u32) -> Option<usize> {
+        let second = i32::try_from(second).ok()?;
+        self.records.iter().position(|record| record.holds(self.interval, (month, day), second))
     }
 
     /// What a field is called in the file.
@@ -150,42 +157,72 @@ impl Weather {
     }
 }
 
+/// Length of a day. \[s\]
+const DAY: i32 = 86_400;
+
+/// Length of an interval of `minutes`. \[s\]
+fn seconds(minutes: u16) -> i32 {
+    60 * i32::from(minutes)
+}
+
 impl Record {
-    /// Minutes from the begin of this record to that of a later one. Typical years are spliced of months of several
-    /// years: years count only where both are the same, or follow each other.
-    pub(super) fn minutes_to(&self, later: &Self) -> i64 {
-        let minutes = |record: &Self, year: i16| 1440 * Day { year, ..record.day }.number() + i64::from(record.start);
-        let whole = minutes(later, later.day.year) - minutes(self, self.day.year);
+    /// `true` if the interval of `interval` minutes holds a second of a day, given by month and day.
+    fn holds(&self, interval: u16, date: (u8, u8), second: i32) -> bool {
+        let within = |day: Day, second: i32| {
+            (self.start..self.start + seconds(interval)).contains(&second) && (day.month, day.day) == date
+        };
+        within(self.day, second)
+            || (self.start < 0 && within(self.day.previous(), second - DAY))
+            || (self.start + seconds(interval) > DAY && within(self.day.next(), second + DAY))
+    }
+
+    /// Returns the time from the begin of this record to that of a later one. \[s\]
+    ///
+    /// Typical years are spliced of months of several years: years count only where both are the same, or follow each
+    /// other.
+    pub fn seconds_to(&self, later: &Self) -> i64 {
+        let day = i64::from(DAY);
+        let begin = |record: &Self, year: i16| day * Day { year, ..record.day }.number() + i64::from(record.start);
+        let whole = begin(later, later.day.year) - begin(self, self.day.year);
         if self.day.year == later.day.year {
             return whole;
         }
         // A common year for both; the new one after the old one's end.
-        let mut spliced = minutes(later, 2001) - minutes(self, 2001);
+        let mut spliced = begin(later, 2001) - begin(self, 2001);
         if (self.day.month, self.day.day) > (later.day.month, later.day.day) {
-            spliced += 1440 * 365;
+            spliced += day * 365;
         }
         if whole >= 0 && whole < spliced { whole } else { spliced }
     }
 
-    /// Begin and end as clocks show them: `12:00–13:00`.
-    pub fn clock_words(&self, interval: u16) -> String {
-        let at = |minutes: u16| format!("{:02}:{:02}", minutes / 60, minutes % 60);
-        format!("{}–{}", at(self.start), at(self.start + interval))
+    /// Returns day, begin and end as calendars and clocks show them: `2005-06-21 12:00–13:00`.
+    pub fn label(&self, interval: u16) -> String {
+        let clock = |second: i32| {
+            let minutes = format!("{:02}:{:02}", second / 3600, second / 60 % 60);
+            if second % 60 == 0 { minutes } else { format!("{minutes}:{:02}", second % 60) }
+        };
+        let end = self.start + seconds(interval);
+        let end = clock(if end > DAY { end - DAY } else { end });
+        if self.start < 0 {
+            format!("{} {}–{end}", self.day.previous(), clock(self.start + DAY))
+        } else {
+            format!("{} {}–{end}", self.day, clock(self.start))
+        }
     }
 
     /// Minutes from the midnight of its day to its middle, moved by an offset.
     pub fn middle_minutes(&self, interval: u16, offset: f64) -> f64 {
-        f64::from(self.start) + 0.5 * f64::from(interval) + offset
+        f64::from(self.start) / 60.0 + 0.5 * f64::from(interval) + offset
     }
 
     /// Seconds from the midnight of its day to the middle of a part, of `parts` equal ones.
     pub fn middle_seconds(&self, interval: u16, part: u32, parts: u32) -> f64 {
-        60.0 * (f64::from(self.start) + f64::from(interval) * (f64::from(part) + 0.5) / f64::from(parts))
+        f64::from(self.start) + 60.0 * f64::from(interval) * (f64::from(part) + 0.5) / f64::from(parts)
     }
 
     /// The nominal middle as `2005-06-21T12:30:00`, local standard time.
     pub fn middle(&self, interval: u16) -> String {
-        let seconds = 60 * u32::from(self.start) + 30 * u32::from(interval);
-        format!("{}T{:02}:{:02}:{:02}", self.day, seconds / 3600, seconds / 60 % 60, seconds % 60)
+        let second = self.start + seconds(interval) / 2;
+        format!("{}T{:02}:{:02}:{:02}", self.day, second / 3600, second / 60 % 60, second % 60)
     }
 }

@@ -1,10 +1,11 @@
 //! EPW, the weather files of EnergyPlus ("Auxiliary Programs: EPW data dictionary").
 //!
-//! Read: eight lines of header in any of their spellings, Latin-1 or UTF-8, then rows of 35 fields of which the first 16
-//! must be there. Hours count from 1 to 24 and end there; of one record an hour the minute (0 or 60) says nothing. Rows
-//! are believed and the header's flags not: leap years, periods, gaps. Missing codes are no values.
+//! Read: eight lines of header in any of their spellings, then rows of 35 fields of which the first 16 must be there.
+//! Hours count from 1 to 24 and end there; of one record an hour the minute (0 or 60) says nothing. Rows are believed and
+//! the header's flags not: leap years, periods, gaps, records per hour. Missing codes are no values.
 
-use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, text_of, weekday};
+use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, weekday};
+use super::labels::{Label, Stated, place_intervals};
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
 use crate::compute::weather::{Quantity, Record, Station, Weather};
@@ -33,19 +34,21 @@ const LEAST_FIELDS: usize = 16;
 const LONGEST_HEADER: usize = 200;
 
 /// Reads an EPW file.
-pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
-    let mut rows = lines(bytes);
+pub fn read(text: &str) -> Result<Weather, FormatError> {
+    let mut rows = lines(text);
     let mut findings = Vec::new();
-    let Header { station, interval, first_weekday } = header(&mut rows, &mut findings)?;
-    let mut records = Vec::new();
+    let Header { station, stated, first_weekday } = header(&mut rows, &mut findings)?;
+    let (mut records, mut labels) = (Vec::new(), Vec::new());
     let mut changed = Changed::default();
     let mut last = 1;
     for (number, line) in rows {
-        if line.iter().all(u8::is_ascii_whitespace) {
+        if line.trim_ascii().is_empty() {
             continue;
         }
         last = number;
-        records.push(row(line, number, interval, &mut changed)?);
+        let (record, label) = row(line, number, &mut changed)?;
+        records.push(record);
+        labels.push(label);
         if records.len() > limits::WEATHER_RECORDS {
             break;
         }
@@ -59,53 +62,54 @@ pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
         let message = format!("{} rows of years before 1900 or after 2100: their sun is that of 2001", changed.years);
         findings.push(Finding::info("year-absurd", message));
     }
-    Ok(Weather {
+    let mut weather = Weather {
         format: "EPW",
         station,
         quantity: Quantity::NormalIrradiance,
-        interval,
+        interval: 60,
         clock: 0.0,
         tested: None,
         first_weekday,
         records,
         findings,
         field_names: [DIRECT, DIFFUSE],
-    })
+    };
+    place_intervals(&mut weather, &labels, stated)?;
+    Ok(weather)
 }
 
 /// What the lines before the first row state.
 struct Header {
     station: Station,
-    /// Length of the records. \[min\]
-    interval: u16,
+    /// Length of the intervals by the line DATA PERIODS.
+    stated: Stated,
     /// Of the first row, 0 (Monday) … 6 (Sunday).
     first_weekday: Option<u8>,
 }
 
 fn header<'a>(
-    rows: &mut impl Iterator<Item = (usize, &'a [u8])>,
+    rows: &mut impl Iterator<Item = (usize, &'a str)>,
     findings: &mut Vec<Finding>,
 ) -> Result<Header, FormatError> {
-    let (_, first) = rows.next().unwrap_or((1, &[]));
-    let first = text_of(first);
+    let (_, first) = rows.next().unwrap_or((1, ""));
     if !first.trim_start().to_ascii_uppercase().starts_with("LOCATION") {
-        let found = if first.trim().is_empty() { "nothing".to_owned() } else { format!("\"{}\"", excerpt(&first)) };
+        let found = if first.trim().is_empty() { "nothing".to_owned() } else { format!("\"{}\"", excerpt(first)) };
         return Err(FormatError::new(Location::line(1), found, "the LOCATION line with which an EPW file begins"));
     }
-    let station = location(&first)?;
-    for (number, line) in rows.take(LONGEST_HEADER) {
-        let text = text_of(line);
+    let station = location(first)?;
+    for (number, text) in rows.take(LONGEST_HEADER) {
         let word = text.trim_start().to_ascii_uppercase();
         if word.starts_with("DATA PERIODS") {
-            let fields = header_fields(&text, number, "DATA PERIODS, records per hour");
+            let fields = header_fields(text, number, "DATA PERIODS, records per hour");
             let first_weekday = fields.get(4).and_then(|field| weekday(field.text));
-            return Ok(Header { station, interval: interval(&fields, number)?, first_weekday });
+            let stated = Stated { interval: interval(&fields, number)?, line: number };
+            return Ok(Header { station, stated, first_weekday });
         }
         if word.starts_with("HOLIDAYS") {
-            say_summer_time(&text, findings);
+            say_summer_time(text, findings);
         }
         if word.starts_with(|c: char| c.is_ascii_digit()) {
-            let found = format!("\"{}\"", excerpt(&text));
+            let found = format!("\"{}\"", excerpt(text));
             return Err(FormatError::new(Location::line(number), found, "the DATA PERIODS line before the first row"));
         }
     }
@@ -180,46 +184,38 @@ fn interval(fields: &[Field<'_>], line: usize) -> Result<u16, FormatError> {
     if 60 % records != 0 { Err(field.wrong("a number that divides 60")) } else { Ok(60 / records as u16) }
 }
 
-fn row(bytes: &[u8], line: usize, interval: u16, changed: &mut Changed) -> Result<Record, FormatError> {
-    // What is not ASCII is in remarks and flags, never in a number; a bad byte makes a bad number.
+/// Returns a record whose begin is not known yet, and the label that tells it.
+fn row(text: &str, line: usize, changed: &mut Changed) -> Result<(Record, Label), FormatError> {
     let mut fields = [Field { text: "", line, column: 0, name: "" }; NAMES.len()];
     let (mut count, mut column, mut next) = (0, 1, 0);
-    for part in bytes.split(|byte| *byte == b',') {
+    for part in text.split(',') {
         count += 1;
         if let Some((number, name)) = NAMES.get(next)
             && *number == count
         {
-            fields[next] = Field { text: std::str::from_utf8(part).unwrap_or("?"), line, column, name };
+            fields[next] = Field { text: part, line, column, name };
             next += 1;
         }
         column += part.len() + 1;
     }
     if count < LEAST_FIELDS {
-        let at = Location::line_column(line, bytes.len() + 1);
+        let at = Location::line_column(line, text.len() + 1);
         return Err(FormatError::new(at, format!("a row of {count} fields"), "35 fields, the first 16 at least"));
     }
     let [year, month, date, hour, minute, dew, whole, sun, sky, sun_light, sky_light] = &fields;
     let written = year.integer(-32_000, 32_000)?;
     let day = day(written, month, date)?;
     changed.years += usize::from(i32::from(day.year) != written);
-    let hour = hour.integer(1, 24)? as u16;
-    let start = if interval == 60 {
-        60 * (hour - 1)
-    } else {
-        // Counted within the hour, which ends with minute 60 or 0.
-        let end = match minute.integer(0, 60)? as u16 {
-            0 => 60,
-            end => end,
-        };
-        if end % interval != 0 {
-            return Err(minute.wrong(format!("a multiple of {interval} min, the end of the interval")));
-        }
-        60 * (hour - 1) + end - interval
+    let label = Label {
+        hour: hour.integer(1, 24)? as u8,
+        // Of one record an hour the minute may be anything.
+        minute: minute.integer(0, 60).ok().map(|minute| minute as u8),
+        column: u16::try_from(minute.column).unwrap_or(u16::MAX),
     };
     let dew_point = dew.number()? + 0.0;
-    Ok(Record {
+    let record = Record {
         day,
-        start,
+        start: 0,
         direct: irradiance(sun)?.map(|value| direct(value, sun, day, changed)).transpose()?,
         diffuse: irradiance(sky)?.map(|value| diffuse(value, sky, changed)).transpose()?,
         global: irradiance(whole)?.map(|value| global(value, whole, changed)).transpose()?,
@@ -227,7 +223,8 @@ fn row(bytes: &[u8], line: usize, interval: u16, changed: &mut Changed) -> Resul
         direct_illuminance: illuminance(sun_light)?,
         diffuse_illuminance: illuminance(sky_light)?,
         line: u32::try_from(line).unwrap_or(u32::MAX),
-    })
+    };
+    Ok((record, label))
 }
 
 /// Missing: 9999, in older files 99990 and more.

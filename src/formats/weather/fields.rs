@@ -3,18 +3,12 @@
 use crate::compute::limits;
 use crate::compute::sky::perez::SOLAR_CONSTANT;
 use crate::compute::weather::{Day, Record, Station};
-use crate::formats::encoding::any_text;
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-/// The lines of a file that is ASCII in all that counts. Others become `?` for messages; no number has any.
-pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    bytes.split(|byte| *byte == b'\n').enumerate().map(|(k, line)| (k + 1, line.strip_suffix(b"\r").unwrap_or(line)))
-}
-
-/// Latin-1 or UTF-8 text of a header.
-pub fn text_of(line: &[u8]) -> String {
-    any_text(line).0
+/// The lines of a text with their numbers from 1.
+pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.split('\n').enumerate().map(|(k, line)| (k + 1, line.strip_suffix('\r').unwrap_or(line)))
 }
 
 /// Days of the week as files name them, Monday first.

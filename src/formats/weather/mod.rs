@@ -4,13 +4,16 @@
 //! | --- | --- | --- |
 //! | `epw` | `.epw` | irradiances, illuminances beside them, dew point |
 //! | `wea` | `.wea` | irradiances or illuminances alone |
+//! | `labels` | hours and minutes of EPW rows | – |
 //! | `table` | `cfs-weather 1` | irradiances and dew point of the hours with light |
 
 mod epw;
 mod fields;
+mod labels;
 pub mod table;
 mod wea;
 
+use super::encoding::{Encoding, any_text, decode};
 use super::{FormatError, Location};
 use crate::compute::weather::Weather;
 
@@ -20,19 +23,25 @@ pub fn is_weather_file(name: &str) -> bool {
     [".epw", ".wea", table::EXTENSION].iter().any(|end| name.ends_with(end))
 }
 
-/// Reads a weather file of any of the formats, told by its first word, then by its name.
+/// Reads a weather file of any of the formats, told by its first word, then by its name; in UTF-8, UTF-16 or Latin-1, with
+/// any line ends.
 ///
 /// # Errors
 /// Line and column, what is wrong there, what would be right.
 pub fn read(name: &str, bytes: &[u8]) -> Result<Weather, FormatError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = match decode(bytes) {
+        Err(error) if error.encoding == Encoding::WebPage => return Err(error.into()),
+        // A stray byte in a remark hurts nobody; a bad byte in a number makes a bad number.
+        Err(_) => any_text(bytes).0.into(),
+        Ok(text) => text,
+    };
     let name = name.to_ascii_lowercase();
-    if bytes.starts_with(table::MAGIC.as_bytes()) {
-        table::read(bytes)
-    } else if bytes.starts_with(b"LOCATION") || name.ends_with(".epw") {
-        epw::read(bytes)
-    } else if bytes.starts_with(b"place") || name.ends_with(".wea") {
-        wea::read(bytes)
+    if text.starts_with(table::MAGIC) {
+        table::read(&text)
+    } else if text.starts_with("LOCATION") || name.ends_with(".epw") {
+        epw::read(&text)
+    } else if text.starts_with("place") || name.ends_with(".wea") {
+        wea::read(&text)
     } else {
         let expected = "EPW (first word LOCATION), WEA (first word place) or a cfs-weather table";
         Err(FormatError::new(Location::line(1), "no weather file of a known format", expected))

@@ -51,12 +51,8 @@ const DIFFUSE: &str = "value 3 (diffuse horizontal irradiance)";
 ///
 /// # Errors
 /// Line and column, what is wrong there, what would be right.
-pub fn read(bytes: &[u8]) -> Result<Weather, FormatError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        FormatError::new(Location::byte(error.valid_up_to()), "a byte that is not UTF-8", "UTF-8 text")
-    })?;
-    let mut rows =
-        lines(text.as_bytes()).map(|(number, line)| (number, std::str::from_utf8(line).unwrap_or("?").trim()));
+pub fn read(text: &str) -> Result<Weather, FormatError> {
+    let mut rows = lines(text).map(|(number, line)| (number, line.trim()));
     // The magic word.
     rows.next();
     let mut values: [Option<(usize, &str)>; KEYS.len()] = [None; KEYS.len()];
@@ -153,7 +149,7 @@ fn date(field: Field<'_>) -> Result<Day, FormatError> {
 fn dark_day(day: Day, line: usize) -> impl Iterator<Item = Record> {
     (0..24).map(move |hour| Record {
         day,
-        start: 60 * hour,
+        start: 3600 * hour,
         direct: Some(0.0),
         diffuse: Some(0.0),
         global: None,
@@ -206,7 +202,10 @@ pub fn write(weather: &Weather) -> Result<String, FormatError> {
     text.push_str("\n\n");
     for day in weather.records.chunks(24) {
         let whole = day.len() == 24
-            && day.iter().enumerate().all(|(k, hour)| hour.day == day[0].day && usize::from(hour.start) == 60 * k);
+            && day
+                .iter()
+                .enumerate()
+                .all(|(k, hour)| hour.day == day[0].day && usize::try_from(hour.start) == Ok(3600 * k));
         if !whole || weather.quantity != Quantity::NormalIrradiance {
             return refuse(&day[0], "records that are no whole day of hours", "24 hours a day, from 1 to 24");
         }

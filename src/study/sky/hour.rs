@@ -81,8 +81,8 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     // People read the hour off their clock; records are in the standard time of the weather's own place.
     let time = site.dst.standard(time, weather.station.utc_offset);
     let row = time.saturating_sub(jiff::Span::new().minutes(hours.moved_clock()));
-    let minute = 60 * row.hour() as u16 + row.minute() as u16;
-    let index = weather.find(row.month() as u8, row.day() as u8, minute).ok_or_else(|| {
+    let second = 3600 * row.hour() as u32 + 60 * row.minute() as u32 + row.second() as u32;
+    let index = weather.find(row.month() as u8, row.day() as u8, second).ok_or_else(|| {
         let found = format!("{} has no interval that holds {}", name.display(), time.strftime("%-d %B, %H:%M"));
         wrong("sky.time", format!("{found}; expected one of its {} rows", weather.records.len()))
     })?;
@@ -93,7 +93,7 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     warnings.extend(clock_warning(weather, name, asked, closure, "sun_offset_minutes"));
     Ok(Some(HourOfWeather {
         hour,
-        interval: format!("{} {}", record.day, record.clock_words(weather.interval)),
+        interval: record.label(weather.interval),
         name: name.display().to_string(),
         station: weather.station.clone(),
         offset: hours.offset(),

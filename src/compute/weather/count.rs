@@ -1,0 +1,25 @@
+//! Rows of a weather file that have a finding in common: how many, and where the first one is.
+
+use super::record::Record;
+
+/// Rows that have something in common.
+#[derive(Default)]
+pub(super) struct Count {
+    /// Number of rows.
+    pub(super) number: usize,
+    first: Option<u32>,
+}
+
+impl Count {
+    /// Adds a row.
+    pub(super) fn add(&mut self, record: &Record) {
+        self.number += 1;
+        self.first.get_or_insert(record.line);
+    }
+
+    /// Number and first line: `12 rows, first in line 40`.
+    pub(super) fn words(&self) -> String {
+        let rows = if self.number == 1 { "row" } else { "rows" };
+        format!("{} {rows}, first in line {}", self.number, self.first.unwrap_or(0))
+    }
+}

@@ -1,0 +1,236 @@
+//! The intervals that the hours and minutes of EPW rows name.
+//!
+//! The dictionary has the minute at which the interval ends, and programs write the one at which it begins as well: 10 to 60
+//! or 0 to 50. The rows tell which, since they follow each other without gaps; where both do, the sun tells. The number of
+//! records per hour in the header is checked against the minutes.
+
+use crate::compute::btdf::Finding;
+use crate::compute::weather::{Record, Weather};
+use crate::formats::{FormatError, Location};
+
+/// Hour and minute of a row.
+#[derive(Debug, Clone, Copy)]
+pub struct Label {
+    /// Hour, 1 … 24.
+    pub hour: u8,
+    /// Minute, 0 … 60; `None` where the field is no such number.
+    pub minute: Option<u8>,
+    /// Column of the minute, from 1.
+    pub column: u16,
+}
+
+/// Length of the intervals as the header states it.
+#[derive(Debug, Clone, Copy)]
+pub struct Stated {
+    /// Length of the intervals, which divides an hour. \[min\]
+    pub interval: u16,
+    /// Number of the line DATA PERIODS, from 1.
+    pub line: usize,
+}
+
+/// Difference in closure by which the sun tells begin from end. \[W/m²\]
+const CLEARLY: f64 = 5.0;
+/// Name of the minute in messages.
+const MINUTE: &str = "field 5 (minute)";
+
+/// Sets the length of the intervals and where each begins.
+///
+/// # Errors
+/// Returns an error if a minute is not that of an interval, or if rows are apart by what does not divide an hour.
+pub fn place_intervals(weather: &mut Weather, labels: &[Label], stated: Stated) -> Result<(), FormatError> {
+    let interval = interval(weather, labels, stated)?;
+    weather.interval = interval;
+    if interval != stated.interval {
+        let message = format!(
+            "line {} (DATA PERIODS) states records of {} min, while rows are {interval} min apart: the rows are believed",
+            stated.line, stated.interval
+        );
+        weather.findings.push(Finding::warning("records-per-hour", message));
+    }
+    let length = 60 * i32::from(interval);
+    if interval == 60 {
+        for (record, label) in weather.records.iter_mut().zip(labels) {
+            record.start = length * (i32::from(label.hour) - 1);
+        }
+        return Ok(());
+    }
+    for (record, label) in weather.records.iter().zip(labels) {
+        if !label.minute.is_some_and(|minute| u16::from(minute).is_multiple_of(interval)) {
+            let at = Location::line_column(record.line as usize, usize::from(label.column)).in_element(MINUTE);
+            let found = label.minute.map_or("not a minute".to_owned(), |minute| format!("\"{minute}\""));
+            let expected = format!("a multiple of {interval} min, the begin or end of the interval");
+            return Err(FormatError::new(at, found, expected));
+        }
+    }
+    let ends = |label: &Label| match label.minute {
+        // The hour ends with minute 60 or 0.
+        Some(0) | None => 3600 - length,
+        Some(minute) => 60 * i32::from(minute) - length,
+    };
+    let begins = |label: &Label| 60 * i32::from(label.minute.unwrap_or(0));
+    set(weather, labels, ends);
+    if labels.iter().any(|label| label.minute == Some(60)) {
+        return Ok(());
+    }
+    let breaks_at_ends = breaks(weather);
+    set(weather, labels, begins);
+    let breaks_at_begins = breaks(weather);
+    let begin = if breaks_at_begins == breaks_at_ends {
+        let at_begins = rms(weather);
+        set(weather, labels, ends);
+        at_begins.zip(rms(weather)).is_some_and(|(at_begins, at_ends)| at_begins + CLEARLY < at_ends)
+    } else {
+        breaks_at_begins < breaks_at_ends
+    };
+    if begin {
+        set(weather, labels, begins);
+        let message =
+            "minutes are those at which the intervals begin (0 is the first of an hour), not at which they end";
+        weather.findings.push(Finding::info("minute-begin", message));
+    } else {
+        set(weather, labels, ends);
+    }
+    Ok(())
+}
+
+/// Returns the length of the intervals by the rows where their minutes agree, else by the header. \[min\]
+fn interval(weather: &Weather, labels: &[Label], stated: Stated) -> Result<u16, FormatError> {
+    let minutes = || labels.iter().filter_map(|label| label.minute);
+    let distances = distances(&weather.records, labels);
+    let pairs: usize = distances.iter().sum();
+    let fits = |interval: u16| minutes().all(|minute| u16::from(minute).is_multiple_of(interval));
+    // Most rows stand alone in their hour: of one record an hour the minute says nothing.
+    if 3 * pairs < labels.len() {
+        let whole = labels.len() > 1 && fits(60);
+        return Ok(if whole { 60 } else { stated.interval });
+    }
+    // Of equals the longest.
+    let distance = (1..=60).max_by_key(|minutes| distances[usize::from(*minutes)]).unwrap_or(stated.interval);
+    if distance == stated.interval || (60 % distance == 0 && fits(distance)) {
+        return Ok(distance);
+    }
+    if stated.interval < 60 {
+        return Ok(stated.interval);
+    }
+    let found = format!("1 record per hour, while rows are {distance} min apart");
+    let expected = "the number of rows per hour, all at multiples of the same minutes";
+    Err(FormatError::new(Location::line(stated.line).in_element("DATA PERIODS, records per hour"), found, expected))
+}
+
+/// Returns how often two rows that follow each other within an hour are 1 … 60 min apart, by minutes; the hour ends with minute 60
+/// or 0.
+fn distances(records: &[Record], labels: &[Label]) -> [usize; 61] {
+    let mut counts = [0; 61];
+    for (pair, records) in labels.windows(2).zip(records.windows(2)) {
+        let (Some(before), Some(after)) = (pair[0].minute, pair[1].minute) else { continue };
+        if records[0].day == records[1].day && pair[0].hour == pair[1].hour && before != after {
+            let after = if after == 0 { 60 } else { after };
+            counts[usize::from(after.abs_diff(before))] += 1;
+        }
+    }
+    counts
+}
+
+/// Sets where each interval begins; `begin`: in seconds of the hour.
+fn set(weather: &mut Weather, labels: &[Label], begin: impl Fn(&Label) -> i32) {
+    for (record, label) in weather.records.iter_mut().zip(labels) {
+        record.start = 3600 * (i32::from(label.hour) - 1) + begin(label);
+    }
+}
+
+/// Returns the number of rows that do not begin where the row above ends.
+fn breaks(weather: &Weather) -> usize {
+    let length = 60 * i64::from(weather.interval);
+    weather.records.windows(2).filter(|pair| pair[0].seconds_to(&pair[1]) != length).count()
+}
+
+/// Returns what global − diffuse − direct · sin h leaves; `None` where nothing tells. \[W/m²\]
+fn rms(weather: &Weather) -> Option<f64> {
+    weather.closure().ok().flatten().map(|closure| closure.rms)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::weather::{Day, SunPath};
+    use crate::formats::weather::read;
+
+    /// An EPW file that states `records` an hour, with rows of hour, minute and light (global, direct normal, diffuse).
+    fn file(records: u16, rows: &[(u8, u8, [f64; 3])]) -> Result<Weather, FormatError> {
+        let head = "LOCATION,Somewhere,-,Land,-,-,50,15,1,250\n";
+        let mut text = format!("{head}DATA PERIODS,1,{records},Data,Sunday,6/21,6/21\n");
+        for (hour, minute, [global, direct, diffuse]) in rows {
+            text += &format!(
+                "2018,6,21,{hour},{minute},?9,15,8,60,101300,0,1361,300,{global},{direct},{diffuse},999999,999999,999999\n"
+            );
+        }
+        read("x.epw", text.as_bytes())
+    }
+
+    /// Rows of two hours with these minutes.
+    fn rows(minutes: &[u8]) -> Vec<(u8, u8, [f64; 3])> {
+        [12, 13].iter().flat_map(|hour| minutes.iter().map(move |minute| (*hour, *minute, [0.0; 3]))).collect()
+    }
+
+    fn codes(weather: &Weather) -> Vec<&'static str> {
+        weather.findings.iter().map(|finding| finding.code).collect()
+    }
+
+    #[test]
+    fn minutes_are_begins_or_ends_as_the_rows_follow_each_other() {
+        let two_hours = |step: i32| (0..7200 / step).map(|k| 11 * 3600 + step * k).collect::<Vec<_>>();
+        for (records, minutes, step, begin) in [
+            (6, [0, 10, 20, 30, 40, 50].as_slice(), 600, true),
+            (6, &[10, 20, 30, 40, 50, 60], 600, false),
+            (6, &[10, 20, 30, 40, 50, 0], 600, false),
+            (4, &[0, 15, 30, 45], 900, true),
+            (4, &[15, 30, 45, 0], 900, false),
+            (2, &[0, 30], 1800, true),
+            (2, &[30, 60], 1800, false),
+        ] {
+            let weather = file(records, &rows(minutes)).unwrap();
+            let starts: Vec<i32> = weather.records.iter().map(|record| record.start).collect();
+            assert_eq!((weather.interval, starts), ((step / 60) as u16, two_hours(step)), "{minutes:?}");
+            assert_eq!(codes(&weather).contains(&"minute-begin"), begin, "{minutes:?}");
+        }
+    }
+
+    #[test]
+    fn the_sun_tells_where_rows_do_not() {
+        // One row an hour in a file of half hours: minute 30 ends the first one or begins the second one.
+        let day = Day::new(2018, 6, 21).unwrap();
+        for (middle, begin) in [(15.0, false), (45.0, true)] {
+            let lit = |hour: u8| {
+                let mut path = SunPath::new(&file(2, &rows(&[30])).unwrap().station);
+                path.turn_to(day.number()).unwrap();
+                let sine = path.at(60.0 * (f64::from(hour) - 1.0) + middle).z.max(0.0);
+                let direct = if sine > 0.0 { 800.0 } else { 0.0 };
+                [100.0 + direct * sine, direct, 100.0]
+            };
+            let rows: Vec<_> = (1..=24).chain(1..=24).map(|hour| (hour, 30, lit(hour))).collect();
+            let weather = file(2, &rows).unwrap();
+            assert_eq!((weather.interval, codes(&weather).contains(&"minute-begin")), (30, begin));
+            assert_eq!(weather.records[0].start, if begin { 1800 } else { 0 });
+        }
+    }
+
+    #[test]
+    fn rows_are_believed_where_the_header_has_another_number() {
+        let weather = file(1, &rows(&[15, 30, 45, 60])).unwrap();
+        assert_eq!((weather.interval, weather.records[0].start), (15, 11 * 3600));
+        assert_eq!(codes(&weather), ["records-per-hour"]);
+        let message = &weather.findings[0].message;
+        assert!(message.contains("line 2") && message.contains("60 min") && message.contains("15 min"), "{message}");
+        let weather = file(4, &rows(&[60])).unwrap();
+        assert_eq!((weather.interval, weather.records[1].start), (60, 12 * 3600));
+        assert_eq!(codes(&weather), ["records-per-hour"]);
+        // Whatever the minute of one record an hour, and a row that is repeated.
+        for minutes in [[0].as_slice(), &[30], &[60, 60]] {
+            let weather = file(1, &rows(minutes)).unwrap();
+            assert_eq!((weather.interval, codes(&weather).len()), (60, 0));
+        }
+        let error = file(1, &rows(&[7, 14, 21, 28])).unwrap_err().to_string();
+        assert!(error.starts_with("line 2, DATA PERIODS, records per hour: 1 record per hour"), "{error}");
+        assert!(error.contains("7 min apart"), "{error}");
+    }
+}
