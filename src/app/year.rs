@@ -149,7 +149,7 @@ pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
         sun_offset_minutes: offset,
         cie_type: None,
         illuminance: Default::default(),
-        time: Some(TimeKey::Text(time.strftime("%Y-%m-%dT%H:%M").to_string())),
+        time: Some(TimeKey::of(time)),
         turbidity: scene.sky.turbidity,
         obstruction: scene.sky.obstruction,
         skyline: scene.sky.skyline.clone(),
@@ -182,6 +182,14 @@ mod tests {
         let mut scene = first_scene();
         scene.sky.weather = Some("a.epw".into());
         assert_eq!(usual_year(&scene).weather, PathBuf::from("a.epw"));
+    }
+
+    /// An interval that begins between two minutes is not the one before it.
+    #[test]
+    fn a_record_is_named_to_the_second() {
+        let mut scene = first_scene();
+        put_record(&mut scene, Path::new("a.wea"), "2001-06-21T23:52:30".parse().unwrap());
+        assert_eq!(scene.sky.time, Some(TimeKey::Text("2001-06-21T23:52:30".to_owned())));
     }
 
     #[test]

@@ -149,10 +149,7 @@ fn closure(weather: &Weather, summary: &Summary) -> String {
         );
     }
     if !one.closes() {
-        return format!(
-            "{:.1} W/m², at no clock better than {:.1} W/m²: irradiances contradict each other",
-            one.rms, one.best_rms
-        );
+        return format!("{:.1} W/m²; at no clock less than {:.1} W/m²", one.rms, one.best_rms);
     }
     if one.best_offset == 0.0 {
         return format!("{:.1} W/m²: the clock is right", one.rms);

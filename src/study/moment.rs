@@ -19,7 +19,7 @@ pub fn of(scene: &SceneFile) -> Option<DateTime> {
 
 /// Writes a moment into the scene, instead of sun angles.
 pub fn set(scene: &mut SceneFile, time: DateTime) {
-    scene.sky.time = Some(TimeKey::Text(time.strftime("%Y-%m-%dT%H:%M").to_string()));
+    scene.sky.time = Some(TimeKey::of(time));
     scene.sky.sun.altitude = None;
     scene.sky.sun.azimuth = None;
 }

@@ -4,7 +4,7 @@
 //! Nothing is changed here: which of two figures is wrong, only who made the file knows.
 
 use super::count::Count;
-use super::record::{Closure, Quantity, Station, Weather};
+use super::record::{Closure, MAX_RMS, Quantity, Station, Weather};
 use super::sun_path::{SunPath, SunPathError};
 use crate::compute::btdf::{Finding, Severity};
 use crate::compute::sky::perez::SOLAR_CONSTANT;
@@ -61,7 +61,7 @@ impl Weather {
         let mut findings = Vec::new();
         check_zone(&self.station, &mut findings);
         if self.quantity == Quantity::NormalIrradiance {
-            self.balance(closure)?.say(self, closure, &mut findings);
+            self.balance(closure)?.say(self, &mut findings);
         }
         Ok(findings)
     }
@@ -106,7 +106,7 @@ impl Weather {
 
 impl Balance {
     /// Adds what the sums show.
-    fn say(&self, weather: &Weather, closure: Option<Closure>, findings: &mut Vec<Finding>) {
+    fn say(&self, weather: &Weather, findings: &mut Vec<Finding>) {
         let rms = (self.squares / self.sunny.max(1) as f64).sqrt();
         if self.sunny >= MIN_ROWS && 100 * self.flat >= 99 * self.sunny && rms > NOT_NORMAL {
             let message = format!(
@@ -124,10 +124,11 @@ impl Balance {
                 self.open.words()
             );
             findings.push(Finding::warning("not-closed", message));
-        } else if let Some(one) = closure.filter(|one| weather.tested.is_none() && !one.closes()) {
+        } else if self.sunny >= MIN_ROWS && rms > MAX_RMS {
             let message = format!(
-                "global − diffuse − direct · sin h leaves {:.1} W/m² at the best clock: the irradiances contradict each other",
-                one.best_rms
+                "global − diffuse − direct · sin h leaves {rms:.0} W/m² in {} rows with the sun more than {ROW_ALTITUDE}° above the \
+                 horizon: the irradiances contradict each other",
+                self.sunny
             );
             findings.push(Finding::warning("not-closed", message));
         }
@@ -250,6 +251,14 @@ mod tests {
         weather.records[48].global = Some(weather.records[48].global.unwrap() + 300.0);
         let said = messages(&weather, "not-closed");
         assert!(said[0].contains("by 300 W/m² at most: 1 row, first in line 57"), "{said:?}");
+        // Rows that are all a little off, in both senses.
+        let mut weather = clear_day(15);
+        for (k, record) in weather.records.iter_mut().enumerate() {
+            let rest = if k % 2 == 0 { 60.0 } else { -60.0 };
+            record.global = record.global.map(|global| (global + rest).max(0.0));
+        }
+        let said = messages(&weather, "not-closed");
+        assert!(said[0].contains("leaves 60 W/m² in"), "{said:?}");
         // At sunrise a row may be anything.
         let mut weather = clear_day(15);
         let first = weather.records.iter().position(|record| record.direct > Some(0.0)).unwrap();

@@ -3,7 +3,7 @@
 use super::contradictions::DIRECT_HORIZONTAL;
 use super::count::Count;
 use super::hour::{HIGH_SUN, HourError, LightSource, MIN_ALTITUDE, Reading, SunOffset};
-use super::record::{Closure, Field, Quantity, Record, Weather};
+use super::record::{Closure, Field, Quantity, Weather};
 use super::sun_path::SunPath;
 use crate::compute::btdf::Finding;
 

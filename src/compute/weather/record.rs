@@ -93,7 +93,7 @@ pub struct Closure {
 
 /// Maximum that is left over where irradiances belong together: files of measured and modelled years leave 0.5 to 5.7 W/m² at
 /// their best clock. \[W/m²\]
-const MAX_RMS: f64 = 30.0;
+pub(super) const MAX_RMS: f64 = 30.0;
 
 impl Closure {
     /// `true` if global = diffuse + direct · sin h holds at one of the clocks tried.

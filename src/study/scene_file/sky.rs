@@ -160,6 +160,12 @@ pub enum TimeKey {
 }
 
 impl TimeKey {
+    /// Returns the key of a moment to the minute, to the second where it is not a whole minute.
+    pub fn of(time: jiff::civil::DateTime) -> Self {
+        let format = if time.second() == 0 { "%Y-%m-%dT%H:%M" } else { "%Y-%m-%dT%H:%M:%S" };
+        Self::Text(time.strftime(format).to_string())
+    }
+
     /// The text, whichever way it was written.
     pub fn text(&self) -> String {
         match self {

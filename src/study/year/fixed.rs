@@ -62,7 +62,7 @@ pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys
             weather: Some(keys.weather.clone()),
             light: keys.light,
             sun_offset_minutes: keys.sun_offset_minutes,
-            time: Some(TimeKey::Text(clock.strftime("%Y-%m-%dT%H:%M").to_string())),
+            time: Some(TimeKey::of(clock)),
             ..bare(scene, SkyModelKey::Weather)
         };
         scene.site.ground_reflectance = steps.ground(at);
