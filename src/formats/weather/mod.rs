@@ -29,6 +29,8 @@ pub fn is_weather_file(name: &str) -> bool {
 /// # Errors
 /// Line and column, what is wrong there, what would be right.
 pub fn read(name: &str, bytes: &[u8]) -> Result<Weather, FormatError> {
+    // The mark of UTF-8 may stand before text of one byte a character.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = match decode(bytes) {
         Err(error) if error.encoding == Encoding::WebPage => return Err(error.into()),
         // A stray byte in a remark hurts nobody; a bad byte in a number makes a bad number.
