@@ -123,9 +123,25 @@ const fn photometry(luminaire: &Luminaire) -> &'static str {
     }
 }
 
-/// Zonal flux, which is defined for C-planes alone. \[lm\]
+/// Flux of the table; `None` for one plane of type A or B, which says nothing of it. \[lm\]
 fn flux(luminaire: &Luminaire) -> Option<f64> {
-    (luminaire.photometry == Photometry::C).then(|| luminaire.flux())
+    let is_known = luminaire.photometry == Photometry::C || luminaire.c_deg.len() > 1;
+    is_known.then(|| luminaire.flux())
+}
+
+/// The luminous opening: a diameter where it is a circle, else its sizes.
+fn opening(luminaire: &Luminaire) -> String {
+    let opening = luminaire.opening;
+    if opening.is_circle() {
+        return format!("round, diameter {:.3} m, {:.3} m high", opening.along_c0, opening.height);
+    }
+    format!(
+        "{}, {:.3} m along C0, {:.3} m along C90, {:.3} m high",
+        opening.shape.key(),
+        opening.along_c0,
+        opening.along_c90,
+        opening.height
+    )
 }
 
 /// Mirror planes of the distribution, found in the numbers and not in the file's own word.
@@ -180,6 +196,7 @@ fn to_json(luminaire: &Luminaire) -> serde_json::Value {
             "along_c90": luminaire.opening.along_c90,
             "height": luminaire.opening.height,
         },
+        "opening_shape": luminaire.opening.shape.key(),
         "symmetry": symmetry(luminaire),
         "planes": luminaire.c_deg.len(),
         "angles": luminaire.gamma_deg.len(),
@@ -212,14 +229,7 @@ fn to_text(luminaire: &Luminaire) -> String {
     let rated = luminaire.lamp_flux.map_or_else(|| "absolute photometry".to_owned(), |flux| format!("{flux:.1} lm"));
     line("Flux of the lamps", &rated);
     line("Largest intensity", &format!("{:.2} cd", luminaire.peak()));
-    let opening = luminaire.opening;
-    line(
-        "Luminous opening",
-        &format!(
-            "{:.3} m along C0, {:.3} m along C90, {:.3} m high",
-            opening.along_c0, opening.along_c90, opening.height
-        ),
-    );
+    line("Luminous opening", &opening(luminaire));
     line("Symmetry", symmetry(luminaire));
     line("Planes", &format!("{} ({})", luminaire.c_deg.len(), range(&luminaire.c_deg)));
     line("Angles in a plane", &format!("{} ({})", luminaire.gamma_deg.len(), range(&luminaire.gamma_deg)));

@@ -154,6 +154,14 @@ pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
     }
 }
 
+/// Whether text is a web page, saved in place of the file that it shows.
+pub fn is_web_page(text: &str) -> bool {
+    // A byte-order mark and comments may stand before.
+    let head: String = text.chars().take(LOOK).collect::<String>().to_ascii_lowercase();
+    let head = head.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
+    head.starts_with('<') && (head.contains("<!doctype html") || head.contains("<html"))
+}
+
 /// Does text begin with the mark of UTF-16, or is every second byte of Latin text zero?
 fn is_utf16(bytes: &[u8]) -> bool {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {

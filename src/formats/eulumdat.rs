@@ -2,15 +2,22 @@
 //!
 //! Written: all planes of the full turn (Isym 0), CRLF, printable ASCII, millimetres. Read: every symmetry, one or more
 //! lamp sets (the first one counts: sets are alternatives), decimal commas, byte-order mark, blank lines after the
-//! header, whatever follows the last intensity. Not read: nothing is made of direct ratios and colour data.
+//! header; LORL, DFF, tilt and steps are compared with the table, numbers after the last intensity are told. Not read:
+//! nothing is made of direct ratios and colour data.
 
 use super::FormatError;
-use super::luminaire::{
-    Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
-};
+use super::location::excerpt;
+use super::luminaire::{Description, Luminaire, Opening, Photometry, Shape};
+use super::luminaire_check::{Stated, checked, closing_plane, surplus};
+use super::luminaire_planes::{CLOSEST, Mirrors, Turn, check_rising, same_angle};
+use super::luminaire_text::{ascii, at_line, decode, number, parse_number};
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
 
+const OPENING_LINE: usize = 16;
+const DOWNWARD_LINE: usize = 22;
+const OUTPUT_RATIO_LINE: usize = 23;
+const TILT_LINE: usize = 25;
 const LAMP_SETS_LINE: usize = 26;
 /// Lamps of less flux are written as lamps of 1000 lm. \[lm\]
 const LEAST_LAMPS: f64 = 0.1;
@@ -20,8 +27,8 @@ const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
 /// Writes a luminaire of photometry C. Its planes must cover the full turn (or be one).
 ///
 /// The rated flux is the flux of the file's own zonal sum when the luminaire states none. Four heights of the luminous
-/// area are the opening's height on all sides, so that no direction divides by an area of nothing; a width of zero
-/// would mean a round luminaire and is written as 1 mm.
+/// area are the opening's height on all sides, so that no direction divides by an area of nothing; a circle has a width
+/// of zero, so that another side of zero is written as 1 mm, but for a point.
 pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     let flux = luminaire.flux();
     let rated = luminaire.lamp_flux.unwrap_or(flux);
@@ -46,12 +53,18 @@ pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     lines.push(limited(&text.number, 78));
     lines.push(limited(&text.number, 8));
     lines.push(limited(&[&text.date, " ", &text.laboratory].concat(), 78));
-    let mm = |metres: f64| number((1000.0 * metres.abs()).round(), 0);
-    let at_least_1 = |metres: f64| mm(metres.abs().max(0.001));
-    let Opening { along_c0, along_c90, height } = luminaire.opening;
+    let mm = |metres: f64| number((1000.0 * metres).round(), 0);
+    let Opening { along_c0, along_c90, height, .. } = luminaire.opening;
+    let at_least_1 = |metres: f64| mm(metres.max(0.001));
+    let [length, width] = if luminaire.opening.is_circle() {
+        [at_least_1(along_c90), "0".to_owned()]
+    } else if along_c0.max(along_c90).max(height) == 0.0 {
+        ["0", "0"].map(str::to_owned)
+    } else {
+        [along_c90, along_c0].map(at_least_1)
+    };
     // The housing is the opening.
-    lines.extend([at_least_1(along_c90), at_least_1(along_c0), mm(height)]);
-    lines.extend([at_least_1(along_c90), at_least_1(along_c0)]);
+    lines.extend([length.clone(), width.clone(), mm(height), length, width]);
     lines.extend(std::iter::repeat_n(mm(height), 4));
     let downward = luminaire.flux_within(90.0);
     lines.push(number(if flux > 0.0 { 100.0 * downward / flux } else { 0.0 }, 2));
@@ -102,8 +115,9 @@ pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
 /// Reads an EULUMDAT file.
 ///
 /// # Errors
-/// A header that ends early, counts or the symmetry indicator out of range, angles that do not increase, text where a
-/// number belongs, fewer intensities than the counts ask for. The first fault is told with its line.
+/// Returns an error if the header ends early, if counts or the symmetry indicator are out of range, if angles do not
+/// increase, if a listed plane is no image of one with intensities, if there is text where a number belongs, or if there
+/// are fewer intensities than the counts ask for. The first fault is told with its line.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let (text, mut findings) = decode(bytes)?;
     let lines = Lines { lines: text.lines().map(str::trim).collect() };
@@ -111,8 +125,12 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let planes = lines.whole(4, "number of C planes Mc", 1.0, MAX_PLANES)?;
     let step_c = lines.number_or_zero(5, "distance of C planes")?;
     let angles = lines.whole(6, "number of gamma angles Ng", 1.0, MAX_ANGLES)?;
+    let step_gamma = lines.number_or_zero(7, "distance of gamma angles")?;
     lines.header(LAMP_SETS_LINE)?;
+    let output_ratio = lines.percent(OUTPUT_RATIO_LINE, "light output ratio LORL [%]")?;
+    let downward = lines.percent(DOWNWARD_LINE, "downward flux fraction DFF [%]")?;
     let conversion = lines.number_or_zero(24, "conversion factor")?;
+    let tilt = lines.number_or_zero(TILT_LINE, "tilt of the luminaire [°]")?;
     let lamp_sets = lines.whole(LAMP_SETS_LINE, "number of lamp sets", 1.0, 20.0)?;
     let lamp_line = LAMP_SETS_LINE + 1;
     let ratios_line = lamp_line + 6 * lamp_sets;
@@ -127,13 +145,20 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let gamma_deg = values.take(angles, "gamma angles")?;
     check_rising(&gamma_deg, gamma_line, "gamma angle")?;
 
-    let stored = stored_planes(symmetry, planes);
-    let table = values.take(stored.len() * angles, "intensities")?;
-    if planes > 1 && step_c > 0.0 && (c_all[1] - c_all[0] - step_c).abs() > 1e-3 {
-        findings.push(Finding::warning(
-            "step-contradicts-angles",
-            format!("Dc is {step_c}° but the listed C planes are {}° apart; the list is used", c_all[1] - c_all[0]),
-        ));
+    let stored = StoredPlanes::new(symmetry, &c_all);
+    let Turn { c_deg, source } = stored.turn(c_line)?;
+    let due = stored.c_deg.len() * angles;
+    let table = values.take(due, "intensities")?;
+    let counts = format!("Isym {symmetry}: {angles} angles in {} of {planes} planes", stored.c_deg.len());
+    findings.extend(values.rest(due, &counts));
+    findings.extend(closing_plane(&stored.c_deg, &table));
+    findings.extend(stored.remark);
+    findings.extend(step_contradicts("Dc", 5, step_c, &c_all));
+    findings.extend(step_contradicts("Dg", 7, step_gamma, &gamma_deg));
+    if tilt != 0.0 {
+        let message =
+            format!("line {TILT_LINE}: tilted by {tilt}° when it was measured; the intensities hold for that");
+        findings.push(Finding::info("tilt", message));
     }
     if lamp_sets > 1 {
         findings.push(Finding::info(
@@ -145,22 +170,15 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     if factor != 1.0 {
         findings.push(Finding::info("conversion-factor", format!("intensities multiplied by {factor}")));
     }
-    if flux <= 0.0 {
+    // A dark luminaire needs no lamps.
+    let is_dark = table.iter().all(|value| *value == 0.0);
+    if flux <= 0.0 && !is_dark {
         findings.push(Finding::warning("no-lamp-flux", "no luminous flux of lamps; intensities are for 1000 lm"));
     }
-    let rated = if flux > 0.0 { flux } else { 1000.0 };
+    let rated = if flux > 0.0 || is_dark { flux } else { 1000.0 };
     let from_plane = |plane: usize| &table[plane * angles..][..angles];
-    let (c_deg, source) = expand(symmetry, &c_all, &stored);
     let intensity = source.iter().flat_map(|&plane| from_plane(plane)).map(|v| v * rated * factor / 1000.0).collect();
-    let metres = |line: usize, name| lines.number_or_zero(line, name).map(|mm| mm / 1000.0);
-    let along_c90 = metres(16, "length of the luminous area [mm]")?;
-    let along_c0 = metres(17, "width of the luminous area [mm]")?;
-    let heights = [18, 19, 20, 21].map(|line| metres(line, "height of the luminous area [mm]"));
-    let mut height = 0.0_f64;
-    for each in heights {
-        height = height.max(each?);
-    }
-    plausible(Luminaire {
+    let luminaire = Luminaire {
         format: "EULUMDAT".to_owned(),
         text: Description {
             report: lines.text(8),
@@ -173,51 +191,114 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
             remarks: Vec::new(),
         },
         photometry: Photometry::C,
-        // A width of 0 says that the length is a diameter.
-        opening: Opening { along_c0: if along_c0 == 0.0 { -along_c90 } else { along_c0 }, along_c90, height },
+        opening: lines.opening(&mut findings)?,
         c_deg,
         gamma_deg,
         intensity,
         lamp_flux: Some(rated),
         power: lines.number_or_zero(lamp_line + 5, "power [W]").unwrap_or(0.0),
         findings,
+    };
+    let stated = Stated {
+        lamps: (flux > 0.0).then_some(flux),
+        lamps_line: lamp_line + 2,
+        output_ratio,
+        downward: downward.map(|share| (share, DOWNWARD_LINE)),
+        opening_line: OPENING_LINE,
+        is_per_klm: true,
+    };
+    checked(luminaire, &stated)
+}
+
+/// A step in the header that is not the one between the first two angles of its list.
+fn step_contradicts(name: &str, line: usize, step: f64, angles: &[f64]) -> Option<Finding> {
+    let [first, second, ..] = angles else { return None };
+    let listed = second - first;
+    (step > 0.0 && (listed - step).abs() > 1e-3).then(|| {
+        Finding::warning(
+            "step-contradicts-angles",
+            format!(
+                "line {line}: {name} is {step}° but the listed angles are {}° apart; the list is used",
+                number(listed, 4)
+            ),
+        )
     })
 }
 
-/// Numbers, in the list of all C planes, of the planes whose intensities are in the file.
-fn stored_planes(symmetry: usize, planes: usize) -> Vec<usize> {
-    match symmetry {
-        1 => vec![0],
-        2 => (0..=planes / 2).collect(),
-        // From C270 over C0 to C90.
-        3 => (0..=planes / 2).map(|k| (k + 3 * planes / 4) % planes).collect(),
-        4 => (0..=planes / 4).collect(),
-        _ => (0..planes).collect(),
-    }
+/// The planes whose intensities are in the file.
+struct StoredPlanes<'a> {
+    symmetry: usize,
+    /// Planes of the list, without one at 360° that is the first again and has no intensities of its own. \[°\]
+    listed: &'a [f64],
+    /// Angles of the stored planes, in the order of the table. \[°\]
+    c_deg: Vec<f64>,
+    /// What of the list is not as the format wants it.
+    remark: Option<Finding>,
 }
 
-/// Planes of the full turn and, for each, which of the stored ones it copies.
-fn expand(symmetry: usize, c_all: &[f64], stored: &[usize]) -> (Vec<f64>, Vec<usize>) {
-    let planes = c_all.len();
-    if symmetry == 1 {
-        return (vec![0.0], vec![0]);
+impl<'a> StoredPlanes<'a> {
+    /// `c_all`: the list of the file, of which the format wants the planes of the full turn, whatever the symmetry.
+    fn new(symmetry: usize, c_all: &'a [f64]) -> Self {
+        let count = c_all.len();
+        let (first, last) = (c_all[0], c_all[count - 1]);
+        if matches!(symmetry, 0 | 1) {
+            let c_deg = if symmetry == 1 { vec![0.0] } else { c_all.to_vec() };
+            return Self { symmetry, listed: &c_all[..c_deg.len()], c_deg, remark: None };
+        }
+        let is_closed = count > 1 && same_angle(last, first + 360.0);
+        let listed = if is_closed { &c_all[..count - 1] } else { c_all };
+        let n = listed.len();
+        let [low, high] = match symmetry {
+            2 => [0.0, 180.0],
+            3 => [90.0, 270.0],
+            _ => [0.0, 90.0],
+        };
+        let is_part = n > 1 && first > low - CLOSEST && last < high + CLOSEST;
+        let c_deg = match symmetry {
+            _ if is_part => listed.to_vec(),
+            2 => listed[..=n / 2].to_vec(),
+            // From C270 over C0 to C90.
+            3 => (0..=n / 2).map(|k| listed[(k + 3 * n / 4) % n]).collect(),
+            _ => listed[..=n / 4].to_vec(),
+        };
+        let told = |what: String| {
+            Finding::info("planes-not-of-the-turn", format!("line 4: Mc is {count}, {what}; Isym {symmetry} by angle"))
+        };
+        let remark = if is_closed {
+            Some(told(format!("with the plane at {last}°, which is the one at {first}° again: {n} planes are used")))
+        } else if is_part && n > 2 {
+            Some(told(format!("planes from {first}° to {last}°, where the format counts those of the full turn")))
+        } else {
+            None
+        };
+        Self { symmetry, listed, c_deg, remark }
     }
-    let find = |plane: usize| stored.iter().position(|&s| s == plane % planes);
-    let source = (0..planes)
-        .map(|plane| {
-            let across_c0 = (planes - plane) % planes;
-            let across_c90 = (planes + planes / 2 - plane) % planes;
-            // Mirror images in turn; the first one that the file holds.
-            [plane, across_c0, across_c90, (plane + planes / 2) % planes].into_iter().find_map(find).unwrap_or(0)
-        })
-        .collect();
-    // A list that ends at 360° repeats its first plane.
-    let mut pair: (Vec<f64>, Vec<usize>) = (c_all.to_vec(), source);
-    if planes > 1 && c_all[planes - 1] >= c_all[0] + 360.0 - 1e-9 {
-        pair.0.pop();
-        pair.1.pop();
+
+    /// All planes of the turn, at the listed angles.
+    fn turn(&self, line: usize) -> Result<Turn, FormatError> {
+        let (mirrors, about) = match self.symmetry {
+            2 => (Mirrors::C0, "C0-C180"),
+            3 => (Mirrors::C90, "C90-C270"),
+            4 => (Mirrors::Both, "C0-C180 and C90-C270"),
+            _ => (Mirrors::None, ""),
+        };
+        let mut turn = Turn::new(&self.c_deg, mirrors);
+        // One plane stands for all.
+        if mirrors == Mirrors::None || self.c_deg.len() == 1 {
+            return Ok(turn);
+        }
+        for listed in self.listed {
+            let Some(c) = turn.c_deg.iter_mut().find(|c| same_angle(**c, *listed)) else {
+                return Err(at_line(
+                    line,
+                    format!("a plane at C {listed}°, which is no image of a plane with intensities"),
+                    format!("planes that are images of each other about {about}, as Isym {} says", self.symmetry),
+                ));
+            };
+            *c = *listed;
+        }
+        Ok(turn)
     }
-    pair
 }
 
 struct Lines<'a> {
@@ -249,6 +330,31 @@ impl Lines<'_> {
         }
     }
 
+    /// A share that is stated in percent; `None` where the line is blank.
+    fn percent(&self, line: usize, name: &str) -> Result<Option<f64>, FormatError> {
+        let value = self.number_or_zero(line, name)?;
+        Ok((!self.lines[line - 1].is_empty()).then_some(value / 100.0))
+    }
+
+    /// The luminous area, of which a width of 0 says that the length is a diameter.
+    fn opening(&self, findings: &mut Vec<Finding>) -> Result<Opening, FormatError> {
+        let mut sizes = [0.0; 6];
+        for (size, line) in sizes.iter_mut().zip(OPENING_LINE..) {
+            let mm = self.number_or_zero(line, "a size of the luminous area [mm]")?;
+            if mm < 0.0 {
+                let message = format!("line {line}: a size of {mm} mm is less than 0; its magnitude is used");
+                findings.push(Finding::warning("negative-size", message));
+            }
+            *size = mm.abs() / 1000.0;
+        }
+        let [length, width, heights @ ..] = sizes;
+        let height = heights.into_iter().fold(0.0, f64::max);
+        if width == 0.0 && length > 0.0 {
+            return Ok(Opening { shape: Shape::Round, along_c0: length, along_c90: length, height });
+        }
+        Ok(Opening::rectangular(width, length, height))
+    }
+
     fn whole(&self, line: usize, name: &str, min: f64, max: f64) -> Result<usize, FormatError> {
         let value = self.number_or_zero(line, name)?;
         if !(min..=max).contains(&value) || value.fract() != 0.0 {
@@ -270,6 +376,19 @@ struct Values<'a, 'b> {
 }
 
 impl Values<'_, '_> {
+    /// Tells numbers and text on the lines that were not read.
+    fn rest(&self, due: usize, counts: &str) -> Option<Finding> {
+        let left = self.lines.lines.iter().zip(1..).skip(self.next - 1);
+        let left = left.map(|(text, line)| (text.trim_matches('\u{1a}'), line)).filter(|(text, _)| !text.is_empty());
+        let line = left.clone().map(|(_, line)| line).next()?;
+        let numbers = left.filter(|(text, _)| parse(text, line, "").is_ok()).count();
+        Some(if numbers > 0 {
+            surplus(due + numbers, due, line, counts)
+        } else {
+            Finding::info("text-after-values", format!("line {line}: text after the last intensity is not read"))
+        })
+    }
+
     fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
         let mut values = Vec::new();
         while values.len() < count {
@@ -290,9 +409,10 @@ impl Values<'_, '_> {
 }
 
 fn parse(text: &str, line: usize, name: &str) -> Result<f64, FormatError> {
-    let value = text.replace(',', ".").parse::<f64>().ok().filter(|value| value.is_finite());
-    value.ok_or_else(|| {
-        let shown: String = text.chars().take(40).collect();
-        at_line(line, format!("\"{shown}\""), format!("a number ({name})"))
+    let point = |text: &str| parse_number(&text.replace(',', "."));
+    point(text).ok_or_else(|| {
+        let several = text.split_whitespace().all(|piece| point(piece).is_some());
+        let remedy = if several { ", one on a line: a line break is missing" } else { "" };
+        at_line(line, format!("\"{}\"", excerpt(text)), format!("a number ({name}){remedy}"))
     })
 }

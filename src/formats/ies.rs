@@ -2,13 +2,16 @@
 //!
 //! Written: absolute photometry (−1 lm, multiplier 1) of type C with the full turn 0…360°, metres, lines of at most 132
 //! characters, CRLF, editions 2002 and 2019. Read: 1986 to 2019, types A, B and C (only C is expanded to a full turn),
-//! TILT=NONE and INCLUDE (the factors are told, not applied). Not read: tilt in another file.
+//! TILT=NONE and INCLUDE (the factors are told, not applied), openings of both generations of editions. Not read: tilt
+//! in another file.
 
 use super::FormatError;
+use super::ies_tokens::Tokens;
 use super::location::excerpt;
-use super::luminaire::{
-    CLOSEST, Description, Luminaire, Opening, Photometry, ascii, at_line, check_rising, decode, number, plausible,
-};
+use super::luminaire::{Description, Luminaire, Opening, Photometry};
+use super::luminaire_check::{Stated, checked, closing_plane, surplus};
+use super::luminaire_planes::{CLOSEST, Mirrors, Turn, check_rising, same_angle};
+use super::luminaire_text::{ascii, at_line, decode, number};
 use crate::compute::btdf::Finding;
 use std::borrow::Cow;
 
@@ -22,6 +25,8 @@ pub enum IesEdition {
 }
 
 const LINE_LIMIT: usize = 132;
+/// Lumens per lamp that mark absolute photometry.
+const ABSOLUTE: f64 = -1.0;
 
 /// Writes a luminaire of photometry C whose planes cover the full turn (or are one).
 pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
@@ -65,9 +70,7 @@ pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
         c_deg.push(360.0);
         planes.push(planes[0].clone());
     }
-    let Opening { along_c0, along_c90, height } = luminaire.opening;
-    // "Width" lies across the C0 plane, "length" along it.
-    let sizes = [along_c90, along_c0, height].map(|metres| number(metres, 4)).join(" ");
+    let sizes = luminaire.opening.to_lm63().map(|metres| number(metres, 4)).join(" ");
     out.push(format!("1 -1 1 {} {} 1 2 {sizes}", luminaire.gamma_deg.len(), c_deg.len()));
     out.push(format!("1 {generation} {}", number(luminaire.power, 1)));
     wrap(&mut out, &luminaire.gamma_deg, 4);
@@ -124,86 +127,59 @@ fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
 /// Reads an LM-63 file.
 ///
 /// # Errors
-/// No TILT line, tilt in another file, counts or types out of range, angles that do not increase, text among the
-/// numbers, fewer numbers than the counts ask for. The first fault is told with its line.
+/// Returns an error if there is no TILT line, if the tilt is in another file, if counts or types are out of range, if
+/// angles do not increase, if there is text among the numbers, if there are fewer numbers than the counts ask for, or
+/// if decimal commas make more of them. The first fault is told with its line.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let (text, mut findings) = decode(bytes)?;
     let lines: Vec<&str> = text.lines().collect();
-    let tilt_line = lines
-        .iter()
-        .position(|line| line.trim_start().to_ascii_uppercase().starts_with("TILT="))
-        .ok_or_else(|| at_line(lines.len(), "no TILT line", "a line TILT=NONE or TILT=INCLUDE"))?;
-    let format = lines[0].trim();
+    let tilt_line = tilt_line(&lines)?;
+    let format = lines.iter().map(|line| line.trim()).find(|line| !line.is_empty()).unwrap_or_default();
     let old = !format.contains("2002") && !format.contains("2019");
     let mut tokens = Tokens::new(&lines, tilt_line + 1);
-    match lines[tilt_line].trim()[5..].trim().to_ascii_uppercase().as_str() {
-        "NONE" => {}
-        "INCLUDE" => {
-            tokens.number("lamp to luminaire geometry")?;
-            let count = tokens.count("number of tilt angles")?;
-            let angles = tokens.take(count, "tilt angles")?;
-            check_rising(&angles, tokens.line(), "tilt angle")?;
-            tokens.take(count, "tilt factors")?;
-            findings.push(Finding::info(
-                "tilt-factors",
-                format!("{count} tilt factors in the file; the intensities hold for the untilted luminaire"),
-            ));
-        }
-        other => {
-            return Err(at_line(
-                tilt_line + 1,
-                format!("TILT={}: an external tilt file, which is not available", excerpt(other)),
-                "TILT=NONE or TILT=INCLUDE",
-            ));
-        }
-    }
-
-    let lamps = tokens.number("number of lamps")?;
-    let lumens = tokens.number("lumens per lamp")?;
-    let multiplier = tokens.number("candela multiplier")?;
-    let angles = tokens.count("number of vertical angles")?;
-    let planes = tokens.count("number of horizontal angles")?;
-    let photometry = match tokens.choice("photometric type", "1 (C), 2 (B) or 3 (A)", 3)? {
-        1 => Photometry::C,
-        2 => Photometry::B,
-        _ => Photometry::A,
-    };
-    let metres = match tokens.choice("units type", "1 (feet) or 2 (metres)", 2)? {
-        1 => 0.3048,
-        _ => 1.0,
-    };
-    let width = tokens.number("width")? * metres;
-    let length = tokens.number("length")? * metres;
-    let height = tokens.number("height")? * metres;
-    let ballast = tokens.number("ballast factor")?;
-    let ballast_lamp = tokens.number("ballast-lamp factor, future use or file generation type")?;
-    let power = tokens.number("input watts")?;
-    let gamma_deg = tokens.take(angles, "vertical angles")?;
-    check_rising(&gamma_deg, tokens.line(), "vertical angle")?;
-    let c_file = tokens.take(planes, "horizontal angles")?;
-    check_rising(&c_file, tokens.line(), "horizontal angle")?;
-    let table = tokens.take(angles * planes, "candela values")?;
+    let numbers =
+        Numbers::read(&mut tokens, &lines, tilt_line, &mut findings).map_err(|error| tokens.explained(error))?;
+    let Numbers { photometry, gamma_deg, c_file, table, .. } = numbers;
+    let (angles, planes) = (gamma_deg.len(), c_file.len());
 
     // The second factor counted in the older editions only; then it became "future use" and the generation type.
-    let factor = multiplier * ballast * if old { ballast_lamp } else { 1.0 };
-    if factor != 1.0 {
+    let ballast = numbers.ballast * if old { numbers.ballast_lamp } else { 1.0 };
+    let factor = numbers.multiplier * ballast;
+    if factor == 0.0 {
+        findings.push(Finding::warning("multiplier", "candela values multiplied by 0: the luminaire is dark"));
+    } else if factor != 1.0 {
         findings.push(Finding::info("multiplier", format!("candela values multiplied by {factor}")));
     }
-    let (c_deg, source) = match photometry {
-        Photometry::C => expand(&c_file, tokens.line())?,
+    let lumens = numbers.lumens;
+    if lumens <= 0.0 && lumens != ABSOLUTE {
+        findings.push(Finding::warning(
+            "no-lamp-flux",
+            format!(
+                "line {}: lamps of {lumens} lm (-1 marks absolute photometry); the intensities are taken as absolute",
+                numbers.lamps_line
+            ),
+        ));
+    }
+    let Turn { c_deg, source } = match photometry {
+        Photometry::C => {
+            findings.extend(closing_plane(&c_file, &table));
+            Turn::new(&c_file, mirrors(&c_file, numbers.c_line)?)
+        }
         Photometry::A | Photometry::B => {
+            let letter = if photometry == Photometry::A { "A" } else { "B" };
             findings.push(Finding::warning(
                 "not-type-c",
-                "photometric type is not C: planes and angles are shown as they stand, no flux is computed",
+                format!("photometric type is {letter}, not C: planes and angles are shown as they stand"),
             ));
-            (c_file.clone(), (0..planes).collect())
+            Turn { source: (0..planes).collect(), c_deg: c_file }
         }
     };
     let intensity =
         source.iter().flat_map(|&plane: &usize| &table[plane * angles..][..angles]).map(|v| v * factor).collect();
     let keyword = |name: &str| keyword_value(&lines[..tilt_line], name);
     let date = keyword("ISSUEDATE");
-    plausible(Luminaire {
+    let lamp_flux = (lumens > 0.0).then_some(numbers.lamps * lumens);
+    let luminaire = Luminaire {
         format: if format.starts_with("IES") { format.to_owned() } else { "LM-63-1986".to_owned() },
         text: Description {
             report: keyword("TEST"),
@@ -216,14 +192,152 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
             remarks: vec![keyword("OTHER")].into_iter().filter(|text| !text.is_empty()).collect(),
         },
         photometry,
-        opening: Opening { along_c0: length, along_c90: width, height },
+        opening: Opening::from_lm63(numbers.sizes, old),
         c_deg,
         gamma_deg,
         intensity,
-        lamp_flux: (lumens > 0.0).then_some(lamps * lumens),
-        power,
+        lamp_flux,
+        power: numbers.power,
         findings,
+    };
+    let stated = Stated {
+        lamps: lamp_flux.map(|flux| flux * ballast),
+        lamps_line: numbers.lamps_line,
+        opening_line: numbers.opening_line,
+        ..Stated::default()
+    };
+    checked(luminaire, &stated)
+}
+
+/// Index of the line that ends the keywords.
+fn tilt_line(lines: &[&str]) -> Result<usize, FormatError> {
+    let upper = |line: &&str| line.trim_start().to_ascii_uppercase();
+    let expected = "a line TILT=NONE or TILT=INCLUDE";
+    if let Some(index) = lines.iter().position(|line| upper(line).starts_with("TILT=")) {
+        return Ok(index);
+    }
+    Err(match lines.iter().position(|line| upper(line).contains("TILT=")) {
+        Some(index) => at_line(index + 1, "TILT= within a line: a line break is missing", expected),
+        None => at_line(lines.len(), "no TILT line", expected),
     })
+}
+
+/// The numbers of a file as they stand in it; sizes in metres.
+struct Numbers {
+    lamps: f64,
+    lumens: f64,
+    /// Line of the lumens.
+    lamps_line: usize,
+    multiplier: f64,
+    photometry: Photometry,
+    /// Width, length and height, negative where they mark round shapes. \[m\]
+    sizes: [f64; 3],
+    /// Line of the last size.
+    opening_line: usize,
+    ballast: f64,
+    ballast_lamp: f64,
+    power: f64,
+    gamma_deg: Vec<f64>,
+    c_file: Vec<f64>,
+    /// Line of the last horizontal angle.
+    c_line: usize,
+    table: Vec<f64>,
+}
+
+impl Numbers {
+    fn read(
+        tokens: &mut Tokens,
+        lines: &[&str],
+        tilt_line: usize,
+        findings: &mut Vec<Finding>,
+    ) -> Result<Self, FormatError> {
+        findings.extend(tilt(tokens, lines[tilt_line].trim()[5..].trim(), tilt_line + 1)?);
+        let lamps = tokens.number("number of lamps")?;
+        let lumens = tokens.number("lumens per lamp")?;
+        let lamps_line = tokens.line();
+        let multiplier = tokens.number("candela multiplier")?;
+        let angles = tokens.count("number of vertical angles")?;
+        let planes = tokens.count("number of horizontal angles")?;
+        let photometry = match tokens.choice("photometric type", "1 (C), 2 (B) or 3 (A)", 3)? {
+            1 => Photometry::C,
+            2 => Photometry::B,
+            _ => Photometry::A,
+        };
+        let metres = match tokens.choice("units type", "1 (feet) or 2 (metres)", 2)? {
+            1 => 0.3048,
+            _ => 1.0,
+        };
+        let sizes = [tokens.number("width")?, tokens.number("length")?, tokens.number("height")?];
+        let opening_line = tokens.line();
+        let ballast = tokens.number("ballast factor")?;
+        let ballast_lamp = tokens.number("ballast-lamp factor, future use or file generation type")?;
+        let power = tokens.number("input watts")?;
+        let gamma_deg = tokens.take(angles, "vertical angles")?;
+        check_rising(&gamma_deg, tokens.line(), "vertical angle")?;
+        let c_file = tokens.take(planes, "horizontal angles")?;
+        let c_line = tokens.line();
+        check_rising(&c_file, c_line, "horizontal angle")?;
+        let table = tokens.take(angles * planes, "candela values")?;
+        findings.extend(after_the_table(tokens, [angles, planes])?);
+        let sizes = sizes.map(|size| size * metres);
+        Ok(Self {
+            lamps,
+            lumens,
+            lamps_line,
+            multiplier,
+            photometry,
+            sizes,
+            opening_line,
+            ballast,
+            ballast_lamp,
+            power,
+            gamma_deg,
+            c_file,
+            c_line,
+            table,
+        })
+    }
+}
+
+/// Reads what the TILT line announces, and tells of it.
+fn tilt(tokens: &mut Tokens, word: &str, line: usize) -> Result<Option<Finding>, FormatError> {
+    let upper = word.to_ascii_uppercase();
+    match upper.as_str() {
+        "NONE" => Ok(None),
+        "INCLUDE" => {
+            tokens.number("lamp to luminaire geometry")?;
+            let count = tokens.count("number of tilt angles")?;
+            let angles = tokens.take(count, "tilt angles")?;
+            check_rising(&angles, tokens.line(), "tilt angle")?;
+            tokens.take(count, "tilt factors")?;
+            Ok(Some(Finding::info(
+                "tilt-factors",
+                format!("{count} tilt factors in the file; the intensities hold for the untilted luminaire"),
+            )))
+        }
+        other => {
+            let known = other.split_whitespace().next().is_some_and(|first| ["NONE", "INCLUDE"].contains(&first));
+            let why = if known { "a line break is missing" } else { "an external tilt file, which is not available" };
+            Err(at_line(line, format!("TILT={}: {why}", excerpt(word)), "TILT=NONE or TILT=INCLUDE"))
+        }
+    }
+}
+
+/// Tells what stands after the last candela value that the counts ask for.
+fn after_the_table(tokens: &Tokens, [angles, planes]: [usize; 2]) -> Result<Option<Finding>, FormatError> {
+    let rest = tokens.rest();
+    let Some(line) = rest.line else { return Ok(None) };
+    let due = angles * planes;
+    let found = due + rest.numbers;
+    let counts = format!("{angles} angles in {planes} {}", if planes == 1 { "plane" } else { "planes" });
+    if tokens.has_decimal_commas(rest.numbers) {
+        return Err(at_line(line, format!("{found} candela values"), format!("{due} ({counts})")));
+    }
+    Ok(Some(if rest.numbers > 0 {
+        surplus(found, due, line, &counts)
+    } else {
+        Finding::info("text-after-values", format!("line {line}: text after the last candela value is not read"))
+    }))
 }
 
 /// Value of a keyword with its `[MORE]` lines; empty when it is not there.
@@ -242,105 +356,25 @@ fn keyword_value(lines: &[&str], name: &str) -> String {
     parts.join(" ").trim().to_owned()
 }
 
-/// Planes of the full turn and, for each, which of the file's planes it copies.
-fn expand(c_file: &[f64], line: usize) -> Result<(Vec<f64>, Vec<usize>), FormatError> {
+/// The symmetry that the first and the last horizontal angle of type C stand for.
+fn mirrors(c_file: &[f64], line: usize) -> Result<Mirrors, FormatError> {
     let (first, last) = (c_file[0], c_file[c_file.len() - 1]);
-    let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+    let from_to = |a: f64, b: f64| same_angle(first, a) && same_angle(last, b);
     if c_file.len() == 1 {
-        return Ok((vec![0.0], vec![0]));
-    }
-    let mut all: Vec<(f64, usize)> = c_file.iter().copied().zip(0..).collect();
-    if near(first, 0.0) && near(last, 90.0) {
-        // Symmetric about both planes: first about C90–C270, then about C0–C180.
-        all.extend(c_file.iter().zip(0..).map(|(c, k)| (180.0 - c, k)));
-    } else if near(first, 90.0) && near(last, 270.0) {
-        all.extend(c_file.iter().zip(0..).map(|(c, k)| ((540.0 - c).rem_euclid(360.0), k)));
-    } else if !(near(first, 0.0) && (near(last, 180.0) || last > 180.0 && last <= 360.0 + 1e-6)) {
-        return Err(at_line(
+        Ok(Mirrors::None)
+    } else if from_to(0.0, 90.0) {
+        Ok(Mirrors::Both)
+    } else if from_to(90.0, 270.0) {
+        Ok(Mirrors::C90)
+    } else if from_to(0.0, 180.0) {
+        Ok(Mirrors::C0)
+    } else if same_angle(first, 0.0) && last > 180.0 && last < 360.0 + CLOSEST {
+        Ok(Mirrors::None)
+    } else {
+        Err(at_line(
             line,
             format!("horizontal angles from {first} to {last}"),
             "0 alone, 0 to 90, 0 to 180, 0 to 360 or 90 to 270",
-        ));
-    }
-    let half_turn = all.iter().all(|(c, _)| *c <= 180.0 + 1e-6);
-    if half_turn {
-        all.extend(all.clone().into_iter().map(|(c, k)| ((360.0 - c).rem_euclid(360.0), k)));
-    }
-    for (c, _) in &mut all {
-        if near(*c, 360.0) {
-            *c = 0.0;
-        }
-    }
-    all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    all.dedup_by(|a, b| near(a.0, b.0));
-    Ok(all.into_iter().unzip())
-}
-
-/// Numbers after the TILT line, each with its line.
-struct Tokens<'a> {
-    tokens: Vec<(usize, &'a str)>,
-    next: usize,
-}
-
-impl<'a> Tokens<'a> {
-    fn new(lines: &[&'a str], from: usize) -> Self {
-        let tokens = lines[from..]
-            .iter()
-            .zip(from + 1..)
-            .flat_map(|(line, number)| {
-                line.split(|c: char| c.is_whitespace() || c == ',')
-                    .filter(|token| !token.is_empty())
-                    .map(move |token| (number, token))
-            })
-            .collect();
-        Self { tokens, next: 0 }
-    }
-
-    /// Line of the token read last.
-    fn line(&self) -> usize {
-        self.tokens.get(self.next.saturating_sub(1)).or(self.tokens.last()).map_or(1, |token| token.0)
-    }
-
-    fn number(&mut self, name: &str) -> Result<f64, FormatError> {
-        let Some(&(line, token)) = self.tokens.get(self.next) else {
-            return Err(at_line(self.line(), "the end of the file", name));
-        };
-        self.next += 1;
-        token.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| {
-            let shown: String = token.chars().take(40).collect();
-            at_line(line, format!("\"{shown}\""), format!("a number ({name})"))
-        })
-    }
-
-    /// A count of things of which at least as many numbers must follow.
-    fn count(&mut self, name: &str) -> Result<usize, FormatError> {
-        let value = self.number(name)?;
-        if !(1.0..=3601.0).contains(&value) || value.fract() != 0.0 {
-            return Err(at_line(self.line(), format!("{name} {value}, out of range"), "a whole number from 1 to 3601"));
-        }
-        Ok(value as usize)
-    }
-
-    fn choice(&mut self, name: &str, allowed: &str, max: u8) -> Result<u8, FormatError> {
-        let value = self.number(name)?;
-        (1..=max)
-            .find(|&choice| value == f64::from(choice))
-            .ok_or_else(|| at_line(self.line(), format!("{name} {value}"), format!("{name} must be {allowed}")))
-    }
-
-    fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
-        let left = self.tokens.len() - self.next;
-        if left < count {
-            // Text among the numbers explains more than the count does.
-            for _ in 0..left {
-                self.number(name)?;
-            }
-            return Err(at_line(
-                self.line(),
-                format!("only {left} {name}, then the end of the file"),
-                format!("{count} {name}"),
-            ));
-        }
-        (0..count).map(|_| self.number(name)).collect()
+        ))
     }
 }

@@ -1,6 +1,7 @@
 //! A luminaire's distribution as a picture and as a table: the polar diagram and the C-γ values as CSV.
 
-use super::luminaire::{Luminaire, number};
+use super::luminaire::Luminaire;
+use super::luminaire_text::number;
 use crate::drawing::{Align, Drawing, Rgb, Shape, TEXT};
 
 const GRID: Rgb = [205, 205, 205];

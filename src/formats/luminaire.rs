@@ -2,21 +2,23 @@
 //!
 //! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
 
-use super::encoding::{Encoding, any_text, not_too_long};
-use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::lid::Intensities;
 use crate::compute::lid::c_gamma::{Aim, CGammaTable, Widened};
-use crate::compute::limits;
+use std::f64::consts::FRAC_PI_2;
+
+pub use super::luminaire_opening::{Opening, Shape};
 
 /// Which axis the planes of a photometric file turn about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Photometry {
     /// About the vertical: C and γ.
     C,
-    /// About a horizontal axis: B and β. Read as it stands, not turned into C.
+    /// About a horizontal axis: the vertical angle counts planes, the horizontal angle lies in them (LM-75-01). Read as
+    /// it stands, not turned into C.
     B,
-    /// About a vertical axis, counted from the direction of travel. Read as it stands.
+    /// About a vertical axis: the horizontal angle counts planes, the vertical angle lies in them from the horizon
+    /// (LM-75-01). Read as it stands.
     A,
 }
 
@@ -39,17 +41,6 @@ pub struct Description {
     pub lamp: String,
     /// Anything else a user of the file must know, a paragraph each.
     pub remarks: Vec<String>,
-}
-
-/// Size of the luminous opening. \[m\] Negative values, as LM-63 marks round shapes, are kept.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Opening {
-    /// Along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT).
-    pub along_c0: f64,
-    /// Along the C90–C270 plane ("width" of LM-63, "length" of EULUMDAT).
-    pub along_c90: f64,
-    /// Vertical.
-    pub height: f64,
 }
 
 /// A luminaire.
@@ -85,8 +76,8 @@ impl Luminaire {
     pub fn from_table(table: &CGammaTable, size: [f64; 2], mut text: Description) -> Self {
         let [x, y] = size;
         let opening = match table.aim {
-            Aim::Mounted => Opening { along_c0: 0.0, along_c90: x, height: y },
-            Aim::Down => Opening { along_c0: x, along_c90: y, height: 0.0 },
+            Aim::Mounted => Opening::rectangular(0.0, x, y),
+            Aim::Down => Opening::rectangular(x, y, 0.0),
         };
         text.remarks.extend(orientation_remarks(table.aim, size));
         text.remarks.push(table_remark(table));
@@ -108,7 +99,6 @@ impl Luminaire {
 
     /// As a host reads them. Only for photometry C.
     pub fn intensities(&self) -> Intensities {
-        let radians = |degrees: &[f64]| degrees.iter().map(|angle| angle.to_radians()).collect();
         Intensities { c: radians(&self.c_deg), gamma: radians(&self.gamma_deg), values: self.intensity.clone() }
     }
 
@@ -138,9 +128,17 @@ impl Luminaire {
         flux
     }
 
-    /// Flux of the whole distribution. \[lm\]
+    /// Flux of the whole distribution. One plane of type A or B says nothing of the flux, which is then 0. \[lm\]
     pub fn flux(&self) -> f64 {
-        self.flux_within(180.0)
+        let (horizontal, vertical) = match self.photometry {
+            Photometry::C => return self.flux_within(180.0),
+            Photometry::A => (about_axis(&self.c_deg), from_equator(&self.gamma_deg)),
+            Photometry::B => (from_equator(&self.c_deg), about_axis(&self.gamma_deg)),
+        };
+        let plane = |plane: usize| self.plane(plane).iter().zip(&vertical).map(|(cd, weight)| cd * weight).sum::<f64>();
+        let flux = horizontal.iter().enumerate().map(|(k, weight)| weight * plane(k)).sum::<f64>();
+        // LM-63: horizontal angles from 0 stand for both sides.
+        if self.c_deg[0] == 0.0 { 2.0 * flux } else { flux }
     }
 
     /// Azimuth that each plane stands for. \[rad\]
@@ -159,6 +157,39 @@ impl Luminaire {
     pub fn peak(&self) -> f64 {
         self.intensity.iter().copied().fold(0.0, f64::max)
     }
+}
+
+fn radians(degrees: &[f64]) -> Vec<f64> {
+    degrees.iter().map(|angle| angle.to_radians()).collect()
+}
+
+/// Weights of angles about the axis, between which intensities are linear. \[rad\]
+fn about_axis(degrees: &[f64]) -> Vec<f64> {
+    weights(&radians(degrees), |[a, b]| [0.5 * (b - a); 2])
+}
+
+/// Weights of angles from the equator to the poles, between which intensities are linear: integrals over the cosine.
+fn from_equator(degrees: &[f64]) -> Vec<f64> {
+    let angles: Vec<f64> = radians(degrees).iter().map(|angle| angle.clamp(-FRAC_PI_2, FRAC_PI_2)).collect();
+    weights(&angles, |[a, b]| {
+        // Beyond a pole there is nothing.
+        if b <= a {
+            return [0.0; 2];
+        }
+        let mean = (a.cos() - b.cos()) / (b - a);
+        [mean - a.sin(), b.sin() - mean]
+    })
+}
+
+/// Weights of nodes from those that `of_pair` gives the two ends of each interval.
+fn weights(angles: &[f64], of_pair: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<f64> {
+    let mut weights = vec![0.0; angles.len()];
+    for (k, pair) in angles.windows(2).enumerate() {
+        let [first, second] = of_pair([pair[0], pair[1]]);
+        weights[k] += first;
+        weights[k + 1] += second;
+    }
+    weights
 }
 
 fn orientation_remarks(aim: Aim, [x, y]: [f64; 2]) -> Vec<String> {
@@ -207,135 +238,4 @@ fn table_remark(table: &CGammaTable) -> String {
     };
     text.push_str(&beams);
     text
-}
-
-/// Text of a file: UTF-8 or Latin-1, as such files are, or UTF-16, which is told; without a byte-order mark.
-pub(super) fn decode(bytes: &[u8]) -> Result<(String, Vec<Finding>), FormatError> {
-    let bytes = not_too_long(bytes)?;
-    let (text, encoding) = any_text(bytes);
-    let told = (encoding == Some(Encoding::Utf16)).then(|| {
-        let message =
-            "The text is UTF-16, which other programs do not expect in a luminaire file; it was read as such.";
-        Finding::warning("encoding", message)
-    });
-    Ok((text, told.into_iter().collect()))
-}
-
-/// Printable ASCII: what every reader takes. Letters with marks are spelt out, line breaks become blanks, the rest '?'.
-pub(super) fn ascii(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            ' '..='~' => out.push(c),
-            'ä' => out.push_str("ae"),
-            'ö' => out.push_str("oe"),
-            'ü' => out.push_str("ue"),
-            'Ä' => out.push_str("Ae"),
-            'Ö' => out.push_str("Oe"),
-            'Ü' => out.push_str("Ue"),
-            'ß' => out.push_str("ss"),
-            'à' | 'â' | 'á' | 'å' => out.push('a'),
-            'é' | 'è' | 'ê' | 'ë' => out.push('e'),
-            'ç' => out.push('c'),
-            'ñ' => out.push('n'),
-            'ô' | 'ó' | 'ø' => out.push('o'),
-            '°' => out.push_str(" deg"),
-            '²' => out.push('2'),
-            '×' => out.push('x'),
-            '–' | '—' | '−' => out.push('-'),
-            c if c.is_whitespace() => out.push(' '),
-            _ => out.push('?'),
-        }
-    }
-    out
-}
-
-/// The error of a reader at a line, counted from 1.
-pub(super) fn at_line(line: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
-    FormatError::new(Location::line(line), found, expected)
-}
-
-/// Judges the light of a luminaire that was read, all numbers of it: what no luminaire has is refused, and intensities a
-/// little below 0, as differences of measurements are, count as 0, which is told.
-pub(super) fn plausible(mut luminaire: Luminaire) -> Result<Luminaire, FormatError> {
-    let wrong = |what: &str, value: f64, unit: &str, (least, most): (f64, f64)| {
-        let at = Location::file().in_element(what);
-        Err(FormatError::new(at, format!("{value:e} {unit}"), format!("{least} to {most:e} {unit}")))
-    };
-    let peak = luminaire.peak();
-    for (index, cd) in luminaire.intensity.iter().enumerate() {
-        // Written so that what is no number fails too.
-        if !(*cd >= -BELOW_ZERO * peak && *cd <= limits::INTENSITY) {
-            let angles = luminaire.gamma_deg.len();
-            let [c, gamma] = [luminaire.c_deg[index / angles], luminaire.gamma_deg[index % angles]];
-            return wrong(&format!("intensity at C {c}°, gamma {gamma}°"), *cd, "cd", (0.0, limits::INTENSITY));
-        }
-    }
-    let flux = luminaire.lamp_flux.unwrap_or(0.0);
-    if !(0.0..=limits::LAMP_FLUX).contains(&flux) {
-        return wrong("flux of the lamps", flux, "lm", (0.0, limits::LAMP_FLUX));
-    }
-    // Below 0 where it is not known.
-    if luminaire.power.is_nan() || luminaire.power.abs() > MOST_POWER {
-        return wrong("power", luminaire.power, "W", (0.0, MOST_POWER));
-    }
-    let Opening { along_c0, along_c90, height } = luminaire.opening;
-    for size in [along_c0, along_c90, height] {
-        // Below 0 it is a diameter.
-        if size.is_nan() || size.abs() > MOST_SIZE {
-            return wrong("size of the luminous opening", size, "m", (-MOST_SIZE, MOST_SIZE));
-        }
-    }
-    for angle in luminaire.c_deg.iter().chain(&luminaire.gamma_deg) {
-        if angle.is_nan() || angle.abs() > 360.0 {
-            return wrong("angle", *angle, "°", (-360.0, 360.0));
-        }
-    }
-    if luminaire.photometry == Photometry::C {
-        // Beyond, zones and planes would count backwards; a plane at 360° is the first one again.
-        let turn = 360.0 - CLOSEST;
-        if let Some(c) = luminaire.c_deg.iter().find(|c| !(0.0..=turn).contains(*c)) {
-            return wrong("plane C", *c, "°", (0.0, 360.0));
-        }
-        if let Some(gamma) = luminaire.gamma_deg.iter().find(|gamma| !(0.0..=180.0).contains(*gamma)) {
-            return wrong("gamma angle", *gamma, "°", (0.0, 180.0));
-        }
-    }
-    let below = luminaire.intensity.iter().filter(|cd| **cd < 0.0).count();
-    if below > 0 {
-        luminaire.intensity.iter_mut().for_each(|cd| *cd = cd.max(0.0));
-        luminaire.findings.push(Finding::warning(
-            "negative-intensities",
-            format!("{below} intensities are a little below 0 cd, which no light is; they count as 0"),
-        ));
-    }
-    Ok(luminaire)
-}
-
-/// Of the largest intensity, how far below 0 differences of measurements may be.
-const BELOW_ZERO: f64 = 0.01;
-/// Angles closer together are the same once they are written, with four decimals. \[°\]
-pub(super) const CLOSEST: f64 = 2e-4;
-/// A luminaire's power. \[W\]
-const MOST_POWER: f64 = 1e7;
-/// A luminaire's extent. \[m\]
-const MOST_SIZE: f64 = 1000.0;
-
-/// Fails unless the angles rise by what files can tell apart.
-pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), FormatError> {
-    match angles.windows(2).find(|pair| pair[1] - pair[0] < CLOSEST) {
-        Some(pair) => Err(at_line(
-            line,
-            format!("{name} {} after {}", pair[1], pair[0]),
-            format!("{name}s that increase strictly"),
-        )),
-        None => Ok(()),
-    }
-}
-
-/// The shortest of up to `decimals` decimals, without trailing zeros or "-0".
-pub(super) fn number(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }

@@ -108,7 +108,7 @@ pub fn read(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());
     let broken = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line) as usize;
-        FormatError::new(Location::line(line), "what is no CSV in UTF-8", "comma-separated values, one file a line")
+        FormatError::new(Location::line(line), "what is not CSV", "comma-separated values, one file a line")
     };
     let header = reader.headers().map_err(|error| broken(&error))?.clone();
     let columns: HashMap<&str, usize> = header.iter().zip(0..).collect();
@@ -213,6 +213,15 @@ mod tests {
     #[test]
     fn what_is_written_is_read() {
         assert_eq!(read(&write(&example())).unwrap(), example());
+    }
+
+    #[test]
+    fn text_is_read_as_spreadsheets_save_it() {
+        let text = String::from_utf8(write(&example())).unwrap();
+        let utf16: Vec<u8> = format!("\u{feff}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        for bytes in [utf16, format!("\u{feff}{text}").into_bytes(), text.replace("\r\n", "\r").into_bytes()] {
+            assert_eq!(read(&bytes).unwrap(), example());
+        }
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod formats_files;
 mod formats_material;
 mod formats_tensor_xml;
 mod luminaire;
+mod luminaire_checks;
 #[path = "../readers/mod.rs"]
 mod readers;
 mod readers_mended;

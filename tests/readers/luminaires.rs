@@ -30,7 +30,7 @@ fn luminaire(choices: &mut Choices) -> Luminaire {
         format: "computed".to_owned(),
         text,
         photometry: Photometry::C,
-        opening: Opening { along_c0: size(choices), along_c90: size(choices), height: size(choices) },
+        opening: Opening::rectangular(size(choices), size(choices), size(choices)),
         c_deg: (0..planes).map(|k| 360.0 * k as f64 / planes as f64).collect(),
         gamma_deg: (0..angles).map(|k| last * k as f64 / (angles - 1) as f64).collect(),
         intensity: (0..planes * angles).map(|k| scale * ((k * step) % turn) as f64 / turn as f64).collect(),

@@ -1,0 +1,106 @@
+//! The numbers of an LM-63 file after its TILT line, each with its line. Blanks and commas stand between them.
+
+use super::FormatError;
+use super::location::excerpt;
+use super::luminaire_text::{at_line, parse_number};
+
+/// Numbers that are read one after the other.
+pub(super) struct Tokens<'a> {
+    tokens: Vec<(usize, &'a str)>,
+    next: usize,
+    /// How many commas stand right between two digits, as decimal commas do.
+    commas: usize,
+}
+
+/// What stands after the last number that was due.
+pub(super) struct Rest {
+    /// How many numbers.
+    pub numbers: usize,
+    /// Line of the first piece; `None` where there is nothing.
+    pub line: Option<usize>,
+}
+
+impl<'a> Tokens<'a> {
+    /// Of the lines after the first `from`.
+    pub fn new(lines: &[&'a str], from: usize) -> Self {
+        let pieces = |line: &'a str| {
+            // DOS ended texts with a control character.
+            line.split(|c: char| c.is_whitespace() || c == ',' || c == '\u{1a}').filter(|token| !token.is_empty())
+        };
+        let numbered = lines[from..].iter().zip(from + 1..);
+        let tokens = numbered.flat_map(|(line, number)| pieces(line).map(move |token| (number, token))).collect();
+        let is_comma = |three: &[u8]| matches!(three, [b'0'..=b'9', b',', b'0'..=b'9']);
+        let commas =
+            lines[from..].iter().map(|line| line.as_bytes().windows(3).filter(|at| is_comma(at)).count()).sum();
+        Self { tokens, next: 0, commas }
+    }
+
+    /// Line of the token read last.
+    pub fn line(&self) -> usize {
+        self.tokens.get(self.next.saturating_sub(1)).or(self.tokens.last()).map_or(1, |token| token.0)
+    }
+
+    /// What was not read.
+    pub fn rest(&self) -> Rest {
+        let left = &self.tokens[self.next..];
+        let numbers = left.iter().filter(|(_, token)| parse_number(token).is_some()).count();
+        Rest { numbers, line: left.first().map(|token| token.0) }
+    }
+
+    /// Whether commas explain `surplus` numbers: each decimal comma makes two numbers of one.
+    pub fn has_decimal_commas(&self, surplus: usize) -> bool {
+        surplus > 0 && self.commas == surplus
+    }
+
+    /// The error, with a remark on commas where decimal commas may have shifted all numbers.
+    pub fn explained(&self, mut error: FormatError) -> FormatError {
+        if self.commas > 0 {
+            error.expected.push_str(COMMAS);
+        }
+        error
+    }
+
+    pub fn number(&mut self, name: &str) -> Result<f64, FormatError> {
+        let Some(&(line, token)) = self.tokens.get(self.next) else {
+            return Err(at_line(self.line(), "the end of the file", name));
+        };
+        self.next += 1;
+        parse_number(token)
+            .ok_or_else(|| at_line(line, format!("\"{}\"", excerpt(token)), format!("a number ({name})")))
+    }
+
+    /// A count of things of which at least as many numbers must follow.
+    pub fn count(&mut self, name: &str) -> Result<usize, FormatError> {
+        let value = self.number(name)?;
+        if !(1.0..=3601.0).contains(&value) || value.fract() != 0.0 {
+            return Err(at_line(self.line(), format!("{name} {value}, out of range"), "a whole number from 1 to 3601"));
+        }
+        Ok(value as usize)
+    }
+
+    pub fn choice(&mut self, name: &str, allowed: &str, max: u8) -> Result<u8, FormatError> {
+        let value = self.number(name)?;
+        (1..=max)
+            .find(|&choice| value == f64::from(choice))
+            .ok_or_else(|| at_line(self.line(), format!("{name} {value}"), format!("{name} must be {allowed}")))
+    }
+
+    pub fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
+        let left = self.tokens.len() - self.next;
+        if left < count {
+            // Text among the numbers explains more than the count does.
+            for _ in 0..left {
+                self.number(name)?;
+            }
+            return Err(at_line(
+                self.line(),
+                format!("only {left} {name}, then the end of the file"),
+                format!("{count} {name}"),
+            ));
+        }
+        (0..count).map(|_| self.number(name)).collect()
+    }
+}
+
+/// Remark on decimal commas. LM-63-2002: delimiters are commas, blanks and line ends.
+pub(super) const COMMAS: &str = "; a comma separates numbers in LM-63: write decimals with a point";

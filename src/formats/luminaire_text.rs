@@ -1,0 +1,144 @@
+//! Text of luminaire files: encodings and line ends as files travel, numbers as programs write them, ASCII for writing.
+
+use super::encoding::{Encoding, any_text, is_web_page, not_too_long};
+use super::{FormatError, Location};
+use crate::compute::btdf::Finding;
+
+/// Length from which a text without any line break has lost them. Chosen: no first line alone is as long, and the
+/// headers alone are longer. \[characters\]
+const LOST_BREAKS: usize = 200;
+
+/// Text of a file: UTF-8 or Latin-1, as such files are, or UTF-16, which is told; without a byte-order mark, lines
+/// ended by a line feed.
+///
+/// # Errors
+/// Returns an error if the text is too long, is a web page, or is one long line.
+pub(super) fn decode(bytes: &[u8]) -> Result<(String, Vec<Finding>), FormatError> {
+    let bytes = not_too_long(bytes)?;
+    let (text, encoding) = any_text(bytes);
+    if is_web_page(&text) {
+        return Err(at_line(1, "an HTML page", "the file itself: download the raw file, not the page that shows it"));
+    }
+    let text = with_line_feeds(&text);
+    let length = text.trim().chars().count();
+    if length > LOST_BREAKS && !text.trim().contains('\n') {
+        return Err(at_line(
+            1,
+            format!("{length} characters without a line break"),
+            "several lines: line breaks were lost on the way",
+        ));
+    }
+    let told = (encoding == Some(Encoding::Utf16)).then(|| {
+        let message =
+            "The text is UTF-16, which other programs do not expect in a luminaire file; it was read as such.";
+        Finding::warning("encoding", message)
+    });
+    Ok((text, told.into_iter().collect()))
+}
+
+/// The text with line feeds in place of CR LF and of the lone carriage returns of old Macs. Carriage returns beside a
+/// line feed are no further line.
+fn with_line_feeds(text: &str) -> String {
+    if !text.contains('\n') {
+        return text.replace('\r', "\n");
+    }
+    let line = |line: &str| line.trim_matches('\r').replace('\r', "\n");
+    text.split('\n').map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// A finite number, its exponent after E or, as Fortran writes it, D; `None` for other text.
+pub(super) fn parse_number(text: &str) -> Option<f64> {
+    let value = text.parse::<f64>().ok().or_else(|| {
+        // Only digits stand around the D: "nand" is no number.
+        let (mantissa, exponent) = text.split_once(['d', 'D'])?;
+        format!("{}e{}", mantissa, exponent.parse::<i32>().ok()?).parse().ok()
+    });
+    value.filter(|value: &f64| value.is_finite())
+}
+
+/// Printable ASCII: what every reader takes. Letters with marks, composed or not, are spelt out, line breaks become
+/// blanks, the rest '?'.
+pub(super) fn ascii(text: &str) -> String {
+    const DIAERESIS: char = '\u{308}';
+    let mut out = String::with_capacity(text.len());
+    let mut chars = text.chars().peekable();
+    while let Some(c) = chars.next() {
+        match c {
+            ' '..='~' => {
+                out.push(c);
+                if "aouAOU".contains(c) && chars.peek() == Some(&DIAERESIS) {
+                    out.push('e');
+                }
+            }
+            // Marks of decomposed letters.
+            '\u{300}'..='\u{36f}' => {}
+            'ä' => out.push_str("ae"),
+            'ö' => out.push_str("oe"),
+            'ü' => out.push_str("ue"),
+            'Ä' => out.push_str("Ae"),
+            'Ö' => out.push_str("Oe"),
+            'Ü' => out.push_str("Ue"),
+            'ß' => out.push_str("ss"),
+            'à' | 'â' | 'á' | 'å' => out.push('a'),
+            'é' | 'è' | 'ê' | 'ë' => out.push('e'),
+            'ç' => out.push('c'),
+            'ñ' => out.push('n'),
+            'ô' | 'ó' | 'ø' => out.push('o'),
+            '°' => out.push_str(" deg"),
+            '²' => out.push('2'),
+            '×' => out.push('x'),
+            '–' | '—' | '−' => out.push('-'),
+            c if c.is_whitespace() => out.push(' '),
+            _ => out.push('?'),
+        }
+    }
+    out
+}
+
+/// The error of a reader at a line, counted from 1.
+pub(super) fn at_line(line: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
+    FormatError::new(Location::line(line), found, expected)
+}
+
+/// The shortest of up to `decimals` decimals, without trailing zeros or "-0".
+pub(super) fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn line_ends_of_all_systems_are_line_feeds() {
+        for text in ["a\nb\n\nc", "a\r\nb\r\n\r\nc", "a\rb\r\rc", "a\r\r\nb\r\r\n\r\r\nc", "a\rb\n\nc"] {
+            assert_eq!(decode(text.as_bytes()).unwrap().0, "a\nb\n\nc", "{text:?}");
+        }
+    }
+
+    #[test]
+    fn exponents_of_fortran_and_of_four_digits_are_read() {
+        for text in ["1500", "1.5E+0003", "1.5D+03", "15d2", "1.5D3", "+1.5e3"] {
+            assert_eq!(parse_number(text), Some(1500.0), "{text}");
+        }
+        for text in ["", "D", "1D", "D3", "nan", "inf", "1.5D999", "1D2D3", "road", "0x10"] {
+            assert_eq!(parse_number(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn pages_and_texts_without_line_breaks_are_named() {
+        let page = "\u{feff}\n<!DOCTYPE html>\n<html lang=\"en\"><head><title>lamp.ies</title></head></html>";
+        assert!(decode(page.as_bytes()).unwrap_err().to_string().contains("line 1: an HTML page; expected"));
+        let long = "1 ".repeat(400);
+        assert_eq!(decode(long.as_bytes()).unwrap_err().found, "799 characters without a line break");
+    }
+
+    #[test]
+    fn marks_of_decomposed_letters_are_spelt_like_those_of_composed_ones() {
+        assert_eq!(ascii("Gro\u{308}ße, U\u{308}ber, Cafe\u{301} 5 m²"), "Groesse, Ueber, Cafe 5 m2");
+        assert_eq!(ascii("Größe, Über, Café 5 m²"), "Groesse, Ueber, Cafe 5 m2");
+    }
+}
