@@ -130,6 +130,8 @@ pub(super) fn repaired(bytes: &[u8]) -> Option<Finding> {
 
 /// Whether bytes are an HTML page, which browsers save in place of the file that the page shows.
 pub fn is_web_page(bytes: &[u8]) -> bool {
+    // Where the head ends within a character it is taken for Latin-1, and its mark for letters.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let (head, _) = any_text(&bytes[..bytes.len().min(LOOK)]);
     let mut rest = head.trim_start();
     // An XML declaration and comments may stand before the first tag.
@@ -152,14 +154,6 @@ pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
         Err(NotText { encoding: Encoding::Utf16, .. }) => (from_utf16(bytes), Some(Encoding::Utf16)),
         Err(NotText { encoding, .. }) => (bytes.iter().map(|&byte| char::from(byte)).collect(), Some(encoding)),
     }
-}
-
-/// Whether text is a web page, saved in place of the file that it shows.
-pub fn is_web_page(text: &str) -> bool {
-    // A byte-order mark and comments may stand before.
-    let head: String = text.chars().take(LOOK).collect::<String>().to_ascii_lowercase();
-    let head = head.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
-    head.starts_with('<') && (head.contains("<!doctype html") || head.contains("<html"))
 }
 
 /// Does text begin with the mark of UTF-16, or is every second byte of Latin text zero?

@@ -1,6 +1,6 @@
 //! Text of luminaire files: encodings and line ends as files travel, numbers as programs write them, ASCII for writing.
 
-use super::encoding::{Encoding, any_text, is_web_page, not_too_long};
+use super::encoding::{Encoding, NotText, any_text, is_web_page, not_too_long};
 use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 
@@ -15,10 +15,10 @@ const LOST_BREAKS: usize = 200;
 /// Returns an error if the text is too long, is a web page, or is one long line.
 pub(super) fn decode(bytes: &[u8]) -> Result<(String, Vec<Finding>), FormatError> {
     let bytes = not_too_long(bytes)?;
-    let (text, encoding) = any_text(bytes);
-    if is_web_page(&text) {
-        return Err(at_line(1, "an HTML page", "the file itself: download the raw file, not the page that shows it"));
+    if is_web_page(bytes) {
+        return Err(NotText::WEB_PAGE.into());
     }
+    let (text, encoding) = any_text(bytes);
     let text = with_line_feeds(&text);
     let length = text.trim().chars().count();
     if length > LOST_BREAKS && !text.trim().contains('\n') {
@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn pages_and_texts_without_line_breaks_are_named() {
         let page = "\u{feff}\n<!DOCTYPE html>\n<html lang=\"en\"><head><title>lamp.ies</title></head></html>";
-        assert!(decode(page.as_bytes()).unwrap_err().to_string().contains("line 1: an HTML page; expected"));
+        assert_eq!(decode(page.as_bytes()).unwrap_err().found, "an HTML page");
         let long = "1 ".repeat(400);
         assert_eq!(decode(long.as_bytes()).unwrap_err().found, "799 characters without a line break");
     }
