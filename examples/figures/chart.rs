@@ -164,7 +164,7 @@ impl Disc {
 }
 
 /// Draws rows of discs as PNG. The discs of a row share one scale, from 0 to the largest value of the row.
-pub fn discs(rows: &[Vec<Disc>], gamma: f64) -> Result<Vec<u8>, image::ImageError> {
+pub fn discs(rows: &[Vec<Disc>], gamma: f64) -> anyhow::Result<Vec<u8>> {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let (wide, high) = (DISC + 40, DISC + 44);
     let mut shapes = Vec::new();

@@ -162,7 +162,7 @@ fn discs_own_scale(rows: Vec<Vec<Disc>>) -> Result<Vec<u8>> {
         });
         row.collect::<Vec<Disc>>()
     });
-    Ok(discs(&scaled.collect::<Vec<_>>(), 1.0)?)
+    discs(&scaled.collect::<Vec<_>>(), 1.0)
 }
 
 fn figure_11() -> Result<Figure> {

@@ -397,7 +397,7 @@ mod tests {
         let pressed_at = |key: Key, place: Key, modifiers: Modifiers| {
             let ctx = egui::Context::default();
             let event = Event::Key { key, physical_key: Some(place), pressed: true, repeat: false, modifiers };
-            let input = egui::RawInput { events: vec![event], modifiers, ..Default::default() };
+            let input = egui::RawInput { events: vec![event], ..Default::default() };
             let mut commands = Vec::new();
             let _ = ctx.run_ui(input, |ui| commands = pressed(ui.ctx()));
             commands

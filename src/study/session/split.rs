@@ -53,7 +53,7 @@ const SHARE: f64 = 0.05;
 /// Light that changes less than this over the aperture is the same all over.
 const SAME: f64 = 4e-3;
 /// What the light at the points may be off beyond its own error, relative: references differ by up to 4e-4.
-const AT_POINTS: f64 = 4e-4;
+const AT_POINTS: f64 = 2e-4;
 /// Tiles of a part are so small that light changes by no more than this from one to the next ...
 const STEP: f64 = 0.015;
 /// ... but a part has no more than so many along a side.
@@ -327,7 +327,7 @@ struct Cut {
     most: f64,
 }
 
-const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 2e-4, most: 40.0 };
+const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 1e-4, most: 40.0 };
 const TILES_OF_CELLS: Cut = Cut { part: 1.25, near: 0.2, allowed: 1.5e-3, most: 8.0 };
 
 impl Cut {
