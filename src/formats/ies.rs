@@ -318,7 +318,7 @@ fn tilt(tokens: &mut Tokens, word: &str, line: usize) -> Result<Option<Finding>,
         other => {
             let known = other.split_whitespace().next().is_some_and(|first| ["NONE", "INCLUDE"].contains(&first));
             let why = if known { "a line break is missing" } else { "an external tilt file, which is not available" };
-            Err(at_line(line, format!("TILT={}: {why}", excerpt(word)), "TILT=NONE or TILT=INCLUDE"))
+            Err(at_line(line, format!("TILT={}: {why}", excerpt(other)), "TILT=NONE or TILT=INCLUDE"))
         }
     }
 }

@@ -6,6 +6,10 @@ use super::luminaire_text::at_line;
 /// Angles closer together are the same once they are written, with four decimals. \[°\]
 pub(super) const CLOSEST: f64 = 2e-4;
 
+/// A plane so close to the end of the turn is the first one, apart from rounding; one further away would be written as
+/// the first one and is no plane of its own. \[°\]
+const SAME_PLANE: f64 = 1e-6;
+
 /// Whether two angles are the same in a file. \[°\]
 pub(super) fn same_angle(a: f64, b: f64) -> bool {
     (a - b).abs() < CLOSEST
@@ -46,7 +50,7 @@ impl Turn {
             all.extend(all.clone().into_iter().map(|(c, k)| ((360.0 - c).rem_euclid(360.0), k)));
         }
         for (c, _) in &mut all {
-            if let Some(first) = [0.0, stored[0]].into_iter().find(|first| same_angle(*c, first + 360.0)) {
+            if let Some(first) = [0.0, stored[0]].into_iter().find(|first| (*c - first - 360.0).abs() < SAME_PLANE) {
                 *c = first;
             }
         }
