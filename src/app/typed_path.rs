@@ -6,7 +6,7 @@ use directories::UserDirs;
 use std::path::PathBuf;
 
 /// Returns the path that a text names: without blanks and quotation marks around it, also as the address of a file
-/// (`file:///home/ada/a%20b.xml`) and from the home folder (`~/a.xml`).
+/// (`file:///data/a%20b.xml`) and from the home folder (`~/a.xml`).
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     let quoted = ['"', '\''].into_iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark));

@@ -1,5 +1,6 @@
 //! Where the window was when it was closed last: what no desktop of today can show is dropped before it is opened.
 
+use super::disk::write_whole;
 use std::path::Path;
 
 /// Zoom factors that a window can be opened with; the program's own text sizes lie well within.
@@ -15,7 +16,7 @@ pub(super) fn mend_saved(file: &Path) {
     let Ok(saved) = std::fs::read_to_string(file) else { return };
     if let Some(mended) = with_sound_zoom(&saved) {
         // If this fails, the window opens as it would without.
-        _ = std::fs::write(file, mended);
+        _ = write_whole(file, mended.as_bytes(), &[]);
     }
 }
 
