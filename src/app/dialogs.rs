@@ -26,11 +26,11 @@ thread_local! {
     static REFUSED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Hears from the dialog library that neither the desktop's portal nor zenity answers: without a result it tells that in no
-/// other way from a dialog that was closed.
-struct Ear;
+/// Receiver of the dialog library's log: only there it says that neither the desktop's portal nor zenity answers; what it
+/// returns is the same as from a dialog that was closed.
+struct DialogLog;
 
-impl log::Log for Ear {
+impl log::Log for DialogLog {
     fn enabled(&self, what: &log::Metadata<'_>) -> bool {
         what.level() == log::Level::Error && what.target().starts_with("rfd")
     }
@@ -48,7 +48,7 @@ impl NativeDialogs {
     /// Returns the dialogs, and listens from now on to what their library says.
     pub fn listening() -> Self {
         // Where somebody else listens already, a dialog that cannot be shown looks closed.
-        if log::set_logger(&Ear).is_ok() {
+        if log::set_logger(&DialogLog).is_ok() {
             log::set_max_level(log::LevelFilter::Error);
         }
         Self(())

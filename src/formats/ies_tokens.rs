@@ -21,7 +21,7 @@ pub(super) struct Rest {
 }
 
 impl<'a> Tokens<'a> {
-    /// Of the lines after the first `from`.
+    /// Splits the lines after the first `from` into numbers.
     pub fn new(lines: &[&'a str], from: usize) -> Self {
         let pieces = |line: &'a str| {
             // DOS ended texts with a control character.
@@ -35,12 +35,12 @@ impl<'a> Tokens<'a> {
         Self { tokens, next: 0, commas }
     }
 
-    /// Line of the token read last.
+    /// Returns the line of the number read last, from 1.
     pub fn line(&self) -> usize {
         self.tokens.get(self.next.saturating_sub(1)).or(self.tokens.last()).map_or(1, |token| token.0)
     }
 
-    /// What was not read.
+    /// Returns what was not read.
     pub fn rest(&self) -> Rest {
         let left = &self.tokens[self.next..];
         let numbers = left.iter().filter(|(_, token)| parse_number(token).is_some()).count();
@@ -52,7 +52,7 @@ impl<'a> Tokens<'a> {
         surplus > 0 && self.commas == surplus
     }
 
-    /// The error, with a remark on commas where decimal commas may have shifted all numbers.
+    /// Returns the error, with a remark on commas where decimal commas may have shifted all numbers.
     pub fn explained(&self, mut error: FormatError) -> FormatError {
         if self.commas > 0 {
             error.expected.push_str(COMMAS);
@@ -60,6 +60,10 @@ impl<'a> Tokens<'a> {
         error
     }
 
+    /// Reads the next number, which messages call `name`.
+    ///
+    /// # Errors
+    /// Returns an error if the file ends or something else than a finite number stands there.
     pub fn number(&mut self, name: &str) -> Result<f64, FormatError> {
         let Some(&(line, token)) = self.tokens.get(self.next) else {
             return Err(at_line(self.line(), "the end of the file", name));
@@ -69,7 +73,10 @@ impl<'a> Tokens<'a> {
             .ok_or_else(|| at_line(line, format!("\"{}\"", excerpt(token)), format!("a number ({name})")))
     }
 
-    /// A count of things of which at least as many numbers must follow.
+    /// Reads a count of angles, 1 … 3601.
+    ///
+    /// # Errors
+    /// Returns an error if the next number is not such a count.
     pub fn count(&mut self, name: &str) -> Result<usize, FormatError> {
         let value = self.number(name)?;
         if !(1.0..=3601.0).contains(&value) || value.fract() != 0.0 {
@@ -78,6 +85,10 @@ impl<'a> Tokens<'a> {
         Ok(value as usize)
     }
 
+    /// Reads one of the whole numbers 1 … `max`; `allowed` says in messages what they mean.
+    ///
+    /// # Errors
+    /// Returns an error if the next number is another.
     pub fn choice(&mut self, name: &str, allowed: &str, max: u8) -> Result<u8, FormatError> {
         let value = self.number(name)?;
         (1..=max)
@@ -85,6 +96,10 @@ impl<'a> Tokens<'a> {
             .ok_or_else(|| at_line(self.line(), format!("{name} {value}"), format!("{name} must be {allowed}")))
     }
 
+    /// Reads `count` numbers, which messages call `name`.
+    ///
+    /// # Errors
+    /// Returns an error if the file ends before or something else than a number stands among them.
     pub fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
         let left = self.tokens.len() - self.next;
         if left < count {
