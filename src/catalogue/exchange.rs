@@ -195,7 +195,7 @@ fn unpacked(product: PackageProduct) -> NewProduct {
     let from = product.provenance;
     NewProduct {
         // Keys from outside become as plain as our own.
-        key: Some(super::product::slug(&product.key)),
+        key: Some(super::product::slug(&product.key, &product.manufacturer)),
         name: product.name,
         manufacturer: product.manufacturer,
         kind: product.kind,

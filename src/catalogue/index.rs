@@ -12,7 +12,8 @@ use super::like::{Apart, Likeness};
 use super::query::{Figure, Filter, Query, Sort};
 use super::query_facets::{Facet, Facets};
 use super::rows::Sought;
-use super::words::{self, distance, folded, forgiven, letters, without_written_marks};
+use super::words::{self, distance, forgiven, letters, without_written_marks};
+use crate::texts::{ascii_words, folded, is_syllable};
 use std::sync::Arc;
 
 /// What was found.
@@ -115,6 +116,10 @@ impl Index {
             put(&row.kind, place::KIND, true);
             put(&row.manufacturer, place::MAKER, true);
             put(&row.key, place::KEY, true);
+            // Who cannot type the script of a name types how it sounds.
+            [&row.name, &row.manufacturer].into_iter().filter(|text| !text.is_ascii()).for_each(|text| {
+                put(&ascii_words(text), place::KEY, true);
+            });
             put(words::german(&row.kind), place::GERMAN, false);
             for tag in &product.tags {
                 put(tag, place::TAG, true);
@@ -199,13 +204,15 @@ impl Index {
         let spelt: Vec<char> = typed.chars().collect();
         let plain = without_written_marks(typed).map(|plain| (letters(&plain.chars().collect::<Vec<char>>()), plain));
         let own = letters(&spelt);
+        // Scripts without blanks between words, as Chinese, have words of one character.
+        let is_part = spelt.len() >= SHORTEST_PART || spelt.iter().any(|letter| is_syllable(*letter));
         let quality = |word: &str, typed: &str| {
             if word == typed {
                 Some(1.0)
             } else if word.starts_with(typed) {
                 Some(0.7 + 0.2 * typed.len() as f32 / word.len() as f32)
             } else {
-                (spelt.len() >= SHORTEST_PART && word.contains(typed)).then_some(0.45)
+                (is_part && word.contains(typed)).then_some(0.45)
             }
         };
         // Most words lack a letter of the typed one: those need no look.

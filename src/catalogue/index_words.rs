@@ -1,7 +1,8 @@
 //! Tools of the index: words of texts, numbers for texts, places in an order, weights.
 
 use super::rows::Sought;
-use super::words::{self, folded, parts, runs};
+use super::words::{self, parts, runs};
+use crate::texts::folded;
 use std::collections::HashMap;
 
 /// Where a word stands, by weight.

@@ -83,4 +83,3 @@ pub use subscribed::{Subscription, Synced};
 pub use systems::{SYSTEMS, blind_of, builtin_system, moving_part, slats_of};
 pub use validate::check;
 pub use waiting::StateKey;
-pub use words::folded;

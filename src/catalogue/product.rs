@@ -1,9 +1,8 @@
 //! Products as the rest of the program sees them.
 
-use super::words::unmarked;
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
-use crate::texts::{Text, catalogue as text};
+use crate::texts::{Text, ascii_words, catalogue as text};
 
 /// How data came to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -206,25 +205,32 @@ pub struct Imported {
     pub same_content_as: Vec<String>,
 }
 
-/// A key from a name: lower-case letters and digits, other runs as one hyphen, marks of the common Latin letters
-/// dropped; `product` when nothing is left.
-pub(crate) fn slug(name: &str) -> String {
-    let mut slug = String::new();
-    for c in name.chars().flat_map(char::to_lowercase) {
-        let folded = unmarked(c).unwrap_or_default();
-        if !folded.is_empty() {
-            slug.push_str(folded);
-        } else if c.is_ascii_alphanumeric() {
-            slug.push(c);
-        } else if !slug.is_empty() && !slug.ends_with('-') {
-            slug.push('-');
+/// Returns a key from a name: lower-case ASCII letters and digits, other runs as one hyphen, other scripts by their sound.
+/// Of a name without letters the key is that of the maker with a hash of the name.
+pub(crate) fn slug(name: &str, maker: &str) -> String {
+    let key = plain(name);
+    if !key.is_empty() {
+        return key;
+    }
+    let maker = Some(plain(maker)).filter(|maker| !maker.is_empty());
+    let hash = blake3::hash(name.as_bytes()).to_hex();
+    format!("{}-{}", maker.as_deref().unwrap_or("product"), &hash[..8])
+}
+
+fn plain(name: &str) -> String {
+    let mut key = String::new();
+    // Apostrophes stand for soft signs: part of a word.
+    for letter in ascii_words(name).chars().filter(|letter| *letter != '\'') {
+        if letter.is_ascii_alphanumeric() {
+            key.push(letter.to_ascii_lowercase());
+        } else if !key.is_empty() && !key.ends_with('-') {
+            key.push('-');
         }
-        if slug.len() >= 80 {
+        if key.len() >= 80 {
             break;
         }
     }
-    let slug = slug.trim_matches('-');
-    if slug.is_empty() { "product".to_owned() } else { slug.to_owned() }
+    key.trim_matches('-').to_owned()
 }
 
 #[cfg(test)]
@@ -233,8 +239,15 @@ mod tests {
 
     #[test]
     fn keys_are_plain() {
-        assert_eq!(slug("Venetian 80/72, matt weiß"), "venetian-80-72-matt-weiss");
-        assert_eq!(slug("  Écran «Été» "), "ecran-ete");
-        assert_eq!(slug("日よけ"), "product");
+        let key = |name: &str| slug(name, "Hunter Lux");
+        assert_eq!(key("Venetian 80/72, matt weiß"), "venetian-80-72-matt-weiss");
+        assert_eq!(key("  Écran «Été» "), "ecran-ete");
+        assert_eq!((key("Köln").as_str(), key("Ko\u{308}ln").as_str()), ("koln", "koln"));
+        assert_eq!(key("Жалюзи горизонтальные"), "zhalyuzi-gorizontalnye");
+        assert_eq!(key("Περσίδες"), "persides");
+        assert_eq!(key("铝百叶窗 80"), "lu-bai-ye-chuang-80");
+        let [none, other] = [key("\u{e000}"), key("\u{e001}")];
+        assert!(none.starts_with("hunter-lux-") && none.len() == 19 && none != other, "{none} {other}");
+        assert!(slug("–", "").starts_with("product-") && slug("–", "") == slug("–", ""));
     }
 }

@@ -1,7 +1,7 @@
 //! What is looked for in a catalogue: words, filters, order.
 
 use super::Origin;
-use crate::texts::{Text, catalogue as text, fixed};
+use crate::texts::{Text, catalogue as text, fixed, folded};
 
 /// A figure of a product, of the state that stands for it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -310,7 +310,7 @@ impl Query {
         // Sixteen words tell products apart; more would only cost time.
         const MOST: usize = 16;
         let of = |(place, text): (usize, &str)| {
-            let folded = super::words::folded(text);
+            let folded = folded(text);
             let runs = super::words::runs(&folded);
             runs.map(|run| (place, run.chars().take(super::words::LONGEST).collect())).collect::<Vec<(usize, String)>>()
         };

@@ -7,6 +7,7 @@ use super::{CatalogueError, NewProduct, Product, ProductFinding, State, StateNam
 use crate::compute::btdf::{Btdf, Dataset, DescribedState, Finding, LightFigures};
 use crate::compute::limits;
 use crate::formats::dataset_blob::{content_hash, decode, encode};
+use crate::texts::composed;
 use rayon::prelude::*;
 use std::collections::HashSet;
 
@@ -48,8 +49,8 @@ fn prepared(
     let Some(first) = datasets.first() else {
         return refuse("there is no dataset".to_owned());
     };
-    let or =
-        |told: String, own: &str| if told.trim().is_empty() { own.trim().to_owned() } else { told.trim().to_owned() };
+    // Composed: equal names are to be equal texts, whatever keyboard or file system they come from.
+    let or = |told: String, own: &str| composed(if told.trim().is_empty() { own.trim() } else { told.trim() });
     let name = or(meta.name, &first.name);
     if name.is_empty() {
         return refuse("the product has no name, and the dataset does not give one".to_owned());
@@ -168,7 +169,7 @@ pub(super) fn product(
     states: Vec<State>,
     findings: Vec<ProductFinding>,
 ) -> Result<Product, CatalogueError> {
-    let mut tags: Vec<String> = meta.tags.iter().map(|tag| tag.trim().to_owned()).filter(|t| !t.is_empty()).collect();
+    let mut tags: Vec<String> = meta.tags.iter().map(|tag| composed(tag.trim())).filter(|t| !t.is_empty()).collect();
     tags.sort();
     tags.dedup();
     let rising = meta.control_curve.windows(2).all(|pair| pair[0].profile_angle < pair[1].profile_angle);
@@ -177,11 +178,11 @@ pub(super) fn product(
         return Err(CatalogueError::Import(wrong.to_owned()));
     }
     Ok(Product {
-        key: meta.key.unwrap_or_else(|| slug(&meta.name)),
+        key: meta.key.unwrap_or_else(|| slug(&meta.name, &meta.manufacturer)),
         manufacturer: meta.manufacturer,
         description: meta.description,
         name: meta.name,
-        kind: meta.kind.trim().to_owned(),
+        kind: composed(meta.kind.trim()),
         provenance: meta.provenance,
         license: meta.license.trim().to_owned(),
         tags,

@@ -57,50 +57,6 @@ pub(super) fn german(kind_or_tag: &str) -> &'static str {
     GERMAN.iter().find(|(english, _)| *english == kind_or_tag).map_or("", |(_, words)| words)
 }
 
-/// A lower-case letter without its marks; empty for a mark alone, `None` for what has none.
-pub(super) const fn unmarked(letter: char) -> Option<&'static str> {
-    Some(match letter {
-        'à' | 'á' | 'â' | 'ã' | 'ä' | 'å' | 'ā' | 'ă' | 'ą' => "a",
-        'ç' | 'ć' | 'ĉ' | 'ċ' | 'č' => "c",
-        'ď' | 'đ' | 'ð' => "d",
-        'è' | 'é' | 'ê' | 'ë' | 'ē' | 'ĕ' | 'ė' | 'ę' | 'ě' | 'ə' => "e",
-        'ĝ' | 'ğ' | 'ġ' | 'ģ' => "g",
-        'ĥ' | 'ħ' => "h",
-        'ì' | 'í' | 'î' | 'ï' | 'ĩ' | 'ī' | 'ĭ' | 'į' | 'ı' => "i",
-        'ĵ' => "j",
-        'ķ' => "k",
-        'ĺ' | 'ļ' | 'ľ' | 'ł' => "l",
-        'ñ' | 'ń' | 'ņ' | 'ň' => "n",
-        'ò' | 'ó' | 'ô' | 'õ' | 'ö' | 'ø' | 'ō' | 'ŏ' | 'ő' => "o",
-        'ŕ' | 'ŗ' | 'ř' => "r",
-        'ś' | 'ŝ' | 'ş' | 'š' | 'ș' => "s",
-        'ţ' | 'ť' | 'ŧ' | 'ț' => "t",
-        'ù' | 'ú' | 'û' | 'ü' | 'ũ' | 'ū' | 'ŭ' | 'ů' | 'ű' | 'ų' => "u",
-        'ŵ' => "w",
-        'ý' | 'ÿ' | 'ŷ' => "y",
-        'ź' | 'ż' | 'ž' => "z",
-        'ß' => "ss",
-        'æ' => "ae",
-        'œ' => "oe",
-        'þ' => "th",
-        // Marks of their own, behind the letter that they belong to.
-        '\u{300}'..='\u{36f}' => "",
-        _ => return None,
-    })
-}
-
-/// A text in lower case without marks.
-pub fn folded(text: &str) -> String {
-    let mut folded = String::with_capacity(text.len());
-    for letter in text.chars().flat_map(char::to_lowercase) {
-        match unmarked(letter) {
-            Some(plain) => folded.push_str(plain),
-            None => folded.push(letter),
-        }
-    }
-    folded
-}
-
 /// Runs of letters and digits of a folded text.
 pub(super) fn runs(folded: &str) -> impl Iterator<Item = &str> {
     folded.split(|c: char| !c.is_alphanumeric()).filter(|run| !run.is_empty())
@@ -175,6 +131,7 @@ pub(super) fn letters(word: &[char]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texts::folded;
 
     fn apart(typed: &str, word: &str) -> Option<usize> {
         let [typed, word] = [typed, word].map(|text| text.chars().collect::<Vec<char>>());

@@ -5,9 +5,9 @@
 
 pub use crate::formats::gazetteer::City;
 
-use crate::catalogue::folded;
 use crate::formats::gazetteer::read_cities;
 use crate::study::scene_file::DstKey;
+use crate::texts::folded;
 use std::sync::LazyLock;
 
 /// All, the largest first.

@@ -7,10 +7,12 @@
 //! What comes from data (names of products, paths) and units are no texts. Names of things are the field's own:
 //! CIE S 017 (ILV) and DIN 5034 for German.
 
+mod ascii;
 mod csv_cell;
 mod plain;
 mod spoken;
 
+pub use ascii::{ascii_words, composed, folded, is_syllable};
 pub use csv_cell::{csv_cell, inert_cell};
 pub use plain::{message, one_line, short_numbers, visible};
 pub use spoken::{Language, Speaking, Text, decimal, decimal_sign, fixed, language, speak};
