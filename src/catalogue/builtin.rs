@@ -5,9 +5,11 @@
 //! computed when they are asked for, by layers above ([`Catalogue::to_compute`], [`Catalogue::put_state`]).
 
 use super::described::{METHODS, method, product_of, with_builtins};
+use super::history::{RESTORED, note};
 use super::record::{self, Record, named_state};
-use super::store;
+use super::store::{self, read_product};
 use super::systems::{SYSTEMS, builtin_system};
+use super::verified::{damaged_products, sealed};
 use super::waiting::set_light;
 use super::{Catalogue, CatalogueError, NewProduct, Origin, PROFILE_ANGLES, Product, Provenance, State, StateName};
 use crate::compute::btdf::{Band, Btdf, Dataset, DescribedState, LightFigures};
@@ -15,7 +17,7 @@ use crate::compute::system::measure::front_basis;
 use crate::compute::system::sheets::diffuser::lambertian;
 use crate::formats::figures_table::{self, FigureRow};
 use crate::formats::system_toml::{self, SystemFile};
-use rusqlite::{Connection, OptionalExtension, Transaction};
+use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior};
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
@@ -30,6 +32,9 @@ const SYSTEM_SUFFIX: &str = ".system.toml";
 /// The figures of all states, in the form of [`crate::formats::figures_table`]. Written by `cfs catalogue build --table
 /// assets/builtin-figures.csv` on a new catalogue; the tests say when that is due.
 pub const TABLE: &str = include_str!("../../assets/builtin-figures.csv");
+
+/// Keys of the systems that are defined by a sentence.
+const IDEALS: [&str; 2] = ["open-aperture", "ideal-diffuser"];
 
 /// Systems that are defined by a sentence.
 fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
@@ -61,14 +66,14 @@ fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
     };
     vec![
         ideal(
-            "open-aperture",
+            IDEALS[0],
             "Open aperture",
             &["reference"],
             "Nothing in the opening: all light goes straight on. Reference for every comparison.",
             open,
         ),
         ideal(
-            "ideal-diffuser",
+            IDEALS[1],
             "Ideal diffuser",
             &["reference", "diffusing"],
             "Half of the light leaves with the same luminance in every direction, whatever its incidence; a third is \
@@ -153,8 +158,7 @@ fn with_figures(state: State, row: &FigureRow) -> State {
 
 /// Is this the key of a product that comes with the program?
 pub(super) fn is_builtin(key: &str) -> bool {
-    PRODUCTS.iter().any(|(_, product)| product.key == key)
-        || ideals().iter().any(|(product, _)| product.key.as_deref() == Some(key))
+    IDEALS.contains(&key) || PRODUCTS.iter().any(|(_, product)| product.key == key)
 }
 
 /// Is what results hang on of a built-in product other than this program brings it? One of another program's description is
@@ -172,12 +176,33 @@ pub(super) fn differs(product: &Product) -> bool {
     })
 }
 
+/// Whether a damaged row is one of a product that comes with the program. The mark that says so may be what is damaged.
+pub(super) fn is_row_of_builtin(db: &Connection, id: i64) -> Result<bool, CatalogueError> {
+    let (builtin, rank, key): (bool, i64, Vec<u8>) = db
+        .prepare_cached("SELECT builtin, rank, CAST(key AS BLOB) FROM product WHERE id = ?")?
+        .query_row([id], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    let ranked = rank < store::USER_RANK;
+    Ok((builtin && ranked) || ((builtin || ranked) && str::from_utf8(&key).is_ok_and(is_builtin)))
+}
+
 /// Names of the built-in descriptions whose products are not in the file as they are now.
 fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
     let mut ask = db.prepare_cached("SELECT source_hash FROM product WHERE builtin = 1")?;
     let there: HashSet<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
     let is_there = |text: &str| there.contains(blake3::hash(text.as_bytes()).to_hex().as_str());
     Ok(SYSTEMS.iter().filter(|(_, text)| !is_there(text)).map(|(name, _)| *name).collect())
+}
+
+/// Whether a built-in product is in the file.
+fn is_there(db: &Connection, key: &str) -> Result<bool, CatalogueError> {
+    let there = "SELECT EXISTS (SELECT 1 FROM product WHERE builtin = 1 AND key = ?)";
+    Ok(db.prepare_cached(there)?.query_row([key], |row| row.get(0))?)
+}
+
+/// Whether the file has built-in products without the version that every program writes with them.
+pub(super) fn is_version_lost(db: &Connection) -> Result<bool, CatalogueError> {
+    let any = "SELECT EXISTS (SELECT 1 FROM product WHERE builtin = 1)";
+    Ok(version(db)? < 1 && db.query_row(any, [], |row| row.get(0))?)
 }
 
 /// Is there anything for [`renew`] to do?
@@ -187,7 +212,10 @@ fn is_due(db: &Connection) -> Result<bool, CatalogueError> {
     let bare = "SELECT EXISTS (SELECT 1 FROM state s JOIN product p ON p.id = s.product
                                WHERE p.builtin = 1 AND s.sun_blocked IS NULL)";
     Ok(found < BUILTIN_VERSION
-        || (found == BUILTIN_VERSION && (!missing(db)?.is_empty() || db.query_row(bare, [], |row| row.get(0))?)))
+        || (found == BUILTIN_VERSION
+            && (!missing(db)?.is_empty()
+                || IDEALS.iter().any(|key| !is_there(db, key).unwrap_or(true))
+                || db.query_row(bare, [], |row| row.get(0))?)))
 }
 
 /// Puts those of this program's built-in products into a file that it lacks, in one transaction: with their figures, and
@@ -199,32 +227,86 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     }
     // Made before the lock is taken, so that other connections do not wait for it.
     let products = &*PRODUCTS;
-    let ideals: Vec<Record> = ideals()
-        .into_iter()
-        .map(|(product, datasets)| record::prepare_unasked(&datasets, product))
-        .collect::<Result<_, _>>()?;
+    let ideals = ideal_records()?;
     let tx = catalogue.change()?;
     // Another program may have been faster, even a newer one.
     if !is_due(&tx)? {
         return Ok(());
     }
+    let damaged = if is_version_lost(&tx)? {
+        let mut ask = tx.prepare("SELECT id FROM product WHERE builtin = 1")?;
+        ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?
+    } else {
+        // Where pages are broken the file has to be repaired first.
+        damaged_rows(&tx).unwrap_or_default()
+    };
+    let restored = take_out(&tx, &damaged)?;
     for product in products.iter().map(|(_, product)| product).chain(ideals.iter().map(|record| &record.product)) {
         light_up(&tx, product)?;
     }
     if version(&tx)? < BUILTIN_VERSION {
         tx.execute("DELETE FROM product WHERE builtin = 1", [])?;
-        for (rank, ideal) in (0..).zip(ideals) {
-            put(&tx, ideal, rank)?;
-        }
         tx.execute("INSERT OR REPLACE INTO meta VALUES ('builtin_version', ?)", [BUILTIN_VERSION.to_string()])?;
     }
-    let missing = missing(&tx)?;
-    for (name, product) in products.iter().filter(|(name, _)| missing.contains(name)) {
-        put(&tx, Record::without_data(product.clone()), rank(name))?;
-    }
-    store::sweep(&tx)?;
+    put_missing(&tx, ideals)?;
     tx.commit()?;
+    catalogue.restored.borrow_mut().extend(restored);
     Ok(())
+}
+
+/// Restores the built-in products whose rows are damaged from what this program contains; their data are computed when
+/// they are asked for. `false` where there are none, or where a newer program filled the file.
+///
+/// # Errors
+/// Returns an error if nothing can be written.
+pub(super) fn restore_damaged(catalogue: &Catalogue) -> Result<bool, CatalogueError> {
+    let tx = Transaction::new_unchecked(&catalogue.db, TransactionBehavior::Immediate)?;
+    let damaged = damaged_rows(&tx)?;
+    if damaged.is_empty() || version(&tx)? != BUILTIN_VERSION {
+        return Ok(false);
+    }
+    let restored = take_out(&tx, &damaged)?;
+    put_missing(&tx, ideal_records()?)?;
+    tx.commit()?;
+    catalogue.restored.borrow_mut().extend(restored);
+    Ok(true)
+}
+
+/// Ids of the damaged rows of built-in products.
+fn damaged_rows(db: &Connection) -> Result<Vec<i64>, CatalogueError> {
+    let damaged = damaged_products(db, &mut |_, _, _| {})?.into_iter();
+    Ok(damaged.filter(|id| is_row_of_builtin(db, *id).unwrap_or(false)).collect())
+}
+
+/// Removes damaged rows of built-in products and notes that in their histories; their keys.
+fn take_out(tx: &Transaction<'_>, ids: &[i64]) -> Result<Vec<String>, CatalogueError> {
+    let mut keys = Vec::new();
+    for id in ids {
+        let sql = "DELETE FROM product WHERE id = ? RETURNING CAST(key AS BLOB)";
+        let key: Vec<u8> = tx.prepare_cached(sql)?.query_row([id], |row| row.get(0))?;
+        let key = String::from_utf8_lossy(&key).into_owned();
+        note(tx, &key, RESTORED)?;
+        keys.push(key);
+    }
+    Ok(keys)
+}
+
+fn ideal_records() -> Result<Vec<Record>, CatalogueError> {
+    ideals().into_iter().map(|(product, datasets)| record::prepare_unasked(&datasets, product)).collect()
+}
+
+/// Stores the built-in products that the file lacks.
+fn put_missing(tx: &Transaction<'_>, ideals: Vec<Record>) -> Result<(), CatalogueError> {
+    for (rank, ideal) in (0..).zip(ideals) {
+        if !is_there(tx, &ideal.product.key)? {
+            put(tx, ideal, rank)?;
+        }
+    }
+    let missing = missing(tx)?;
+    for (name, product) in PRODUCTS.iter().filter(|(name, _)| missing.contains(name)) {
+        put(tx, Record::without_data(product.clone()), rank(name))?;
+    }
+    store::sweep(tx)
 }
 
 /// Gives the states of an older file's product, computed from the same description, the figures that they lack.
@@ -240,7 +322,9 @@ fn light_up(tx: &Transaction<'_>, product: &Product) -> Result<(), CatalogueErro
                 Ok([row.get(0)?, row.get(1)?])
             })
             .optional()?;
-        if let Some(place) = place {
+        // What is damaged would be sealed with the figures.
+        let is_sealed = || read_product(tx, &product.key).and_then(|held| sealed(tx, held)).is_ok();
+        if let Some(place) = place.filter(|_| is_sealed()) {
             set_light(tx, place, light)?;
         }
     }

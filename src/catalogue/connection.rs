@@ -18,12 +18,26 @@ pub struct Catalogue {
     pub(super) held: RefCell<Vec<([String; 2], Arc<Dataset>)>>,
     /// What the search looks through, with the state of the file that it was made of.
     pub(super) index: RefCell<Option<(Stamp, Arc<Index>)>>,
+    /// Keys of the built-in products that were damaged, and that this connection has restored.
+    pub(super) restored: RefCell<Vec<String>>,
 }
 
 /// State of a file as one connection sees it: changes of others (`PRAGMA data_version`), and its own.
 pub(super) type Stamp = (i64, u64);
 
 impl Catalogue {
+    pub(super) fn of(db: Connection) -> Self {
+        // Verifying one product takes more statements than are kept by default.
+        db.set_prepared_statement_cache_capacity(64);
+        Self {
+            db,
+            recent: RefCell::default(),
+            held: RefCell::default(),
+            index: RefCell::default(),
+            restored: RefCell::default(),
+        }
+    }
+
     /// Begins a change. Immediate: it waits for another writer at the start, not in the middle.
     pub(super) fn change(&mut self) -> Result<Transaction<'_>, CatalogueError> {
         Ok(self.db.transaction_with_behavior(TransactionBehavior::Immediate)?)

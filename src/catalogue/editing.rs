@@ -1,8 +1,8 @@
 //! States of products that are stored: other names and angles, other data; and products as they were before.
 
-use super::history::{forget, note, paths_of, set_paths};
+use super::history::{forget, note, paths_of};
 use super::record::{Record, prepare};
-use super::store::{delete, insert, read_product, read_record};
+use super::store::{delete, read_product, read_record, replace};
 use super::{Catalogue, CatalogueError, NewProduct, Product, StateName};
 use crate::compute::btdf::Dataset;
 use rusqlite::Transaction;
@@ -47,17 +47,6 @@ fn own(tx: &Transaction<'_>, key: &str) -> Result<Record, CatalogueError> {
     Ok(record)
 }
 
-/// Writes a product in place of the one that has its key.
-fn put(tx: &Transaction<'_>, record: &Record) -> Result<(), CatalogueError> {
-    let key = &record.product.key;
-    let rank: i64 = tx.query_row("SELECT rank FROM product WHERE key = ?", [key], |row| row.get(0))?;
-    // Without the sweep: data that stay would go and have to come again.
-    tx.execute("DELETE FROM product WHERE key = ?", [key])?;
-    insert(tx, record, rank)?;
-    set_paths(tx, key, &record.paths)?;
-    super::store::sweep(tx)
-}
-
 fn tau(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"))
 }
@@ -80,7 +69,7 @@ impl Catalogue {
         let key = &snapshot.0.product.key;
         let tx = self.change()?;
         own(&tx, key)?;
-        put(&tx, &snapshot.0)?;
+        replace(&tx, &snapshot.0)?;
         note(&tx, key, "The last change was taken back")?;
         tx.commit()?;
         Ok(())
@@ -114,7 +103,7 @@ impl Catalogue {
             (state.label, state.value) = (label.to_owned(), name.value);
         }
         if !told.is_empty() {
-            put(&tx, &record)?;
+            replace(&tx, &record)?;
             note(&tx, key, &told.join("; "))?;
         }
         tx.commit()?;
@@ -167,7 +156,7 @@ impl Catalogue {
             }
             record.datasets.extend(new.datasets);
         }
-        put(&tx, &record)?;
+        replace(&tx, &record)?;
         note(&tx, key, &told.join("; "))?;
         tx.commit()?;
         Ok(())

@@ -5,7 +5,8 @@ use super::described::described_state;
 use super::history::{note, set_paths};
 use super::record::{Record, prepare};
 use super::sight::bring_back;
-use super::store::{USER_RANK, free_key, insert, put_blob, read_record};
+use super::store::{USER_RANK, free_key, insert, put_blob, read_product, read_record, replace};
+use super::verified::sealed;
 use super::waiting::adopt;
 use super::{Catalogue, CatalogueError, Imported, NewProduct, Origin, Product, Provenance, StateName};
 use crate::compute::btdf::Dataset;
@@ -58,6 +59,10 @@ impl Catalogue {
             list.push(if asked && is_there(&tx, &record.product)? {
                 // The same again mends what was damaged since.
                 record.datasets.iter().try_for_each(|(hash, blob)| put_blob(&tx, hash, blob))?;
+                let held = read_product(&tx, &key)?;
+                if !held.builtin && matches!(sealed(&tx, held), Err(CatalogueError::Damaged(_))) {
+                    replace(&tx, &record)?;
+                }
                 // What is imported is wanted in sight.
                 bring_back(&tx, &key)?;
                 Stored { imported: Imported { same_content_as: vec![key.clone()], key }, new: false }

@@ -1,11 +1,12 @@
 //! A catalogue that doubts itself: is the file what was stored in it, and what of it can be made anew?
 
-use super::builtin::differs;
+use super::builtin::{differs, is_row_of_builtin, is_version_lost, restore_damaged};
+use super::history::RESTORED;
 use super::open::{APPLICATION, READING, layout_of};
-use super::salvage::{all_come_anew, salvage};
+use super::salvage::salvage;
 use super::store::{put_blob, read_product};
 use super::told::said;
-use super::verified::{blob_of, sealed};
+use super::verified::{blob_of, seal_rows, sealed};
 use super::{Catalogue, CatalogueError};
 use crate::formats::dataset_blob::{content_hash, decode};
 use rusqlite::backup::Backup;
@@ -63,6 +64,8 @@ pub struct Health {
     pub datasets: usize,
     /// What is wrong.
     pub damages: Vec<Damage>,
+    /// Keys of built-in products that were damaged and have been restored, with the times. \[UTC\]
+    pub restored: Vec<(String, String)>,
 }
 
 impl Health {
@@ -116,7 +119,14 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
     for page in pages {
         health.tell(Place::Pages, page);
     }
-    match products(db, &mut health) {
+    let looked_at = products(db, &mut health).and_then(|()| {
+        if is_version_lost(db)? {
+            health.tell(Place::Layout, "the version of the built-in products is not what was stored");
+        }
+        health.restored = restored(db)?;
+        Ok(())
+    });
+    match looked_at {
         // Told already.
         Err(CatalogueError::Sql(_)) if broken || !health.damages.is_empty() => {}
         other => other?,
@@ -162,13 +172,24 @@ fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
     Ok(told)
 }
 
+/// Built-in products that were restored when the file was opened.
+fn restored(db: &Connection) -> Result<Vec<(String, String)>, CatalogueError> {
+    if !db.table_exists(None, "history")? {
+        return Ok(Vec::new());
+    }
+    let mut ask = db.prepare("SELECT product_key, at FROM history WHERE what = ? ORDER BY id")?;
+    Ok(ask.query_map([RESTORED], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?)
+}
+
 /// Looks at every product with its data.
 fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> {
-    let mut ask = db.prepare("SELECT key, builtin FROM product ORDER BY rank, key")?;
-    let keys: Vec<(String, bool)> =
+    let mut ask = db.prepare("SELECT id, CAST(key AS BLOB) FROM product ORDER BY rank, key")?;
+    let keys: Vec<(i64, Vec<u8>)> =
         ask.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?;
-    for (key, builtin) in keys {
+    for (id, key) in keys {
         health.products += 1;
+        let builtin = is_row_of_builtin(db, id).unwrap_or(false);
+        let key = String::from_utf8_lossy(&key).into_owned();
         let place = || Place::Product { key: key.clone(), builtin };
         let product = match read_product(db, &key).and_then(|product| sealed(db, product)) {
             Ok(product) => product,
@@ -178,6 +199,11 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
             }
             Err(CatalogueError::Sql(error)) => {
                 health.tell(place(), format!("product \"{key}\" cannot be read: {}", said(&error)));
+                continue;
+            }
+            // A key that is not a text, or that its index does not have.
+            Err(CatalogueError::NoProduct(key)) => {
+                health.tell(place(), format!("product \"{key}\" is not found by its key"));
                 continue;
             }
             Err(other) => return Err(other),
@@ -274,11 +300,19 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
                          AND s.product = finding.product AND s.position = finding.state)",
                     [hash],
                 )?;
+                let products: Vec<i64> = tx
+                    .prepare(
+                        "SELECT DISTINCT s.product FROM state s JOIN product p ON p.id = s.product
+                              WHERE s.dataset = ?1 AND p.builtin = 1",
+                    )?
+                    .query_map([hash], |row| row.get(0))?
+                    .collect::<Result<_, _>>()?;
                 tx.execute(
                     "UPDATE state SET dataset = NULL WHERE dataset = ?1
                        AND product IN (SELECT id FROM product WHERE builtin = 1)",
                     [hash],
                 )?;
+                products.into_iter().try_for_each(|id| seal_rows(&tx, id))?;
                 // The user's own products may hold the same data.
                 tx.execute(
                     "DELETE FROM dataset WHERE hash = ?1 AND NOT EXISTS (SELECT 1 FROM state WHERE dataset = ?1)",
@@ -291,7 +325,7 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     tx.commit()?;
     drop(db);
     // Brings what is missing of the built-in products.
-    drop(Catalogue::open(path)?);
+    restore_damaged(&Catalogue::open(path)?)?;
     Ok(lost)
 }
 
@@ -301,10 +335,6 @@ fn is_described(db: &Connection, key: &str) -> Result<bool, CatalogueError> {
 
 /// Takes a built-in product out, so that it comes again when the file is opened.
 fn come_anew(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
-    if !is_described(tx, key)? {
-        // Those without a description come with all others.
-        all_come_anew(tx)?;
-    }
     tx.execute("DELETE FROM product WHERE key = ? AND builtin = 1", [key])?;
     Ok(())
 }

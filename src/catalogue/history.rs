@@ -12,6 +12,9 @@ pub struct Event {
     pub what: String,
 }
 
+/// What the history says of a built-in product that was damaged.
+pub(super) const RESTORED: &str = "was damaged in the file, and restored from what the program contains";
+
 /// Writes down what happens to a product, with the change itself.
 pub(super) fn note(tx: &Transaction<'_>, key: &str, what: &str) -> Result<(), CatalogueError> {
     tx.prepare_cached(

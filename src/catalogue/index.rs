@@ -31,6 +31,10 @@ pub struct Found {
     pub read_as: Vec<(String, String)>,
     /// Characters of the longest name among the entries.
     pub longest_name: usize,
+    /// Keys of the products that are not listed because they are damaged.
+    pub damaged: Vec<String>,
+    /// Keys of the built-in products that were damaged, and restored since the catalogue was opened.
+    pub restored: Vec<String>,
     /// How far the entries are from the product that they are to be like, where one was named and is there.
     pub like: Option<Likeness>,
 }
@@ -74,6 +78,10 @@ pub struct Index {
     manufacturers: Vec<String>,
     tags: Vec<String>,
     collections: Vec<String>,
+    /// Keys of damaged products, see [`Found::damaged`].
+    pub(super) damaged: Vec<String>,
+    /// Keys of restored products, see [`Found::restored`].
+    pub(super) restored: Vec<String>,
 }
 
 /// How well the typed words fit each product.
@@ -142,7 +150,7 @@ impl Index {
         };
         let words = all.texts.into_iter().zip(found_in).map(word).collect();
         let [kinds, manufacturers, tags, collections] = [kinds, manufacturers, tags, collections].map(|all| all.texts);
-        Self { items, words, kinds, manufacturers, tags, collections }
+        Self { items, words, kinds, manufacturers, tags, collections, damaged: Vec::new(), restored: Vec::new() }
     }
 
     /// Answers a query.
@@ -158,6 +166,8 @@ impl Index {
             longest_name: entries.iter().map(|row| row.name.chars().count()).max().unwrap_or(0),
             total: self.items.len(),
             facets: self.facets(query, &misses),
+            damaged: self.damaged.clone(),
+            restored: self.restored.clone(),
             entries,
             like,
             without,

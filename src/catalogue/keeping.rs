@@ -4,7 +4,10 @@ use super::history::note;
 use super::sight::{bring_back, is_deleted};
 use super::store::read_product;
 use super::subscribed::refuse_subscribed;
+use super::verified::{seal_rows, sealed};
 use super::{Catalogue, CatalogueError, Product};
+use crate::texts::composed;
+use rusqlite::Connection;
 
 /// What the user says about a product.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
@@ -58,6 +61,12 @@ fn words_changed(before: &Product, after: &Words) -> String {
     words.join("; ")
 }
 
+/// The product of a key with its name, or with its key for a name where the product is damaged.
+fn named(db: &Connection, key: String) -> Known {
+    let product = read_product(db, &key).and_then(|product| sealed(db, product));
+    Known { name: product.map_or_else(|_| key.clone(), |product| product.name), key }
+}
+
 impl Catalogue {
     /// Other words about a product; its key stays, so that scenes go on finding it.
     ///
@@ -70,31 +79,28 @@ impl Catalogue {
             return Err(CatalogueError::BuiltInWords(key.to_owned()));
         }
         refuse_subscribed(&tx, key)?;
+        // What is damaged beside these words would be sealed with them.
+        let product = sealed(&tx, product)?;
         let [name, manufacturer, kind, license] =
-            [&words.name, &words.manufacturer, &words.kind, &words.license].map(|text| text.trim());
+            [&words.name, &words.manufacturer, &words.kind, &words.license].map(|text| composed(text.trim()));
         if name.is_empty() {
             return Err(CatalogueError::NoName(key.to_owned()));
         }
-        let mut tags: Vec<&str> = words.tags.iter().map(|tag| tag.trim()).filter(|tag| !tag.is_empty()).collect();
+        let mut tags: Vec<String> = words.tags.iter().map(|tag| composed(tag.trim())).collect();
+        tags.retain(|tag| !tag.is_empty());
         tags.sort_unstable();
         tags.dedup();
         let id: i64 = tx.query_row("SELECT id FROM product WHERE key = ?", [key], |row| row.get(0))?;
         tx.execute(
             "UPDATE product SET name = ?1, manufacturer = ?2, kind = ?3, license = ?4 WHERE id = ?5",
-            (name, manufacturer, kind, license, id),
+            (&name, &manufacturer, &kind, &license, id),
         )?;
         tx.execute("DELETE FROM tag WHERE product = ?", [id])?;
         for tag in &tags {
             tx.execute("INSERT INTO tag VALUES (?, ?)", (id, tag))?;
         }
-        let text = |text: &str| text.to_owned();
-        let after = Words {
-            name: text(name),
-            manufacturer: text(manufacturer),
-            kind: text(kind),
-            license: text(license),
-            tags: tags.into_iter().map(text).collect(),
-        };
+        seal_rows(&tx, id)?;
+        let after = Words { name, manufacturer, kind, tags, license };
         let changed = words_changed(&product, &after);
         if !changed.is_empty() {
             note(&tx, key, &changed)?;
@@ -141,11 +147,12 @@ impl Catalogue {
     /// Of SQLite.
     pub fn deleted_products(&self) -> Result<Vec<Deleted>, CatalogueError> {
         let mut statement = self.db.prepare_cached(
-            "SELECT p.key, p.name, d.at, p.builtin FROM deleted d JOIN product p ON p.key = d.product_key
+            "SELECT p.key, d.at, p.builtin FROM deleted d JOIN product p ON p.key = d.product_key
              ORDER BY d.at DESC, p.name",
         )?;
         let row = |row: &rusqlite::Row<'_>| {
-            Ok(Deleted { key: row.get(0)?, name: row.get(1)?, at: row.get(2)?, builtin: row.get(3)? })
+            let Known { key, name } = named(&self.db, row.get(0)?);
+            Ok(Deleted { key, name, at: row.get(1)?, builtin: row.get(2)? })
         };
         Ok(statement.query_map([], row)?.collect::<Result<_, _>>()?)
     }
@@ -156,10 +163,10 @@ impl Catalogue {
     /// Of SQLite.
     pub fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, CatalogueError> {
         let mut statement = self.db.prepare_cached(
-            "SELECT key, name FROM product
+            "SELECT key FROM product
              WHERE source_hash = ? AND source_hash <> '' AND key NOT IN (SELECT product_key FROM deleted) ORDER BY id",
         )?;
-        let row = |row: &rusqlite::Row<'_>| Ok(Known { key: row.get(0)?, name: row.get(1)? });
+        let row = |row: &rusqlite::Row<'_>| Ok(named(&self.db, row.get(0)?));
         Ok(statement.query_map([source_hash], row)?.collect::<Result<_, _>>()?)
     }
 
@@ -170,10 +177,10 @@ impl Catalogue {
     /// Of SQLite.
     pub fn products_holding(&self, content: &str) -> Result<Vec<Known>, CatalogueError> {
         let mut statement = self.db.prepare_cached(
-            "SELECT DISTINCT p.key, p.name FROM product p JOIN state s ON s.product = p.id
+            "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id
              WHERE s.content = ? AND s.content <> '' AND p.key NOT IN (SELECT product_key FROM deleted) ORDER BY p.id",
         )?;
-        let row = |row: &rusqlite::Row<'_>| Ok(Known { key: row.get(0)?, name: row.get(1)? });
+        let row = |row: &rusqlite::Row<'_>| Ok(named(&self.db, row.get(0)?));
         Ok(statement.query_map([content], row)?.collect::<Result<_, _>>()?)
     }
 }

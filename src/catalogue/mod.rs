@@ -39,6 +39,7 @@ mod record;
 mod representative;
 mod rows;
 mod salvage;
+mod sealing;
 mod search;
 mod sight;
 mod source_file;

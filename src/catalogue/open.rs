@@ -1,9 +1,9 @@
 //! Opening the file: settings of the connection, numbered migrations, built-in products.
 
 use super::connection::Catalogue;
+use super::sealing::seal_what_is_left;
 use super::{CatalogueError, builtin};
 use rusqlite::{Connection, OpenFlags, TransactionBehavior};
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -17,6 +17,7 @@ const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0006_history.sql"),
     include_str!("../../migrations/0007_collections.sql"),
     include_str!("../../migrations/0008_seal.sql"),
+    include_str!("../../migrations/0009_shown_seal.sql"),
 ];
 
 /// How a file is opened that may be changed, and made.
@@ -102,8 +103,7 @@ impl Catalogue {
         let open = |name: &Path, more: OpenFlags| {
             let db = Connection::open_with_flags(name, READING | more)?;
             db.busy_timeout(PATIENCE)?;
-            let catalogue =
-                Self { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() };
+            let catalogue = Self::of(db);
             let found = catalogue.judge()?;
             let known = MIGRATIONS.len() as i64;
             if found < known {
@@ -143,8 +143,7 @@ impl Catalogue {
     fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
         db.busy_timeout(PATIENCE)?;
         db.pragma_update(None, "foreign_keys", true)?;
-        let mut catalogue =
-            Self { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() };
+        let mut catalogue = Self::of(db);
         // Judged before anything is written: a foreign file stays as it is.
         let found = catalogue.judge()?;
         let known = known_layout();
@@ -220,6 +219,10 @@ impl Catalogue {
                 break;
             };
             step.execute_batch(sql)?;
+            // With the last step or not at all: a product without a seal is a damaged one.
+            if done + 1 == known_layout() {
+                seal_what_is_left(&step)?;
+            }
             step.pragma_update(None, "user_version", done + 1)?;
             step.commit()?;
         }
@@ -244,12 +247,7 @@ fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
 /// The layout that a file has, whatever number it names: by its tables. `None`: of none that this program knows.
 pub(super) fn layout_of(db: &Connection) -> Result<Option<i64>, CatalogueError> {
     let found = shape(db)?;
-    let mut known = Catalogue {
-        db: Connection::open_in_memory()?,
-        recent: RefCell::default(),
-        held: RefCell::default(),
-        index: RefCell::default(),
-    };
+    let mut known = Catalogue::of(Connection::open_in_memory()?);
     for steps in 1..=MIGRATIONS.len() {
         known.migrate(&MIGRATIONS[..steps])?;
         if shape(&known.db)? == found {
@@ -266,7 +264,7 @@ mod tests {
     fn bare() -> Catalogue {
         let db = Connection::open_in_memory().unwrap();
         db.pragma_update(None, "foreign_keys", true).unwrap();
-        Catalogue { db, recent: RefCell::default(), held: RefCell::default(), index: RefCell::default() }
+        Catalogue::of(db)
     }
 
     fn schema(db: &Connection) -> Vec<(String, String)> {
@@ -314,7 +312,7 @@ mod tests {
         assert!(told.contains("nothing can be written") && told.matches("catalogue").count() == 1, "{told}");
         // An older layout cannot be brought to the present one there.
         catalogue = Catalogue::open(&path).unwrap();
-        catalogue.db.execute_batch("ALTER TABLE product DROP COLUMN seal; PRAGMA user_version = 7").unwrap();
+        catalogue.db.execute_batch("ALTER TABLE product DROP COLUMN shown_seal; ALTER TABLE product DROP COLUMN seal; PRAGMA user_version = 7").unwrap();
         drop(catalogue);
         assert!(matches!(Catalogue::open_for_reading(&path), Err(CatalogueError::Older { found: 7, .. })));
         Catalogue::open(&path).unwrap();

@@ -3,18 +3,19 @@
 use super::query::Figure;
 use super::representative::{FirstRule, Numbers, representative};
 use super::sight::IN_SIGHT;
+use super::verified::damaged_products;
 use super::{CatalogueError, CurvePoint, Origin};
-use rusqlite::Connection;
-use std::collections::HashMap;
+use rusqlite::{Connection, Row};
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-/// Columns of table `state` that hold figures. A file of a layout without one of them has no such figure.
-const COLUMNS: [(Figure, &str); 5] = [
-    (Figure::TauNormal, "tau_normal"),
-    (Figure::TauHemispherical, "tau_hemispherical"),
-    (Figure::ToCeiling, "to_ceiling"),
-    (Figure::SunBlocked, "sun_blocked"),
-    (Figure::View, "view"),
+/// Places of figures among the columns of a state as they are verified.
+const COLUMNS: [(Figure, usize); 5] = [
+    (Figure::TauNormal, 6),
+    (Figure::TauHemispherical, 7),
+    (Figure::ToCeiling, 9),
+    (Figure::SunBlocked, 10),
+    (Figure::View, 11),
 ];
 
 /// A product as lists show it. Figures are those of the state that stands for it, see
@@ -105,52 +106,58 @@ struct StateRow {
     dataset: Option<Arc<str>>,
 }
 
-/// Reads lists of one table into those of each product.
-fn gathered<T>(
-    db: &Connection,
-    sql: &str,
-    read: impl Fn(&rusqlite::Row<'_>) -> rusqlite::Result<T>,
-) -> Result<HashMap<i64, Vec<T>>, CatalogueError> {
-    let mut statement = db.prepare(sql)?;
-    let mut rows = statement.query([])?;
-    let mut lists: HashMap<i64, Vec<T>> = HashMap::new();
-    while let Some(row) = rows.next()? {
-        lists.entry(row.get(0)?).or_default().push(read(row)?);
-    }
-    Ok(lists)
+/// Lists of the products by their ids.
+#[derive(Default)]
+struct Lists {
+    states: HashMap<i64, Vec<StateRow>>,
+    curves: HashMap<i64, Vec<CurvePoint>>,
+    tags: HashMap<i64, Vec<String>>,
+    collections: HashMap<i64, Vec<String>>,
+    /// Products with values that are not of their columns' types.
+    unreadable: BTreeSet<i64>,
 }
 
-fn states(db: &Connection) -> Result<HashMap<i64, Vec<StateRow>>, CatalogueError> {
-    let mut ask = db.prepare("SELECT name FROM pragma_table_info('state')")?;
-    let there: Vec<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
-    let columns = COLUMNS.map(|(_, name)| if there.iter().any(|column| column == name) { name } else { "NULL" });
-    let figures = columns.join(", ");
-    gathered(
-        db,
-        &format!("SELECT product, key, value, tau_profile, dataset, {figures} FROM state ORDER BY product, position"),
-        |row| {
-            let mut figures = [None; COLUMNS.len()];
-            for (place, figure) in figures.iter_mut().enumerate() {
-                *figure = row.get(5 + place)?;
+impl Lists {
+    /// Takes a row on the way of its verification.
+    fn take(&mut self, table: &str, product: i64, row: &Row<'_>) -> rusqlite::Result<()> {
+        match table {
+            "state" => {
+                let mut figures = [None; COLUMNS.len()];
+                for (figure, (_, column)) in figures.iter_mut().zip(COLUMNS) {
+                    *figure = row.get(column)?;
+                }
+                let numbers = Numbers { value: row.get(4)?, tau_hemispherical: figures[1] };
+                let (key, profile, dataset) = (row.get(2)?, row.get(8)?, row.get(5)?);
+                let state = StateRow { key, numbers, figures, profile, dataset };
+                self.states.entry(product).or_default().push(state);
             }
-            let tau_hemispherical = figures[1];
-            let numbers = Numbers { value: row.get(2)?, tau_hemispherical };
-            Ok(StateRow { key: row.get(1)?, numbers, figures, profile: row.get(3)?, dataset: row.get(4)? })
-        },
-    )
+            "control_point" => {
+                let point = CurvePoint { profile_angle: row.get(2)?, value: row.get(3)? };
+                self.curves.entry(product).or_default().push(point);
+            }
+            "tag" => self.tags.entry(product).or_default().push(row.get(1)?),
+            _ => {}
+        }
+        Ok(())
+    }
 }
 
-/// All products in the catalogue's order: built-in ones first in their own, then the user's by name.
-pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
-    let mut states = states(db)?;
-    let mut tags = gathered(db, "SELECT product, tag FROM tag ORDER BY product, tag", |row| row.get::<_, String>(1))?;
-    let collections =
-        "SELECT p.id, c.name FROM collection c JOIN product p ON p.key = c.product_key ORDER BY p.id, c.name";
-    let mut collections = gathered(db, collections, |row| row.get::<_, String>(1))?;
-    let mut curves =
-        gathered(db, "SELECT product, profile_angle, value FROM control_point ORDER BY product, position", |row| {
-            Ok(CurvePoint { profile_angle: row.get(1)?, value: row.get(2)? })
-        })?;
+/// Returns the products that are as they were stored, in the catalogue's order – built-in ones first in their own, then
+/// the user's by name – and the keys of the damaged ones.
+pub(super) fn read(db: &Connection) -> Result<(Vec<Sought>, Vec<String>), CatalogueError> {
+    let mut lists = Lists::default();
+    let mut damaged = damaged_products(db, &mut |table, product, row| {
+        if lists.take(table, product, row).is_err() {
+            lists.unreadable.insert(product);
+        }
+    })?;
+    damaged.append(&mut lists.unreadable);
+    let mut collections =
+        db.prepare("SELECT p.id, c.name FROM collection c JOIN product p ON p.key = c.product_key ORDER BY 1, 2")?;
+    let mut rows = collections.query([])?;
+    while let Some(row) = rows.next()? {
+        lists.collections.entry(row.get(0)?).or_default().push(row.get(1)?);
+    }
     // Descriptions are read for those whose rule hangs on them alone: what moves and brings no curve. Keys last: products
     // of the same name keep their places from one search to the next.
     let mut statement = db.prepare(&format!(
@@ -163,11 +170,16 @@ pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
          FROM product p WHERE 1{IN_SIGHT} ORDER BY p.builtin DESC, p.rank, p.name COLLATE NOCASE, p.key"
     ))?;
     let mut rows = statement.query([])?;
-    let mut list = Vec::new();
+    let (mut list, mut left_out) = (Vec::new(), Vec::new());
     while let Some(row) = rows.next()? {
         let id: i64 = row.get(0)?;
-        let own = states.remove(&id).unwrap_or_default();
-        let curve = curves.remove(&id).unwrap_or_default();
+        if damaged.contains(&id) {
+            // Even the bytes of the key may be none of a text.
+            left_out.push(String::from_utf8_lossy(row.get_ref(1)?.as_bytes().unwrap_or_default()).into_owned());
+            continue;
+        }
+        let own = lists.states.remove(&id).unwrap_or_default();
+        let curve = lists.curves.remove(&id).unwrap_or_default();
         let numbers: Vec<Numbers> = own.iter().map(|state| state.numbers).collect();
         let (rule, place) = representative(&numbers, &curve, row.get_ref(9)?.as_str().unwrap_or_default());
         let stands = own.get(place);
@@ -198,11 +210,11 @@ pub(super) fn read(db: &Connection) -> Result<Vec<Sought>, CatalogueError> {
         list.push(Sought {
             row: Arc::new(product),
             description: row.get(7)?,
-            tags: tags.remove(&id).unwrap_or_default(),
-            collections: collections.remove(&id).unwrap_or_default(),
+            tags: lists.tags.remove(&id).unwrap_or_default(),
+            collections: lists.collections.remove(&id).unwrap_or_default(),
         });
     }
-    Ok(list)
+    Ok((list, left_out))
 }
 
 /// A stored list, e.g. of transmittances; empty when it is none.

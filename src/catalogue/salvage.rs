@@ -1,6 +1,7 @@
 //! What can still be read of a catalogue with broken pages, in a whole one.
 
 use super::builtin::is_builtin;
+use super::sealing::seal_what_is_left;
 use super::told::said;
 use super::{Catalogue, CatalogueError};
 use rusqlite::types::Value;
@@ -64,6 +65,8 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
          DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state WHERE dataset IS NOT NULL);",
     )?;
     all_come_anew(&db)?;
+    let incomplete = seal_what_is_left(&db)?.into_iter();
+    lost.extend(incomplete.map(|key| format!("some words, findings or figures of product \"{key}\"")));
     let stateless: Vec<String> = {
         let mut ask = db.prepare("SELECT key FROM product WHERE id NOT IN (SELECT product FROM state) ORDER BY key")?;
         ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?
@@ -98,7 +101,7 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
 ///
 /// # Errors
 /// Of SQLite.
-pub(super) fn all_come_anew(db: &Connection) -> Result<(), CatalogueError> {
+fn all_come_anew(db: &Connection) -> Result<(), CatalogueError> {
     db.execute("DELETE FROM meta WHERE key = 'builtin_version'", [])?;
     Ok(())
 }

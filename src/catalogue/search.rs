@@ -1,5 +1,6 @@
 //! Finding products: the words of a catalogue's file in memory, read anew when the file has changed.
 
+use super::builtin::restore_damaged;
 use super::index::{Found, Index};
 use super::query_facets::Facets;
 use super::{Catalogue, CatalogueError, ProductRow, Query, rows};
@@ -35,7 +36,15 @@ impl Catalogue {
         {
             return Ok(Arc::clone(index));
         }
-        let index = Arc::new(Index::new(rows::read(&snapshot)?));
+        let (products, damaged) = rows::read(&snapshot)?;
+        snapshot.finish()?;
+        // Where nothing can be written they stay damaged, and are left out.
+        if !damaged.is_empty() && restore_damaged(self).unwrap_or(false) {
+            return self.index();
+        }
+        let mut index = Index::new(products);
+        (index.damaged, index.restored) = (damaged, self.restored.borrow().clone());
+        let index = Arc::new(index);
         self.index.replace(Some((stamp, Arc::clone(&index))));
         Ok(index)
     }

@@ -1,9 +1,10 @@
 //! Products in and out of the tables. Every change is one transaction.
 
 use super::described::described_state;
+use super::history::set_paths;
 use super::record::Record;
 use super::rows::list_of;
-use super::verified::{blob_of, seal_of, sealed};
+use super::verified::{blob_of, seal_of, seal_rows, sealed};
 use super::{Catalogue, CatalogueError, CurvePoint, Origin, Product, ProductFinding, Provenance, State, check};
 use crate::compute::btdf::{Dataset, DescribedState, LightFigures, Severity};
 use crate::formats::dataset_blob::decode;
@@ -108,7 +109,7 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     if p.favourite {
         tx.execute("INSERT OR IGNORE INTO favourite VALUES (?)", [&p.key])?;
     }
-    Ok(())
+    seal_rows(tx, id)
 }
 
 /// Writes the findings of a state, which is named by its product's row and its position.
@@ -133,6 +134,17 @@ pub(super) fn sweep(tx: &Transaction) -> Result<(), CatalogueError> {
 /// Takes a product's rows out; datasets that no state refers to any more go with it.
 pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE key = ?", [key])?;
+    sweep(tx)
+}
+
+/// Writes a product in place of the one that has its key.
+pub(super) fn replace(tx: &Transaction, record: &Record) -> Result<(), CatalogueError> {
+    let key = &record.product.key;
+    let rank: i64 = tx.query_row("SELECT rank FROM product WHERE key = ?", [key], |row| row.get(0))?;
+    // Without the sweep: data that stay would go and have to come again.
+    tx.execute("DELETE FROM product WHERE key = ?", [key])?;
+    insert(tx, record, rank)?;
+    set_paths(tx, key, &record.paths)?;
     sweep(tx)
 }
 

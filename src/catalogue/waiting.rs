@@ -3,7 +3,7 @@
 use super::described::described_state;
 use super::record::{Record, figured, light, named_state, stored};
 use super::store::{insert_findings, put_blob, read_product};
-use super::verified::blob_of;
+use super::verified::{blob_of, seal_rows, sealed};
 use super::{Catalogue, CatalogueError, Product, ProductFinding, State, StateName};
 use crate::compute::btdf::{Btdf, Dataset, LightFigures};
 use crate::compute::estimate::Progress;
@@ -107,16 +107,16 @@ impl Catalogue {
     /// asks for them is told.
     pub fn fill_figures(&mut self, progress: &dyn Progress) -> Result<usize, CatalogueError> {
         let sql =
-            "SELECT p.system, s.product, s.position, s.key, s.dataset FROM state s JOIN product p ON p.id = s.product
+            "SELECT p.key, p.system, s.product, s.position, s.key, s.dataset FROM state s JOIN product p ON p.id = s.product
                    WHERE s.sun_blocked IS NULL AND s.dataset IS NOT NULL ORDER BY p.rank, p.key, s.position";
         let mut ask = self.db.prepare(sql)?;
         let rows = ask.query_map([], |row| {
-            Ok((row.get(0)?, [row.get(1)?, row.get(2)?], row.get::<_, String>(3)?, row.get::<_, String>(4)?))
+            Ok(([row.get(0)?, row.get(1)?], [row.get(2)?, row.get(3)?], row.get(4)?, row.get(5)?))
         })?;
-        let list: Vec<(String, [i64; 2], String, String)> = rows.collect::<Result<_, _>>()?;
+        let list: Vec<([String; 2], [i64; 2], String, String)> = rows.collect::<Result<_, _>>()?;
         drop(ask);
         let mut filled = 0;
-        for (done, (system, place, state, hash)) in list.iter().enumerate() {
+        for (done, ([product, system], place, state, hash)) in list.iter().enumerate() {
             progress.advance("figures", done, list.len());
             if progress.cancelled() {
                 break;
@@ -125,6 +125,9 @@ impl Catalogue {
             let Some(transmission) = transmission(&dataset) else { continue };
             let figures = light(transmission, described_state(system, state).as_ref());
             let tx = self.change()?;
+            if read_product(&tx, product).and_then(|product| sealed(&tx, product)).is_err() {
+                continue;
+            }
             set_light(&tx, *place, &figures)?;
             tx.commit()?;
             filled += 1;
@@ -141,7 +144,7 @@ pub(super) fn set_light(
 ) -> Result<(), CatalogueError> {
     tx.prepare_cached("UPDATE state SET to_ceiling = ?, sun_blocked = ?, view = ? WHERE product = ? AND position = ?")?
         .execute(params![light.to_ceiling, light.sun_blocked, light.view, product, position])?;
-    Ok(())
+    seal_rows(tx, product)
 }
 
 /// Gives a state that waits its dataset and figures; nothing where it does not wait.
@@ -160,6 +163,7 @@ fn fill(
         .query_row([&product.key, &product.provenance.source_hash, &state.key], |row| Ok([row.get(0)?, row.get(1)?]))
         .optional()?;
     let Some(place) = place else { return Ok(()) };
+    sealed(tx, read_product(tx, &product.key)?)?;
     if let Some(hash) = &state.dataset {
         put_blob(tx, hash, blob)?;
     }
@@ -178,7 +182,8 @@ fn fill(
     if let Some(light) = &state.light {
         set_light(tx, place, light)?;
     }
-    insert_findings(tx, place, findings.iter())
+    insert_findings(tx, place, findings.iter())?;
+    seal_rows(tx, place[0])
 }
 
 /// Takes the data of a built-in product that another catalogue has computed, where this one waits for some of them and

@@ -87,6 +87,9 @@ fn as_text(path: &Path, health: &Health, mended: Option<&Mended>) -> Result<Stri
             writeln!(text, "  now: {} products, {} datasets", mended.after.products, mended.after.datasets)?;
         }
     }
+    for (key, at) in &mended.map_or(health, |mended| &mended.after).restored {
+        writeln!(text, "  product \"{}\" was damaged and restored on {at}", one_line(key))?;
+    }
     Ok(text)
 }
 
@@ -99,9 +102,12 @@ fn as_json(health: &Health, mended: Option<&Mended>) -> Value {
         };
         json!({"product": product, "state": state, "message": damage.message, "outlook": outlook(damage)})
     });
+    let restored = mended.map_or(health, |mended| &mended.after).restored.iter();
+    let restored = restored.map(|(product, at)| json!({"product": product, "at": at}));
     json!({
         "products": health.products, "datasets": health.datasets, "damages": damages.collect::<Vec<_>>(),
         "copy": mended.map(|mended| mended.copy.to_string_lossy()),
+        "restored": restored.collect::<Vec<_>>(),
         "mended": mended.map(|mended| &mended.mended), "lost": mended.map(|mended| &mended.lost),
     })
 }

@@ -1,5 +1,6 @@
 //! `cfs catalogue like`: products that do the same to light.
 
+use super::listing::tell_notes;
 use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, Query};
 use crate::texts::one_line;
@@ -38,6 +39,7 @@ pub struct LikeArgs {
 /// Lists them.
 pub(super) fn like(catalogue: &Catalogue, args: &LikeArgs) -> anyhow::Result<()> {
     let found = catalogue.find(&Query { like: Some(args.key.clone()), ..Query::default() })?;
+    tell_notes(&found);
     let Some(likeness) = found.like else {
         bail!("the catalogue holds no product \"{}\"; `cfs catalogue list` shows all keys", args.key);
     };

@@ -1,8 +1,8 @@
 //! `cfs catalogue list`: products found by words and filters, in the order that is asked for.
 
 use super::output::{print, print_text};
-use crate::catalogue::{Catalogue, Figure, Origin, ProductRow, Query, Sort, Within};
-use crate::texts::one_line;
+use crate::catalogue::{Catalogue, Figure, Found, Origin, ProductRow, Query, Sort, Within};
+use crate::texts::{catalogue as text, composed, one_line};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -97,11 +97,13 @@ fn sort(text: &str) -> Result<Sort, String> {
 impl ListArgs {
     /// What is asked for.
     pub fn query(&self) -> Query {
+        // As names are stored, whatever the terminal gives.
+        let composed = |list: &[String]| list.iter().map(|text| composed(text)).collect();
         Query {
             text: self.search.clone(),
-            kinds: self.kind.clone(),
-            manufacturers: self.maker.clone(),
-            tags: self.tags.clone(),
+            kinds: composed(&self.kind),
+            manufacturers: composed(&self.maker),
+            tags: composed(&self.tags),
             collections: self.collections.clone(),
             recent: false,
             shown: Vec::new(),
@@ -129,13 +131,24 @@ pub(super) fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
 }
 
+/// Says which words were read as others, and which damaged products were restored or are left out.
+pub(super) fn tell_notes(found: &Found) {
+    for (typed, read_as) in &found.read_as {
+        tell!("note: no product has \"{typed}\"; read as \"{read_as}\"");
+    }
+    if !found.restored.is_empty() {
+        tell!("warning: {}", text::restored(found.restored.join(", ")));
+    }
+    if !found.damaged.is_empty() {
+        tell!("warning: {}", text::not_listed(found.damaged.join(", ")));
+    }
+}
+
 /// Writes what was found.
 pub(super) fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     let query = args.query();
     let found = catalogue.find(&query)?;
-    for (typed, read_as) in &found.read_as {
-        tell!("note: no product has \"{typed}\"; read as \"{read_as}\"");
-    }
+    tell_notes(&found);
     let rows = found.entries;
     if rows.is_empty() && !args.json {
         for (filter, count) in &found.without {

@@ -1,5 +1,6 @@
 //! `cfs rank SCENE…`: which product for this façade.
 
+use super::listing::tell_notes;
 use super::output::{print, print_text};
 use super::progress::TerminalProgress;
 use super::rank_csv::{Shape, shard_csv, shard_of};
@@ -122,10 +123,8 @@ pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Librar
         let file = read_scene_file(path)?;
         let base = path.parent().unwrap_or(Path::new("."));
         let find = |words: &str| {
-            let (products, read_as) = library.search(words)?;
-            for (typed, read_as) in read_as {
-                tell!("note: no product has \"{typed}\"; read as \"{read_as}\"");
-            }
+            let (products, found) = library.search(words)?;
+            tell_notes(&found);
             Ok(products)
         };
         let own = groups(&path.display().to_string(), &file, base, products, &find);

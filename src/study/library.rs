@@ -9,7 +9,7 @@ use super::goniophotometer::{Described, LayerLibrary};
 use super::outside::LitObstructions;
 use super::scene_file::{FamilyState, SystemKeys};
 use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
-use crate::catalogue::{Catalogue, CatalogueError, Product, Query};
+use crate::catalogue::{Catalogue, CatalogueError, Found, Product, Query};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
@@ -43,9 +43,6 @@ const MOST_DESCRIBED: usize = 42;
 /// many as scenes and comparisons hold.
 const MOST_ANSWERING: usize = 6;
 
-/// Words that no product has, each with the one that it was read as.
-pub type ReadAs = Vec<(String, String)>;
-
 /// A file's systems, valid as long as its time and length stay.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
 
@@ -69,15 +66,15 @@ impl Library {
         answer
     }
 
-    /// Products by words as in the window's search, none: all; and words that no product has, with what they were read as.
+    /// Products by words as in the window's search, none: all; and what the search notes of words and damaged products.
     ///
     /// # Errors
     /// Of the catalogue.
-    pub fn search(&self, words: &str) -> Result<(Vec<Product>, ReadAs), StudyError> {
+    pub fn search(&self, words: &str) -> Result<(Vec<Product>, Found), StudyError> {
         self.in_catalogue(|catalogue| {
             let found = catalogue.find(&Query { text: words.to_owned(), ..Query::default() })?;
             let products = found.entries.iter().map(|row| catalogue.product(&row.key)).collect::<Result<_, _>>()?;
-            Ok((products, found.read_as))
+            Ok((products, found))
         })
     }
 

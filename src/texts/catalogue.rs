@@ -100,6 +100,10 @@ texts! {
     fn more_without(count, what) = "{count} products without “{what}”" | "{count} Produkte ohne „{what}“";
     const SHOW_ALL = "Show all" | "Alle zeigen";
 
+    // Damages.
+    fn restored(keys) = "Damaged in the catalogue, and restored from what the program contains: {keys}. The disk may be failing: keep a copy, and run `cfs catalogue check`." | "Im Katalog beschädigt und aus dem Bestand des Programms wiederhergestellt: {keys}. Der Datenträger ist möglicherweise fehlerhaft: eine Kopie aufbewahren und `cfs catalogue check` ausführen.";
+    fn not_listed(keys) = "Not listed, because damaged in the catalogue: {keys}. `cfs catalogue check --repair` restores what can be restored; import the rest again." | "Nicht aufgeführt, da im Katalog beschädigt: {keys}. `cfs catalogue check --repair` stellt wieder her, was sich wiederherstellen lässt; den Rest erneut importieren.";
+
     // Figures and orders.
     const TAU_NORMAL = "τ normal" | "τ senkrecht";
     const TAU_HEMISPHERICAL = "τ hemispherical" | "τ hemisphärisch";

@@ -118,12 +118,12 @@ fn a_newer_catalogue_is_refused_by_its_name() {
     let path = folder.path().join("newer.sqlite");
     rusqlite::Connection::open(&path)
         .unwrap()
-        .execute_batch("PRAGMA application_id = 1128682328; PRAGMA user_version = 9; CREATE TABLE meta (x)")
+        .execute_batch("PRAGMA application_id = 1128682328; PRAGMA user_version = 10; CREATE TABLE meta (x)")
         .unwrap();
     let Err(error) = Catalogue::open(&path) else { panic!("refused") };
     let told = error.to_string();
     assert!(
-        told.contains("newer.sqlite was written by a newer version of cfs (layout 9; this program reads up to 8)"),
+        told.contains("newer.sqlite was written by a newer version of cfs (layout 10; this program reads up to 9)"),
         "{told}"
     );
 }

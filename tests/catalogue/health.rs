@@ -128,6 +128,115 @@ fn what_results_hang_on_beside_the_data_is_sealed() {
     assert!(check_file(&path).unwrap().damages.is_empty());
 }
 
+/// Changes a file behind the program's back.
+fn changed(path: &Path, sql: &str) {
+    let db = Connection::open(path).unwrap();
+    db.execute_batch(sql).unwrap();
+    assert!(db.total_changes() > 0, "{sql}");
+}
+
+#[test]
+fn damaged_built_in_products_are_restored_and_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    let whole = Catalogue::open(&path).unwrap().search(&Query::default()).unwrap();
+    let blind = "WHERE product = (SELECT id FROM product WHERE key = 'venetian-80-72')";
+    for (damage, key) in [
+        ("UPDATE product SET name = 'Klear glass' WHERE key = 'clear-double'".to_owned(), "clear-double"),
+        ("UPDATE product SET kind = 'x' WHERE key = 'open-aperture'".to_owned(), "open-aperture"),
+        ("UPDATE product SET source_hash = 'x' WHERE key = 'opal-light'".to_owned(), "opal-light"),
+        ("UPDATE product SET name = CAST(x'ff41' AS TEXT) WHERE key = 'opal-light'".to_owned(), "opal-light"),
+        ("UPDATE product SET builtin = 0 WHERE key = 'clear-double'".to_owned(), "clear-double"),
+        ("UPDATE product SET key = 'cleer-double' WHERE key = 'clear-double'".to_owned(), "cleer-double"),
+        ("UPDATE product SET shown_seal = 'x' WHERE key = 'clear-double'".to_owned(), "clear-double"),
+        (format!("UPDATE state SET tau_normal = 0.88 {blind}"), "venetian-80-72"),
+        (format!("UPDATE state SET label = label || '1' {blind}"), "venetian-80-72"),
+        (format!("UPDATE tag SET tag = tag || 'x' {blind}"), "venetian-80-72"),
+    ] {
+        changed(&path, &damage);
+        let health = check_file(&path).unwrap();
+        let place = Place::Product { key: key.into(), builtin: true };
+        assert!(health.damages.iter().any(|one| one.place == place), "{damage}: {health:?}");
+        let catalogue = Catalogue::open(&path).unwrap();
+        assert_eq!(catalogue.find(&Query::default()).unwrap().restored, [key], "{damage}");
+        assert_eq!(catalogue.search(&Query::default()).unwrap(), whole, "{damage}");
+        drop(catalogue);
+        let after = check_file(&path).unwrap();
+        assert!(after.damages.is_empty(), "{damage}: {after:?}");
+        assert_eq!(after.restored.last().map(|(key, _)| key.as_str()), Some(key));
+        assert!(Catalogue::open(&path).unwrap().find(&Query::default()).unwrap().restored.is_empty());
+    }
+    // Without their version nobody knows which they are.
+    changed(&path, "UPDATE meta SET value = '$' WHERE key = 'builtin_version'");
+    assert_eq!(check_file(&path).unwrap().damages.len(), 1);
+    let restored = Catalogue::open(&path).unwrap().find(&Query::default()).unwrap().restored;
+    assert_eq!(restored.len() + 1, whole.len());
+    assert!(check_file(&path).unwrap().damages.is_empty());
+}
+
+#[test]
+fn damaged_products_of_the_users_are_not_listed_until_they_are_imported_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 2);
+    let catalogue = Catalogue::open(&path).unwrap();
+    let package = catalogue.export_package(&["mine-0".to_owned()]).unwrap();
+    let whole = catalogue.search(&Query::default()).unwrap();
+    let of = |table: &str, set: &str| {
+        let product = if table == "product" { "id" } else { "product" };
+        format!("UPDATE {table} SET {set} WHERE {product} = (SELECT id FROM product WHERE key = 'mine-0')")
+    };
+    for damage in [
+        of("product", "name = 'Nine 0'"),
+        of("product", "builtin = 1"),
+        of("product", "author = 'x'"),
+        of("state", "tau_hemispherical = 0.88"),
+        of("state", "view = NULL"),
+    ] {
+        changed(&path, &damage);
+        let mut catalogue = Catalogue::open(&path).unwrap();
+        let found = catalogue.find(&Query::default()).unwrap();
+        assert!(found.restored.is_empty(), "{damage}");
+        assert_eq!((found.damaged, found.total + 1), (vec!["mine-0".to_owned()], whole.len()), "{damage}");
+        assert!(found.entries.iter().all(|row| row.key != "mine-0"));
+        assert!(matches!(catalogue.product("mine-0"), Err(CatalogueError::Damaged(_))), "{damage}");
+        // Other words do not seal what is damaged.
+        let words = cfs::catalogue::Words { name: "Another".into(), ..cfs::catalogue::Words::default() };
+        assert!(catalogue.describe("mine-0", &words).is_err(), "{damage}");
+        let health = check_file(&path).unwrap();
+        let place = Place::Product { key: "mine-0".into(), builtin: false };
+        assert!(matches!(&*health.damages, [one] if one.place == place), "{damage}: {health:?}");
+        if damage.contains("builtin") {
+            let lost = mend(&path, &health).unwrap().lost;
+            assert!(matches!(&*lost, [one] if one.contains("\"mine-0\"")), "{lost:?}");
+            changed(&path, &of("product", "builtin = 0"));
+        } else {
+            catalogue.import_package(&package).unwrap();
+        }
+        assert_eq!(catalogue.search(&Query::default()).unwrap(), whole, "{damage}");
+    }
+}
+
+#[test]
+fn products_of_an_older_layout_are_sealed_unless_they_are_damaged() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 2);
+    let whole = Catalogue::open(&path).unwrap().search(&Query::default()).unwrap();
+    changed(
+        &path,
+        "UPDATE control_point SET value = value + 0.5 WHERE product = (SELECT id FROM product WHERE key = 'mine-0');
+         ALTER TABLE product DROP COLUMN shown_seal;
+         PRAGMA user_version = 8",
+    );
+    assert_eq!(check_file(&path).unwrap().damages.len(), 1);
+    let catalogue = Catalogue::open(&path).unwrap();
+    let found = catalogue.find(&Query::default()).unwrap();
+    assert_eq!(found.damaged, ["mine-0"]);
+    assert!(found.restored.is_empty() && found.total + 1 == whole.len());
+    assert_eq!(check_file(&path).unwrap().damages.len(), 1);
+    changed(&path, "UPDATE product SET name = 'Nine 1' WHERE key = 'mine-1'");
+    assert_eq!(check_file(&path).unwrap().damages.len(), 2);
+}
+
 #[test]
 fn layout_numbers_that_are_none_are_refused_and_found_again() {
     let folder = tempfile::tempdir().unwrap();

@@ -163,6 +163,28 @@ fn flipped_bits_are_told_and_mended_from_the_file_they_came_from() {
 }
 
 #[test]
+fn a_list_says_what_was_restored_and_what_it_leaves_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("opal.xml"), write_dataset(Format::BsdfXml, &[klems(rough)]).unwrap().bytes).unwrap();
+    done(at, &["catalogue", "import", "opal.xml", "--name", "Mine"]);
+    let before = done(at, &["catalogue", "list"]);
+    let db = rusqlite::Connection::open(at.join("catalogue.cfsdb")).unwrap();
+    db.execute_batch("UPDATE product SET name = name || 'x' WHERE key IN ('clear-single', 'mine')").unwrap();
+    drop(db);
+    let list = cfs(at, &["catalogue", "list"]);
+    let warnings = said(&list);
+    assert!(warnings.contains("restored from what the program contains: clear-single."), "{warnings}");
+    assert!(warnings.contains("Not listed, because damaged in the catalogue: mine."), "{warnings}");
+    let after = String::from_utf8(list.stdout).unwrap();
+    assert_eq!(before.lines().count(), after.lines().count() + 1);
+    assert!(after.lines().all(|line| before.contains(line)), "{after}");
+    let check = cfs(at, &["catalogue", "check"]);
+    let report = String::from_utf8(check.stdout).unwrap();
+    assert!(check.status.code() == Some(1) && report.contains("\"clear-single\" was damaged and restored"), "{report}");
+}
+
+#[test]
 fn layouts_that_are_none_are_told_in_one_line_and_mended() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

@@ -66,7 +66,7 @@ pub fn show(
     if let Some(error) = &state.search_error {
         ui.colored_label(theme::palette(ui).error, error);
     }
-    filters::read_as(ui, &state.found);
+    filters::notes(ui, &state.found);
     filters::like(ui, state, commands);
     let below = below(ui, state);
     if state.found.entries.is_empty() {

@@ -183,8 +183,14 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     });
 }
 
-/// Words that were read as others.
-pub(super) fn read_as(ui: &mut Ui, found: &Found) {
+/// Products that were restored or are not listed, and words that were read as others.
+pub(super) fn notes(ui: &mut Ui, found: &Found) {
+    if !found.restored.is_empty() {
+        ui.colored_label(theme::palette(ui).warning, text::restored(found.restored.join(", ")));
+    }
+    if !found.damaged.is_empty() {
+        ui.colored_label(theme::palette(ui).error, text::not_listed(found.damaged.join(", ")));
+    }
     for (typed, read_as) in &found.read_as {
         ui.weak(text::read_as(typed, read_as));
     }
