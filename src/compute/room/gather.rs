@@ -12,43 +12,15 @@ use std::f64::consts::PI;
 /// Weights w with E = Σ w_j B_j at a point from all patches of exitance B_j, whatever they reflect.
 pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.patches.len()];
-    let mut row = Vec::new();
-    let mut next = Vec::new();
-    let mut kept = Vec::with_capacity(8);
     for wall in &mesh.walls {
-        let distance = wall.normal.dot(position - wall.point(0.0, 0.0));
-        if distance <= 0.0 {
+        let plane = Plane::new(wall, position, normal);
+        if plane.distance <= 0.0 {
             continue;
         }
-        let [lines_a, lines_b] = &wall.lines;
-        let n1 = lines_b.len() - 1;
-        let plane = Plane::new(wall, position, normal);
-        // Of corners behind the point's plane no value is asked for.
-        let corner = |a: f64, b: f64| {
-            let seen = plane.in_front(a, b);
-            (if seen { plane.corner(a, b) } else { 0.0 }, seen)
-        };
-        row.clear();
-        row.extend(lines_b.iter().map(|&b| corner(lines_a[0], b)));
-        for (i, &a) in lines_a.iter().enumerate().skip(1) {
-            next.clear();
-            next.extend(lines_b.iter().map(|&b| corner(a, b)));
-            for j in 0..n1 {
-                let at = wall.first + (i - 1) * n1 + j;
-                let corners = [row[j], row[j + 1], next[j], next[j + 1]];
-                let seen = corners.iter().filter(|c| c.1).count();
-                weights[at] = match seen {
-                    4 => (corners[0].0 - corners[1].0 - corners[2].0 + corners[3].0).max(0.0) / PI,
-                    0 => 0.0,
-                    _ => {
-                        let corners = mesh.patches[at].corners(wall).map(|c| c - position);
-                        clip(&corners, normal, &mut kept);
-                        vector_solid_angle(&kept).dot(normal).abs() / PI
-                    }
-                };
-            }
-            std::mem::swap(&mut row, &mut next);
-        }
+        let columns = wall.lines[1].len() - 1;
+        plane.cells(wall, [&wall.lines[0], &wall.lines[1]], |i, j, factor| {
+            weights[wall.first + i * columns + j] = factor.max(0.0);
+        });
     }
     weights
 }
@@ -128,36 +100,14 @@ fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: us
     };
     // What each part gives to the sums.
     let mut sums = [0.0; 2];
-    let mut add = |i: usize, j: usize, factor: f64| {
+    let add = |i: usize, j: usize, factor: f64| {
         for (side, k) in [i, j].into_iter().enumerate() {
             let size = patch.extent[side][1] - patch.extent[side][0];
             sums[side] += factor * size * ((k as f64 + 0.5) / parts as f64 - 0.5);
         }
     };
-    let plane = Plane::new(wall, position, normal);
-    let [a, b] = patch.extent;
-    if a.iter().all(|&a| b.iter().all(|&b| plane.in_front(a, b))) {
-        let column = |i: usize| -> [f64; MOST_PARTS + 1] {
-            std::array::from_fn(|j| if j <= parts { plane.corner(line(0, i), line(1, j)) } else { 0.0 })
-        };
-        let mut before = column(0);
-        for i in 0..parts {
-            let next = column(i + 1);
-            for j in 0..parts {
-                add(i, j, (before[j] - before[j + 1] - next[j] + next[j + 1]) / PI);
-            }
-            before = next;
-        }
-    } else {
-        for i in 0..parts {
-            for j in 0..parts {
-                let (a, b) = ([line(0, i), line(0, i + 1)], [line(1, j), line(1, j + 1)]);
-                let corners = [(a[0], b[0]), (a[1], b[0]), (a[1], b[1]), (a[0], b[1])];
-                let corners = corners.map(|(a, b)| wall.point(a, b) - position);
-                add(i, j, projected_solid_angle(&corners, normal) / PI);
-            }
-        }
-    }
+    let lines = [0, 1].map(|side| (0..=parts).map(|k| line(side, k)).collect::<Vec<f64>>());
+    Plane::new(wall, position, normal).cells(wall, [&lines[0], &lines[1]], add);
     sums
 }
 
@@ -166,6 +116,9 @@ const MOST_PARTS: usize = 12;
 
 /// A point and its normal in a wall's own coordinates.
 struct Plane {
+    position: DVec3,
+    /// The normal in the frame of the room.
+    room_normal: DVec3,
     origin: [f64; 2],
     distance: f64,
     normal: DVec3,
@@ -174,6 +127,8 @@ struct Plane {
 impl Plane {
     fn new(wall: &Wall, position: DVec3, normal: DVec3) -> Self {
         Self {
+            position,
+            room_normal: normal,
             origin: [position[wall.along[0]], position[wall.along[1]]],
             distance: wall.normal.dot(position - wall.point(0.0, 0.0)),
             normal: DVec3::new(normal[wall.along[0]], normal[wall.along[1]], -normal.dot(wall.normal)),
@@ -184,8 +139,57 @@ impl Plane {
         self.normal.dot(DVec3::new(a - self.origin[0], b - self.origin[1], self.distance)) > 0.0
     }
 
+    /// n·∫ω dω over the quadrant of the wall that ends in the corner (a, b), but for parts that cancel in second
+    /// differences.
     fn corner(&self, a: f64, b: f64) -> f64 {
-        corner_vector(a - self.origin[0], b - self.origin[1], self.distance).dot(self.normal)
+        let (x, y, d) = (a - self.origin[0], b - self.origin[1], self.distance);
+        // Of a point's plane at right angles to the wall one of the two has no share.
+        let edge = |x: f64, y: f64, share: f64| {
+            let r = (x * x + d * d).sqrt();
+            if share == 0.0 { 0.0 } else { share * (y / r).atan() / r }
+        };
+        let n = self.normal;
+        0.5 * (edge(x, y, x * n.z - d * n.x) + edge(y, x, y * n.z - d * n.y))
+    }
+
+    /// Calls `take` with the configuration factor of every cell between lines on the wall, and the cell's two numbers.
+    fn cells(&self, wall: &Wall, [lines_a, lines_b]: [&[f64]; 2], mut take: impl FnMut(usize, usize, f64)) {
+        // A plane parallel to lines of the wall cuts cells as one more line does: lines behind it are moved to it.
+        let n = self.normal;
+        let is_parallel = [n.y == 0.0 && n.z == 0.0, n.x == 0.0 && n.z == 0.0];
+        let moved = |axis: usize, line: f64| match is_parallel[axis] {
+            true if n[axis] > 0.0 => line.max(self.origin[axis]),
+            true => line.min(self.origin[axis]),
+            false => line,
+        };
+        // Of other planes, no value is asked for of corners behind them.
+        let corner = |a: f64, b: f64| {
+            let seen = is_parallel.contains(&true) || self.in_front(a, b);
+            (if seen { self.corner(moved(0, a), moved(1, b)) } else { 0.0 }, seen)
+        };
+        let row_at = |a: f64, row: &mut Vec<(f64, bool)>| {
+            row.clear();
+            row.extend(lines_b.iter().map(|&b| corner(a, b)));
+        };
+        let (mut row, mut next, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+        row_at(lines_a[0], &mut row);
+        for (i, a) in lines_a.windows(2).enumerate() {
+            row_at(a[1], &mut next);
+            for (j, b) in lines_b.windows(2).enumerate() {
+                let corners = [row[j], row[j + 1], next[j], next[j + 1]];
+                let seen = match corners.iter().filter(|corner| corner.1).count() {
+                    4 => corners[0].0 - corners[1].0 - corners[2].0 + corners[3].0,
+                    0 => 0.0,
+                    _ => {
+                        let corners = [(a[0], b[0]), (a[1], b[0]), (a[1], b[1]), (a[0], b[1])];
+                        clip(&corners.map(|(a, b)| wall.point(a, b) - self.position), self.room_normal, &mut kept);
+                        vector_solid_angle(&kept).dot(self.room_normal).abs()
+                    }
+                };
+                take(i, j, seen / PI);
+            }
+            std::mem::swap(&mut row, &mut next);
+        }
     }
 }
 
@@ -215,14 +219,6 @@ pub fn corners_factor(wall: &Wall, corners: &[DVec3], position: DVec3, normal: D
         projected_solid_angle(&from_here.collect::<Vec<_>>(), normal)
     };
     seen / PI
-}
-
-/// ∫ω dω over the quadrant of a plane at distance d that ends in the corner (x, y), but for parts that cancel in
-/// second differences.
-fn corner_vector(x: f64, y: f64, d: f64) -> DVec3 {
-    let (rx, ry) = ((x * x + d * d).sqrt(), (y * y + d * d).sqrt());
-    let (alpha, beta) = ((y / rx).atan() / rx, (x / ry).atan() / ry);
-    0.5 * DVec3::new(-d * alpha, -d * beta, x * alpha + y * beta)
 }
 
 #[cfg(test)]
