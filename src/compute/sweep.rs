@@ -1,6 +1,7 @@
 //! Adaptive integration of several quantities along one variable at once.
 
 use super::quadrature::gauss_legendre;
+use std::collections::BinaryHeap;
 use std::sync::OnceLock;
 
 /// Points on −1 … 1, and their weights in the rules of one and three points of Gauss and of seven of Kronrod, each of which takes
@@ -17,7 +18,7 @@ const POINTS: [(f64, [f64; 3]); 7] = [
 /// Number of points of each rule.
 const COUNTS: [usize; 3] = [1, 3, 7];
 /// Length up to which three points tell whether a piece is smooth: of a longer one they miss a kink near its ends. \[rad\]
-const SHORT: f64 = 0.05;
+const SHORT: f64 = 0.1;
 /// Halvings of a piece at most.
 const DEPTH: u32 = 12;
 /// Most points of [`rule`].
@@ -84,8 +85,8 @@ impl<const N: usize> Piece<N> {
     }
 }
 
-/// ∫ f over the range of `knots` (rising), and its error. Pieces get more points, and are halved then, until what two rules say of
-/// the first quantity differs by no more than `relative` of the whole, or `absolute`, taken together.
+/// ∫ f over the range of `knots` (rising), and its error. The piece that is off by most gets more points, and is halved then,
+/// until what two rules say of the first quantity differs by no more than `relative` of the whole, or `absolute`, taken together.
 ///
 /// The error is what the two differ by: of a smooth integrand hundreds of times too much, of one with kinks about what it is.
 pub fn sweep<const N: usize>(
@@ -94,28 +95,41 @@ pub fn sweep<const N: usize>(
     relative: f64,
     absolute: f64,
 ) -> ([f64; N], f64) {
-    let pieces = knots.windows(2).filter(|pair| pair[1] - pair[0] > 1e-13);
-    let mut open: Vec<Piece<N>> = pieces.map(|pair| Piece::new(&mut f, [pair[0], pair[1]], 0)).collect();
-    let whole: f64 = open.iter().map(|piece| piece.integral(piece.rule, 0).abs()).sum();
+    let ends = knots.windows(2).filter(|pair| pair[1] - pair[0] > 1e-13);
+    let mut pieces: Vec<Piece<N>> = ends.map(|pair| Piece::new(&mut f, [pair[0], pair[1]], 0)).collect();
+    let whole: f64 = pieces.iter().map(|piece| piece.integral(piece.rule, 0).abs()).sum();
     let bound = (relative * whole).max(absolute);
-    let count = open.len().max(1) as f64;
-    let (mut total, mut error) = ([0.0; N], 0.0);
-    while let Some(mut piece) = open.pop() {
-        // What one piece may be off: its share of the pieces at the outset, less with every halving.
-        let allowed = bound / count * 0.5_f64.powf(0.5 * f64::from(piece.depth));
-        if piece.off() > allowed && piece.rule == 1 {
+    // The bits of numbers that are not negative are ordered as the numbers.
+    let by_error = |place: usize, piece: &Piece<N>| (piece.off().to_bits(), place);
+    let mut open: BinaryHeap<_> = pieces.iter().enumerate().map(|(place, piece)| by_error(place, piece)).collect();
+    let mut error: f64 = pieces.iter().map(Piece::off).sum();
+    while error > bound
+        && let Some((_, place)) = open.pop()
+    {
+        let piece = &mut pieces[place];
+        error -= piece.off();
+        if piece.rule == 1 {
             piece.improve(&mut f);
-        }
-        if piece.off() <= allowed || piece.depth >= DEPTH {
-            error += piece.off();
-            total.iter_mut().enumerate().for_each(|(quantity, total)| *total += piece.integral(piece.rule, quantity));
-        } else {
-            let [from, to] = piece.ends;
+        } else if piece.depth < DEPTH {
+            let ([from, to], depth) = (piece.ends, piece.depth + 1);
             let middle = 0.5 * (from + to);
-            open.extend([[from, middle], [middle, to]].map(|ends| Piece::new(&mut f, ends, piece.depth + 1)));
+            *piece = Piece::new(&mut f, [from, middle], depth);
+            let other = Piece::new(&mut f, [middle, to], depth);
+            error += other.off();
+            open.push(by_error(pieces.len(), &other));
+            pieces.push(other);
+        } else {
+            error += piece.off();
+            continue;
         }
+        error += pieces[place].off();
+        open.push(by_error(place, &pieces[place]));
     }
-    (total, error)
+    let mut total = [0.0; N];
+    for piece in &pieces {
+        total.iter_mut().enumerate().for_each(|(quantity, total)| *total += piece.integral(piece.rule, quantity));
+    }
+    (total, pieces.iter().map(Piece::off).sum())
 }
 
 #[cfg(test)]
