@@ -3,6 +3,7 @@
 use super::encoding::{Encoding, NotText, any_text, is_web_page, not_too_long};
 use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
+use crate::texts::{ascii_words, composed};
 
 /// Length from which a text without any line break has lost them. Chosen: no first line alone is as long, and the
 /// headers alone are longer. \[characters\]
@@ -56,43 +57,24 @@ pub(super) fn parse_number(text: &str) -> Option<f64> {
     value.filter(|value: &f64| value.is_finite())
 }
 
-/// Printable ASCII: what every reader takes. Letters with marks, composed or not, are spelt out, line breaks become
-/// blanks, the rest '?'.
+/// Returns a text in printable ASCII, what every reader takes: umlauts spelt out as in German, other letters without
+/// marks or by their sound, line breaks as blanks.
 pub(super) fn ascii(text: &str) -> String {
-    const DIAERESIS: char = '\u{308}';
-    let mut out = String::with_capacity(text.len());
-    let mut chars = text.chars().peekable();
-    while let Some(c) = chars.next() {
-        match c {
-            ' '..='~' => {
-                out.push(c);
-                if "aouAOU".contains(c) && chars.peek() == Some(&DIAERESIS) {
-                    out.push('e');
-                }
-            }
-            // Marks of decomposed letters.
-            '\u{300}'..='\u{36f}' => {}
-            'ä' => out.push_str("ae"),
-            'ö' => out.push_str("oe"),
-            'ü' => out.push_str("ue"),
-            'Ä' => out.push_str("Ae"),
-            'Ö' => out.push_str("Oe"),
-            'Ü' => out.push_str("Ue"),
-            'ß' => out.push_str("ss"),
-            'à' | 'â' | 'á' | 'å' => out.push('a'),
-            'é' | 'è' | 'ê' | 'ë' => out.push('e'),
-            'ç' => out.push('c'),
-            'ñ' => out.push('n'),
-            'ô' | 'ó' | 'ø' => out.push('o'),
-            '°' => out.push_str(" deg"),
-            '²' => out.push('2'),
-            '×' => out.push('x'),
-            '–' | '—' | '−' => out.push('-'),
-            c if c.is_whitespace() => out.push(' '),
-            _ => out.push('?'),
+    let mut spelt = String::with_capacity(text.len());
+    for letter in composed(text).chars() {
+        match letter {
+            'ä' => spelt.push_str("ae"),
+            'ö' => spelt.push_str("oe"),
+            'ü' => spelt.push_str("ue"),
+            'Ä' => spelt.push_str("Ae"),
+            'Ö' => spelt.push_str("Oe"),
+            'Ü' => spelt.push_str("Ue"),
+            '°' => spelt.push_str(" deg"),
+            letter if letter.is_control() => spelt.push(' '),
+            letter => spelt.push(letter),
         }
     }
-    out
+    ascii_words(&spelt)
 }
 
 /// The error of a reader at a line, counted from 1.
@@ -140,5 +122,7 @@ mod tests {
     fn marks_of_decomposed_letters_are_spelt_like_those_of_composed_ones() {
         assert_eq!(ascii("Gro\u{308}ße, U\u{308}ber, Cafe\u{301} 5 m²"), "Groesse, Ueber, Cafe 5 m2");
         assert_eq!(ascii("Größe, Über, Café 5 m²"), "Groesse, Ueber, Cafe 5 m2");
+        assert_eq!(ascii("Ø 80 mm – 45° ×2\n5 €"), "O 80 mm - 45 deg x2 5 EUR");
+        assert_eq!(ascii("Жалюзи 铝百叶窗 Περσίδες"), "Zhalyuzi Lu Bai Ye Chuang Persides");
     }
 }
