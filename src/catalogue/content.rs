@@ -1,23 +1,12 @@
 //! What a dataset holds, whatever it is called: by this the same data are known under other names and in other files.
 
 use crate::compute::btdf::Dataset;
-use crate::formats::dataset_blob::{content_hash, encode};
+use crate::formats::dataset_blob::{content_hash, encode_with_wordless};
 
 /// Hash of a dataset's functions and figures, of no word about it: 64 hexadecimal digits.
 pub fn content_of(dataset: &Dataset) -> String {
-    let wordless = Dataset {
-        name: String::new(),
-        manufacturer: String::new(),
-        description: String::new(),
-        state: String::new(),
-        format: String::new(),
-        incident_basis: String::new(),
-        emergent_basis: String::new(),
-        findings: Vec::new(),
-        described: None,
-        ..dataset.clone()
-    };
-    content_hash(&encode(&wordless))
+    let [_, wordless] = encode_with_wordless(dataset);
+    content_hash(&wordless)
 }
 
 #[cfg(test)]

@@ -1,12 +1,11 @@
 //! A product as it is to be stored: from datasets and what is told about them to rows, checked, with its figures.
 
-use super::content::content_of;
 use super::described::{common_description, view};
 use super::product::slug;
 use super::{CatalogueError, NewProduct, Product, ProductFinding, State, StateName, check, profile_transmittances};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState, Finding, LightFigures};
 use crate::compute::limits;
-use crate::formats::dataset_blob::{content_hash, decode, encode};
+use crate::formats::dataset_blob::{content_hash, decode, encode_with_wordless};
 use crate::texts::composed;
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -17,7 +16,7 @@ pub(super) struct Record {
     pub(super) product: Product,
     /// Hash and bytes of every dataset the product refers to.
     pub(super) datasets: Vec<(String, Vec<u8>)>,
-    /// Content of every state, see [`content_of`]; empty where it is not known.
+    /// Content of every state, see [`super::content_of`]; empty where it is not known.
     pub(super) contents: Vec<String>,
     /// Paths of the files that it was read from.
     pub(super) paths: Vec<String>,
@@ -78,12 +77,13 @@ fn prepared(
         .enumerate()
         .map(|(index, given)| ready(given, names.get(index).cloned().unwrap_or_default(), ask))
         .collect();
-    let (mut states, mut findings, mut blobs) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut states, mut findings, mut blobs, mut contents) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for one in ready {
-        let Ready { state, told, dataset } = one?;
+        let Ready { state, told, dataset, content } = one?;
         states.push(state);
         findings.extend(told);
         blobs.push(dataset);
+        contents.push(content);
     }
     let mut meta = NewProduct {
         name,
@@ -93,11 +93,10 @@ fn prepared(
         system: if meta.system.is_empty() { common_description(datasets).unwrap_or_default() } else { meta.system },
         ..meta
     };
-    let (contents, paths) = (std::mem::take(&mut meta.contents), std::mem::take(&mut meta.paths));
-    let contents = match contents.len() {
-        told if told == datasets.len() => contents,
-        _ => datasets.par_iter().map(content_of).collect(),
-    };
+    let paths = std::mem::take(&mut meta.paths);
+    if meta.contents.len() == datasets.len() {
+        contents = std::mem::take(&mut meta.contents);
+    }
     Ok(Record { product: product(meta, states, findings)?, datasets: blobs, contents, paths })
 }
 
@@ -107,10 +106,12 @@ struct Ready {
     told: Vec<ProductFinding>,
     /// Hash and bytes.
     dataset: (String, Vec<u8>),
+    content: String,
 }
 
 fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -> Result<Ready, CatalogueError> {
-    let (hash, blob, dataset, own) = stored(given, ask)?;
+    let Packed { hash, blob, content, dataset } = packed(given)?;
+    let own = ask(&dataset);
     let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
         return Err(CatalogueError::Import(format!("dataset \"{}\" has no visible transmission", dataset.name)));
     };
@@ -127,7 +128,7 @@ fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -
         dataset: Some(hash.clone()),
         ..figured(named_state(&dataset.state, named), transmission, given.described.as_ref())
     };
-    Ok(Ready { state, told, dataset: (hash, blob) })
+    Ok(Ready { state, told, dataset: (hash, blob), content })
 }
 
 /// Where light goes, as far as a description tells it better than data on cells.
@@ -195,15 +196,23 @@ pub(super) fn product(
     })
 }
 
-/// Hash, bytes, and what is read back from them with its checks: all figures are those of what is stored (values
-/// rounded to f32), not of what came.
-pub(super) fn stored(
-    given: &Dataset,
-    ask: fn(&Dataset) -> Vec<Finding>,
-) -> Result<(String, Vec<u8>, Dataset, Vec<Finding>), CatalogueError> {
-    let blob = encode(given);
-    let hash = content_hash(&blob);
+/// A dataset as it is stored.
+pub(super) struct Packed {
+    pub(super) hash: String,
+    pub(super) blob: Vec<u8>,
+    /// See [`super::content_of`].
+    content: String,
+    /// What is read back from the bytes: all figures are those of what is stored (values rounded to f32).
+    pub(super) dataset: Dataset,
+}
+
+/// Packs a dataset, and reads it back.
+///
+/// # Errors
+/// Returns an error if the dataset exceeds the limits of what is stored.
+pub(super) fn packed(given: &Dataset) -> Result<Packed, CatalogueError> {
+    let [blob, wordless] = encode_with_wordless(given);
+    let (hash, content) = (content_hash(&blob), content_hash(&wordless));
     let dataset = decode(&blob).map_err(|cause| CatalogueError::Dataset { hash: hash.clone(), cause })?;
-    let findings = ask(&dataset);
-    Ok((hash, blob, dataset, findings))
+    Ok(Packed { hash, blob, content, dataset })
 }

@@ -1,7 +1,7 @@
 //! States that are known before their data: which they are, and how data and figures come to them.
 
 use super::described::described_state;
-use super::record::{Record, figured, light, named_state, stored};
+use super::record::{Packed, Record, figured, light, named_state, packed};
 use super::store::{insert_findings, put_blob, read_product};
 use super::verified::{blob_of, seal_rows, sealed};
 use super::{Catalogue, CatalogueError, Product, ProductFinding, State, StateName};
@@ -66,7 +66,7 @@ impl Catalogue {
         match self.put_state(product, dataset) {
             Err(error) if error.of_place() => {
                 // The same numbers as where they are stored.
-                let (_, _, mut read, _) = stored(dataset, |_| Vec::new())?;
+                let mut read = packed(dataset)?.dataset;
                 read.described = described_state(&product.system, &dataset.state);
                 let key = [product.key.clone(), dataset.state.clone()];
                 self.held.borrow_mut().push((key, Arc::new(read)));
@@ -81,7 +81,7 @@ impl Catalogue {
     /// its description.
     pub fn put_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
         // Packed before the lock is taken, so that other connections do not wait for it.
-        let (hash, blob, read, _) = stored(dataset, |_| Vec::new())?;
+        let Packed { hash, blob, dataset: read, .. } = packed(dataset)?;
         let wanted = |what: &str| CatalogueError::Import(format!("dataset \"{}\" has no {what}", dataset.name));
         let transmission = transmission(&read).ok_or_else(|| wanted("visible transmission"))?;
         let named = named_state(&dataset.state, StateName::default());

@@ -9,7 +9,7 @@ mod read;
 mod write;
 
 pub use read::{decode, decode_within};
-pub use write::encode;
+pub use write::{encode, encode_with_wordless};
 
 /// First bytes of every blob.
 pub(crate) const MAGIC: &[u8; 4] = b"CFSD";

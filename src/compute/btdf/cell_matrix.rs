@@ -76,11 +76,6 @@ impl CellMatrix {
         self.rows.row(incident, self.emergent.len())
     }
 
-    /// Adds a multiple of an indicatrix to a sum over the emergent cells.
-    pub fn add_row(&self, incident: usize, factor: f64, sum: &mut [f64]) {
-        self.rows.add_to(incident, self.emergent.len(), factor, sum);
-    }
-
     /// One value: incident cell, emergent cell. \[1/sr\]
     pub fn value(&self, incident: usize, emergent: usize) -> f64 {
         self.rows.value(incident, emergent, self.emergent.len())

@@ -3,10 +3,11 @@
 //!
 //! All of it is said of a vertical façade and of light from outside.
 
-use super::{Btdf, Indicatrix};
+use super::{Btdf, Indicatrix, Scattered};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::DVec3;
+use std::collections::HashMap;
 use std::f64::consts::PI;
 
 /// Rings and sectors of the incident directions that the upper quarter-sphere is summed on, even in projected solid angle.
@@ -58,27 +59,41 @@ fn to_ceiling(btdf: &Btdf) -> Option<f64> {
             let incident = Incident(Dir::from_theta_phi(theta, phi));
             // What goes straight on comes from above and goes down.
             all += btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
-            if let Some(indicatrix) = btdf.indicatrix(incident) {
-                let [some, whole] = upward.flux(&indicatrix);
-                up += some;
-                all += whole;
-            }
+            let [some, whole] = upward.flux(btdf, incident);
+            up += some;
+            all += whole;
         }
     }
     (all > DARK * (SKY[0] * SKY[1]) as f64).then(|| (up / all).clamp(0.0, 1.0))
 }
 
-/// Weights of emergent cells, kept as long as the cells stay the same.
+/// What is kept from one incident direction to the next.
 #[derive(Default)]
 struct Upward {
     basis: Option<RingBasis>,
     /// Projected solid angles: of the part of a cell that is light going up, and of the cell. \[sr\]
     weights: Vec<[f64; 2]>,
+    /// Flux of the rows of tabulated data that have been summed.
+    fluxes: HashMap<usize, [f64; 2]>,
 }
 
 impl Upward {
-    /// Light that goes up, and all.
-    fn flux(&mut self, indicatrix: &Indicatrix) -> [f64; 2] {
+    /// Returns the light of an incident direction that goes up, and all that is scattered.
+    fn flux(&mut self, btdf: &Btdf, incident: Incident) -> [f64; 2] {
+        let row = match &btdf.scattered {
+            Some(Scattered::Cells(matrix)) => matrix.incident().index(incident.0),
+            Some(Scattered::Directions(data)) => data.standing_for(incident.0),
+            _ => None,
+        };
+        if let Some(flux) = row.and_then(|row| self.fluxes.get(&row)) {
+            return *flux;
+        }
+        let flux = btdf.indicatrix(incident).map_or([0.0; 2], |indicatrix| self.sum(&indicatrix));
+        self.fluxes.extend(row.map(|row| (row, flux)));
+        flux
+    }
+
+    fn sum(&mut self, indicatrix: &Indicatrix) -> [f64; 2] {
         if self.basis.as_ref() != Some(&indicatrix.basis) {
             self.weights = weights(&indicatrix.basis);
             self.basis = Some(indicatrix.basis.clone());

@@ -149,7 +149,7 @@ impl Btdf {
                 q: matrix
                     .incident()
                     .index(incident.0)
-                    .map_or_else(|| vec![0.0; matrix.emergent().len()], |i| matrix.row(i).to_vec()),
+                    .map_or_else(|| vec![0.0; matrix.emergent().len()], |i| matrix.row(i).into_owned()),
             },
             Scattered::Directions(data) => Indicatrix {
                 basis: data.emergent().clone(),

@@ -18,16 +18,10 @@ pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &Rin
     }
     let inward = Resampling::new(matrix.incident(), incident);
     let outward = Resampling::new(matrix.emergent(), emergent);
-    let n_out = matrix.emergent().len();
-    let mut values = Vec::with_capacity(incident.len() * emergent.len());
-    let mut mean = vec![0.0; n_out];
-    for i in 0..incident.len() {
-        mean.fill(0.0);
-        for &(cell, share) in inward.shares(i) {
-            matrix.add_row(cell, share, &mut mean);
-        }
-        values.extend(outward.apply(&mean));
-    }
+    // The emergent cells first: these are many, and several of the new incident cells share a row.
+    let rows: Vec<Vec<f64>> = (0..matrix.incident().len()).map(|i| outward.apply(&matrix.row(i))).collect();
+    let mean = |i: usize, o: usize| inward.shares(i).iter().map(|&(cell, share)| share * rows[cell][o]).sum();
+    let values = (0..incident.len()).flat_map(|i| (0..emergent.len()).map(move |o| mean(i, o))).collect();
     CellMatrix::new(incident.clone(), emergent.clone(), values).expect("one row an incident cell")
 }
 

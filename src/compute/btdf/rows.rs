@@ -60,17 +60,6 @@ impl Rows {
         }
     }
 
-    /// Adds a multiple of one row of `n` values to a sum; nothing is widened in between.
-    pub fn add_to(&self, row: usize, n: usize, factor: f64, sum: &mut [f64]) {
-        match self {
-            Self::Single(values) => {
-                let row = &values[row * n..(row + 1) * n];
-                sum.iter_mut().zip(row).for_each(|(s, q)| *s += factor * f64::from(*q));
-            }
-            _ => sum.iter_mut().zip(self.row(row, n).iter()).for_each(|(s, q)| *s += factor * q),
-        }
-    }
-
     /// All rows, one after the other.
     pub fn all(&self) -> Cow<'_, [f64]> {
         match self {

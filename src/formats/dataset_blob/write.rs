@@ -12,11 +12,17 @@ use std::borrow::Cow;
 
 /// Bytes of a dataset. The same dataset always gives the same bytes.
 pub fn encode(dataset: &Dataset) -> Vec<u8> {
-    let mut out = Writer(MAGIC.to_vec());
-    // Only where thermal data are known: other datasets keep the bytes, and with them the name, that they always had.
-    let version = if dataset.thermal.is_empty() { FIRST } else { VERSION };
-    out.byte(version);
-    for text in [
+    with_words(dataset, words(dataset), &dataset.findings, &functions(dataset))
+}
+
+/// Returns [`encode`] of a dataset and of the same one without words and findings. Its functions are packed once.
+pub fn encode_with_wordless(dataset: &Dataset) -> [Vec<u8>; 2] {
+    let functions = functions(dataset);
+    [with_words(dataset, words(dataset), &dataset.findings, &functions), with_words(dataset, [""; 7], &[], &functions)]
+}
+
+fn words(dataset: &Dataset) -> [&str; 7] {
+    [
         &dataset.name,
         &dataset.manufacturer,
         &dataset.description,
@@ -24,9 +30,11 @@ pub fn encode(dataset: &Dataset) -> Vec<u8> {
         &dataset.format,
         &dataset.incident_basis,
         &dataset.emergent_basis,
-    ] {
-        out.text(text);
-    }
+    ]
+}
+
+fn functions(dataset: &Dataset) -> Writer {
+    let mut out = Writer(Vec::new());
     out.byte(u8::from(dataset.thickness.is_some()));
     if let Some(thickness) = dataset.thickness {
         out.number(thickness);
@@ -37,7 +45,17 @@ pub fn encode(dataset: &Dataset) -> Vec<u8> {
         out.band(solar);
     }
     out.byte(mask(dataset.derived.iter().copied()));
-    out.findings(&dataset.findings);
+    out
+}
+
+fn with_words(dataset: &Dataset, words: [&str; 7], findings: &[Finding], functions: &Writer) -> Vec<u8> {
+    let mut out = Writer(MAGIC.to_vec());
+    // Only where thermal data are known: other datasets keep the bytes, and with them the name, that they always had.
+    let version = if dataset.thermal.is_empty() { FIRST } else { VERSION };
+    out.byte(version);
+    words.into_iter().for_each(|text| out.text(text));
+    out.0.extend(&functions.0);
+    out.findings(findings);
     if version > FIRST {
         out.thermal(&dataset.thermal);
     }
