@@ -247,7 +247,7 @@ impl Listing {
     /// The files of an archive, or the archive itself where it is a package by another name.
     fn unpack(&mut self, file: &Given, depth: usize) {
         let bytes = match file.bytes(&self.left) {
-            Ok(bytes) => Arc::new(bytes),
+            Ok(bytes) => Arc::new(archive::with_distinct_names(bytes)),
             Err(error) => return self.failures.push(error),
         };
         let Contents { files, clashes } = match archive::contents(&bytes) {
