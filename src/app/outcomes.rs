@@ -14,6 +14,7 @@ use super::window::{App, end_step, fresh_undoer};
 use super::work::{Outcome, Shelved, daylight, fill_some, obstructions, take_from_shelf};
 use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
+use crate::study::files;
 use crate::study::scene_file::{ControlKeys, ControlMode};
 use crate::study::sky::SkyKeyError;
 use crate::texts::{Language, language, shell};
@@ -247,7 +248,7 @@ impl App {
             Outcome::There(what, path, there) => self.take_there(what, path, there),
             Outcome::Written(what, Ok(path)) => {
                 self.remember_folder(&path);
-                self.toasts.success(shell::written(path.display()));
+                self.toasts.success(shell::written(files::absolute(&path).display()));
                 if what == PathUse::SaveScene {
                     self.state.scene_path = Some(path);
                 }

@@ -3,7 +3,7 @@
 use super::output::{number, print};
 use super::progress::TerminalProgress;
 use super::rank::asked;
-use super::writing::Over;
+use super::writing::{StreamFormat, Tables};
 use super::{accuracy_rank, accuracy_year};
 use crate::compute::incidence::schemes::SunScheme;
 use crate::drawing::chart;
@@ -14,7 +14,7 @@ use crate::study::accuracy::words::{self, percent, quantity};
 use crate::study::accuracy::{Accuracy, Coverage, Origin, Reference, Rung, Series, Truth, ladder_against};
 use crate::study::accuracy_plot::{name, plots};
 use crate::study::leaving_out::LeavingOut;
-use crate::study::{Library, load_scene, read_scene_file};
+use crate::study::{Library, files, load_scene, read_scene_file};
 use anyhow::Context as _;
 use serde_json::json;
 use std::fmt::Write as _;
@@ -103,6 +103,9 @@ pub struct AccuracyArgs {
     /// Draw run time against error, and uncertainty against error, to a picture file
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub plot: Option<PathBuf>,
+    /// Format of the picture without a name.
+    #[command(flatten)]
+    pub stream: StreamFormat,
     /// Test the annual simulation of `[year]` instead: its hours and its figures
     #[arg(long, conflicts_with_all = ["reference", "plot"])]
     pub year: bool,
@@ -112,9 +115,9 @@ pub struct AccuracyArgs {
     /// Rank the products found by these search words instead of those of rank.products
     #[arg(long, value_name = "WORDS", requires = "rank")]
     pub products: Option<String>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print the results as JSON
     #[arg(long)]
     pub json: bool,
@@ -132,12 +135,16 @@ pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
         return of_rank(args, library);
     }
     // Before the work, so that a wrong name costs no minute.
-    let picture = args.plot.as_deref().map(|path| Ok::<_, anyhow::Error>((path, is_png(path)?))).transpose()?;
+    let picture = args
+        .plot
+        .as_deref()
+        .map(|path| Ok::<_, anyhow::Error>((path, is_png(&args.stream.name(path)?)?)))
+        .transpose()?;
     let picture = picture.map(|(path, png)| (path, if png { FileKind::Png } else { FileKind::Svg }));
     let from = [Some(&*args.scene), args.reference.as_deref()];
-    args.over.check(from.into_iter().flatten(), args.csv.as_deref(), FileKind::Csv)?;
+    args.tables.check(from.into_iter().flatten(), args.csv.as_deref(), FileKind::Csv)?;
     if let Some((path, kind)) = picture {
-        args.over.check([], Some(path), kind)?;
+        args.tables.over.check([], Some(path), kind)?;
     }
     let scene = load_scene(&args.scene, library)?;
     let truth = args.reference.as_deref().map(|path| Truth::read(path, &scene)).transpose()?;
@@ -145,7 +152,7 @@ pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
         .with_context(|| args.scene.display().to_string())?;
     let mut made = Vec::new();
     if let Some(path) = args.csv.as_deref() {
-        made.push((path, FileKind::Csv, csv(&accuracy)?.into_bytes()));
+        made.push((path, FileKind::Csv, args.tables.bytes(&csv(&accuracy)?)));
     }
     if let Some((path, kind)) = picture {
         let drawing = chart::draw(&plots(&accuracy), SIZE);
@@ -154,31 +161,31 @@ pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     }
     let outputs: Vec<(&Path, FileKind, &[u8])> =
         made.iter().map(|(path, kind, bytes)| (*path, *kind, &**bytes)).collect();
-    args.over.write_all(&outputs)?;
+    args.tables.over.write_all(&outputs)?;
     if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
 }
 
 /// Of the scene's ranking.
 fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
-    args.over.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
     let groups = asked(std::slice::from_ref(&args.scene), args.products.as_deref(), library)?;
     let accuracy =
         ranking(&groups, library, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
     if let Some(path) = args.csv.as_deref() {
-        args.over.write(path, FileKind::Csv, accuracy_rank::csv(&accuracy)?.as_bytes())?;
+        args.tables.put(Some(path), FileKind::Csv, &accuracy_rank::csv(&accuracy)?)?;
     }
     accuracy_rank::tell(&accuracy, args.json)
 }
 
 /// Of the scene's year.
 fn of_year(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
-    args.over.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
     let file = read_scene_file(&args.scene)?;
-    let base = args.scene.parent().unwrap_or(Path::new("."));
+    let base = files::folder(&args.scene);
     let accuracy = annual(&file, base, library, &|_| true, &TerminalProgress::new())
         .with_context(|| args.scene.display().to_string())?;
     if let Some(path) = args.csv.as_deref() {
-        args.over.write(path, FileKind::Csv, accuracy_year::csv(&accuracy)?.as_bytes())?;
+        args.tables.put(Some(path), FileKind::Csv, &accuracy_year::csv(&accuracy)?)?;
     }
     accuracy_year::tell(&accuracy, args.json)
 }

@@ -24,6 +24,9 @@ Examples:
   cfs goniophotometer blind.system.toml     compute data from geometry
   cfs catalogue list --search blind         search the catalogue
 
+The name - stands for standard input and, with --out, for standard output; all else then goes to standard error. \
+Pipes are read as well; what comes without a name is recognised by its content.
+
 Exit status:
   0    success
   1    data that are not fit for use, packages that differ, a damaged catalogue

@@ -2,7 +2,7 @@
 
 use super::output;
 use super::progress::TerminalProgress;
-use super::writing::Over;
+use super::writing::Tables;
 use crate::catalogue::{Catalogue, Query, StateKey};
 use crate::formats::FileKind;
 use crate::study::Library;
@@ -27,9 +27,9 @@ pub struct BuildArgs {
     /// Write the figures of all built-in products to a CSV file, too
     #[arg(long, value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print the numbers of products and states as JSON
     #[arg(long)]
     pub json: bool,
@@ -53,24 +53,24 @@ pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Res
 
 /// Computes what is missing of all built-in products, and writes them where asked.
 pub(super) fn build(catalogue: &mut Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
-    args.over.check([], args.out.as_deref(), FileKind::Package)?;
-    args.over.check([], args.table.as_deref(), FileKind::Csv)?;
+    args.tables.over.check([], args.out.as_deref(), FileKind::Package)?;
+    args.tables.check([], args.table.as_deref(), FileKind::Csv)?;
     let start = Instant::now();
     let computed = provided(catalogue, |_| true)?;
     catalogue.fill_figures(&TerminalProgress::new())?;
     let rows = catalogue.search(&Query { builtin: Some(true), ..Query::default() })?;
     let keys: Vec<String> = rows.iter().map(|row| row.key.clone()).collect();
     let package = args.out.as_deref().map(|out| Ok::<_, anyhow::Error>((out, catalogue.export_package(&keys)?)));
-    let figures = args.table.as_deref().map(|out| Ok::<_, anyhow::Error>((out, table(catalogue)?)));
+    let figures = args.table.as_deref().map(|out| Ok::<_, anyhow::Error>((out, args.tables.bytes(&table(catalogue)?))));
     let (package, figures) = (package.transpose()?, figures.transpose()?);
     let mut outputs: Vec<(&Path, FileKind, &[u8])> = Vec::new();
     if let Some((path, bytes)) = &package {
         outputs.push((path, FileKind::Package, bytes));
     }
     if let Some((path, text)) = &figures {
-        outputs.push((path, FileKind::Csv, text.as_bytes()));
+        outputs.push((path, FileKind::Csv, text));
     }
-    args.over.write_all(&outputs)?;
+    args.tables.over.write_all(&outputs)?;
     let (products, states) = (keys.len(), catalogue.builtin_states()?);
     if args.json {
         let told = json!({

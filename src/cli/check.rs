@@ -2,6 +2,7 @@
 
 use super::output::{print, print_text};
 use crate::catalogue::{Damage, Health, Place, check_file, default_path};
+use crate::study::files;
 use crate::study::health::{Mended, mend};
 use crate::texts::one_line;
 use serde_json::{Value, json};
@@ -81,7 +82,7 @@ fn as_text(path: &Path, health: &Health, mended: Option<&Mended>) -> Result<Stri
             }
         }
         Some(mended) => {
-            writeln!(text, "  as it was: {}", mended.copy.display())?;
+            writeln!(text, "  as it was: {}", files::absolute(&mended.copy).display())?;
             mended.mended.iter().try_for_each(|message| writeln!(text, "  mended: {message}"))?;
             mended.lost.iter().try_for_each(|message| writeln!(text, "  lost: {message}"))?;
             writeln!(text, "  now: {} products, {} datasets", mended.after.products, mended.after.datasets)?;

@@ -1,8 +1,7 @@
 //! `cfs compare`: figures of scenes, of their candidates and of products side by side.
 
-use super::output::print;
 use super::progress::TerminalProgress;
-use super::writing::Over;
+use super::writing::Tables;
 use crate::formats::FileKind;
 use crate::study::comparison::{
     DataFacts, FIGURES, Facts, Row, Value, Verdict, candidate, compare, csv, facts, label, verdict_words,
@@ -10,7 +9,7 @@ use crate::study::comparison::{
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
 use crate::study::system::{Need, SystemLibrary as _};
-use crate::study::{Library, Scene, Session, read_scene_file};
+use crate::study::{Library, Scene, Session, files, read_scene_file};
 use anyhow::{Context as _, anyhow, bail};
 use serde_json::{Value as Json, json};
 use std::fmt::Write as _;
@@ -49,9 +48,9 @@ pub struct CompareArgs {
     /// Write the result to a file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print a CSV table with one row per figure
     #[arg(long, conflicts_with = "json")]
     pub csv: bool,
@@ -76,12 +75,12 @@ pub fn run(args: &CompareArgs, library: &Library) -> anyhow::Result<()> {
         _ => FileKind::Comparison,
     };
     let from = args.what.iter().map(Path::new).chain(args.scene.as_deref());
-    args.over.check(from, args.out.as_deref(), kind)?;
+    args.tables.check(from, args.out.as_deref(), kind)?;
     let base = args.scene.as_deref().map(read).transpose()?;
     let mut list: Vec<(String, One)> = Vec::new();
     for what in &args.what {
         let path = Path::new(what);
-        if path.extension().is_some_and(|ending| ending == "toml") {
+        if files::is_stream(path) || path.extension().is_some_and(|ending| ending == "toml") {
             let (scene, folder) = read(path)?;
             if scene.compare.is_empty() {
                 let name = path.file_stem().map_or_else(|| what.clone(), |stem| stem.to_string_lossy().into_owned());
@@ -130,14 +129,11 @@ pub fn run(args: &CompareArgs, library: &Library) -> anyhow::Result<()> {
         (_, true) => csv(&rows, &names),
         _ => table(&rows, &names),
     };
-    match &args.out {
-        Some(path) => Ok(args.over.write(path, kind, text.as_bytes())?),
-        None => print(&text),
-    }
+    args.tables.put(args.out.as_deref(), kind, &text)
 }
 
 fn read(path: &Path) -> anyhow::Result<(SceneFile, PathBuf)> {
-    Ok((read_scene_file(path)?, path.parent().unwrap_or(Path::new(".")).to_owned()))
+    Ok((read_scene_file(path)?, files::folder(path).to_owned()))
 }
 
 /// A product by KEY or KEY:STATE: its name, and as what fills an aperture.

@@ -2,14 +2,14 @@
 
 use super::output::print;
 use super::progress::TerminalProgress;
-use super::writing::Over;
+use super::writing::Tables;
 use crate::formats::FileKind;
 use crate::study::control::year::{Moment, Moving, Situation, Summary, moving, summary, year};
-use crate::study::{Library, SystemLibrary as _, read_scene_file};
+use crate::study::{Library, SystemLibrary as _, files, read_scene_file};
 use crate::texts::csv_cell;
 use anyhow::anyhow;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `cfs control`.
 #[derive(Debug, Clone, clap::Args)]
@@ -42,9 +42,9 @@ pub struct ControlArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print a summary as JSON: hours per state, hours of sun, movements
     #[arg(long)]
     pub json: bool,
@@ -53,24 +53,22 @@ pub struct ControlArgs {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
-    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let file = read_scene_file(&args.scene)?;
-    let base = args.scene.parent().unwrap_or(Path::new("."));
+    let base = files::folder(&args.scene);
     let told = |error: crate::study::StudyError| anyhow!("{name}: {error}");
     let list = moving(&file, base, &|keys| library.device(keys, base)).map_err(told)?;
     let situation = Situation::of(&file).map_err(told)?;
     let progress = TerminalProgress::new();
     let moments = year(&situation, base, &list, args.step, &situation.sky, &progress).map_err(told)?;
     drop(progress);
-    if let Some(path) = &args.out {
-        args.over.write(path, FileKind::Csv, csv(&list, &moments).as_bytes())?;
+    if args.out.is_some() || !args.json {
+        args.tables.put(args.out.as_deref(), FileKind::Csv, &csv(&list, &moments))?;
     }
     let sums: Vec<Summary> =
         (0..list.len()).map(|k| summary(&moments, k, list[k].device.keys.len(), args.step)).collect();
     if args.json {
         print(&format!("{:#}\n", json(&list, &sums, &situation, args.step)))?;
-    } else if args.out.is_none() {
-        print(&csv(&list, &moments))?;
     }
     for (one, sum) in list.iter().zip(&sums) {
         let direct = match sum.direct_hours {

@@ -1,7 +1,7 @@
 //! `cfs convert`: between the dataset formats that the program reads and writes.
 
 use crate::cli::dataset_file;
-use crate::cli::writing::Over;
+use crate::cli::writing::{Over, StreamFormat};
 use crate::compute::btdf::{Component, Dataset, TreeRank};
 use crate::formats::bsdf_xml::{self, TreeForm};
 use crate::formats::{FileKind, Format, FormatError, Written, btdf_text, format_to_write, write_dataset};
@@ -14,6 +14,7 @@ use std::path::PathBuf;
 Examples:
   cfs convert opal.btdf.txt opal.xml            matrices on Klems bases
   cfs convert opal.btdf.txt tree.xml --tree 3   tensor trees
+  cfs convert - - --format xml                  standard input and output
 
 Reads .xml, .btdf.txt, .cfsd, and .cfsp with one product. Findings of the conversion are printed on standard error.")]
 pub struct ConvertArgs {
@@ -21,6 +22,9 @@ pub struct ConvertArgs {
     pub input: PathBuf,
     /// Dataset file to write, .xml (BSDF XML) or .btdf.txt
     pub output: PathBuf,
+    /// Format of a file without a name.
+    #[command(flatten)]
+    pub stream: StreamFormat,
     /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
@@ -83,7 +87,8 @@ fn component(word: &str) -> Result<Component, String> {
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let out_name = args.output.to_string_lossy();
     // Before the input is read: that may take seconds, a wrong extension is known at once.
-    let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    let format = format_to_write(&args.stream.name(&args.output)?.to_string_lossy());
+    let format = format.map_err(|error| anyhow!("{out_name}: {error}"))?;
     args.over.check([&*args.input], Some(&args.output), FileKind::Dataset(format))?;
     let mut datasets = dataset_file::read(&args.input)?;
     if let Some(state) = &args.state {

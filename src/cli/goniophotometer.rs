@@ -1,13 +1,13 @@
 //! `cfs goniophotometer`: datasets computed from a description of geometry and material.
 
-use super::writing::Over;
+use super::writing::{Over, StreamFormat, refuse_stream};
 use super::{output, progress::TerminalProgress};
 use crate::catalogue::Catalogue;
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{BandName, Btdf, Component, Dataset, Scattered, SolarSource, matrix_on};
 use crate::formats::{FileKind, Format, Written, btdf_text, format_to_write, write_dataset};
 use crate::study::goniophotometer::{Computed, Described, Request};
-use crate::study::{Library, StudyError};
+use crate::study::{Library, StudyError, files};
 use anyhow::{anyhow, bail};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -57,6 +57,9 @@ pub struct GoniophotometerArgs {
     /// File to write: .xml, .btdf.txt or .cfsp (default: print the summary only)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Format of a file without a name.
+    #[command(flatten)]
+    pub stream: StreamFormat,
     /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
@@ -119,15 +122,18 @@ enum Target<'a> {
 pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.system.display().to_string();
     let request = args.request()?;
-    let target = match args.out.as_deref() {
-        None => Target::None,
-        Some(path) if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("cfsp")) => Target::Package(path),
-        Some(path) => {
-            let shown = path.to_string_lossy();
-            let format = format_to_write(&shown).map_err(|error| anyhow!("{shown}: {error}, or a package (.cfsp)"))?;
-            Target::States(path, format)
-        }
-    };
+    let target =
+        match args.out.as_deref().map(|path| Ok::<_, anyhow::Error>((path, args.stream.name(path)?))).transpose()? {
+            None => Target::None,
+            Some((path, name)) if name.extension().is_some_and(|e| e.eq_ignore_ascii_case("cfsp")) => {
+                Target::Package(path)
+            }
+            Some((path, name)) => {
+                let format = format_to_write(&name.to_string_lossy());
+                let format = format.map_err(|error| anyhow!("{}: {error}, or a package (.cfsp)", path.display()))?;
+                Target::States(path, format)
+            }
+        };
     match &target {
         Target::Package(path) => args.over.check([&*args.system], Some(path), FileKind::Package)?,
         Target::States(path, format) => args.over.check([&*args.system], Some(path), FileKind::Dataset(*format))?,
@@ -153,6 +159,9 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
     }
     // Before anything is computed: no state is written if another cannot be.
     if let Target::States(path, format) = &target {
+        if states.len() > 1 || *format == Format::BtdfText {
+            refuse_stream(path)?;
+        }
         for state in &states {
             let path = path_of_state(path, state, states.len() > 1);
             let components = if *format == Format::BtdfText { &Component::ALL[..] } else { &Component::ALL[..1] };
@@ -162,7 +171,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
             }
         }
     }
-    let keep = args.out.as_deref().map(|path| {
+    let keep = args.out.as_deref().filter(|path| !files::is_stream(path)).map(|path| {
         let mut folder = path.as_os_str().to_owned();
         folder.push(".part");
         PathBuf::from(folder)

@@ -9,7 +9,7 @@ use crate::compute::btdf::{
 use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine_all};
 use crate::formats::system_toml::is_system_file;
-use crate::study::Library;
+use crate::study::{Library, files};
 use crate::texts::one_line;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -81,7 +81,7 @@ fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Con
     if let Some(content) = weather_info::describe(file, as_json)? {
         return Ok(content);
     }
-    if is_system_file(&file.to_string_lossy()) {
+    if is_system_file(&files::telling_name(file)?) {
         return system_info::describe(file, as_json, library);
     }
     let datasets = dataset_file::read(file)?;

@@ -3,7 +3,7 @@
 use super::output::print;
 use super::progress::TerminalProgress;
 use super::weather_info::weather_notes;
-use super::writing::Over;
+use super::writing::{Over, StreamFormat, Tables, refuse_stream, tell_written};
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::FileKind;
 use crate::formats::ies::IesEdition;
@@ -11,7 +11,7 @@ use crate::formats::luminaire_index::{self, Row};
 use crate::study::luminaire_file::{LidFormat, describe};
 use crate::study::luminaire_series::{Member, Series};
 use crate::study::luminaire_set::{LuminaireSet, SetError, TileFile, Tiles, Wish, make, tile_name};
-use crate::study::{Scene, Session, clock, read_scene_file, system::SystemLibrary};
+use crate::study::{Scene, Session, clock, files, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
@@ -58,9 +58,12 @@ pub struct LidArgs {
     /// File to write: .ldt (EULUMDAT), .ies (LM-63), .csv (table), .png or .svg (polar diagram)
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Overwriting of existing files.
+    /// Format of a file without a name.
     #[command(flatten)]
-    pub over: Over,
+    pub stream: StreamFormat,
+    /// Form of the table, and overwriting of existing files.
+    #[command(flatten)]
+    pub tables: Tables,
     /// Edition of LM-63 for .ies
     #[arg(long, value_enum, default_value_t = EditionArg::Y2002)]
     pub edition: EditionArg,
@@ -126,7 +129,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         bail!("{}: --aperture {}: the scene has apertures 1 to {count}", path.display(), index + 1);
     }
     let series = Series { months: args.months.clone(), hours: args.hours.clone(), states: args.states.clone() };
-    let base = path.parent().unwrap_or(Path::new("."));
+    let base = files::folder(path);
     let (members, dark) = if series.is_empty() {
         (vec![Member { name: String::new(), tag: String::new(), scene: keys }], Vec::new())
     } else {
@@ -142,19 +145,25 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         LidFormat::Png => FileKind::Png,
         LidFormat::Svg => FileKind::Svg,
     };
+    args.tables.check([&**path], None, kind)?;
     if needs_index(&wish, &members) {
+        refuse_stream(&args.out)?;
         if args.out.file_name().is_none_or(|name| name.to_str().is_none()) {
             bail!(
                 "--out {}: a name that is not UTF-8, in which the index names files; expected another",
                 args.out.display()
             );
         }
-        args.over.check([&**path], Some(&args.out.with_extension("index.csv")), FileKind::Csv)?;
+        args.tables.over.check([], Some(&args.out.with_extension("index.csv")), FileKind::Csv)?;
     } else {
-        args.over.check([&**path], Some(&args.out), kind)?;
+        args.tables.over.check([], Some(&args.out), kind)?;
     }
-    let mut written = Written { over: args.over, kind, new: Vec::new(), index: None };
-    match all(args, &wish, &members, library, &mut written) {
+    let mut written = Written { over: args.tables.over, kind, paths: Vec::new(), new: Vec::new(), index: None };
+    let made = all(args, &wish, &members, library, &mut written);
+    if made.is_ok() {
+        tell_written(written.paths.iter().map(PathBuf::as_path));
+    }
+    match made {
         Ok(summaries) if args.json => {
             let index = written.index.map(|path| path.to_string_lossy().into_owned());
             let summary = match <[serde_json::Value; 1]>::try_from(summaries) {
@@ -176,6 +185,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
 struct Written {
     over: Over,
     kind: FileKind,
+    paths: Vec<PathBuf>,
     new: Vec<PathBuf>,
     index: Option<PathBuf>,
 }
@@ -184,7 +194,8 @@ impl Written {
     /// Writes files, all of them or none.
     fn put(&mut self, list: &[(PathBuf, FileKind, &[u8])]) -> Result<()> {
         let new: Vec<_> = list.iter().filter(|(path, ..)| !path.exists()).map(|(path, ..)| path.clone()).collect();
-        self.over.write_all(&list.iter().map(|(path, kind, bytes)| (&**path, *kind, *bytes)).collect::<Vec<_>>())?;
+        self.over.write_untold(&list.iter().map(|(path, kind, bytes)| (&**path, *kind, *bytes)).collect::<Vec<_>>())?;
+        self.paths.extend(list.iter().map(|(path, ..)| path.clone()));
         self.new.extend(new);
         Ok(())
     }
@@ -214,7 +225,7 @@ fn all(
     let (path, index) = (&args.scene, args.aperture as usize - 1);
     let scene_name = path.file_name().unwrap_or_default().to_string_lossy();
     let date = clock::now().date().to_string();
-    let base = path.parent().unwrap_or(Path::new("."));
+    let base = files::folder(path);
     let (mut rows, mut summaries): (Vec<Row>, Vec<_>) = (Vec::new(), Vec::with_capacity(members.len()));
     for member in members {
         let about = || {
@@ -240,7 +251,12 @@ fn all(
         let target = |file: &TileFile| {
             if named { args.out.with_file_name(&file.row.file) } else { args.out.clone() }
         };
-        let list: Vec<_> = set.files.iter().map(|file| (target(file), written.kind, &*file.bytes)).collect();
+        let bytes = |file: &TileFile| match std::str::from_utf8(&file.bytes) {
+            Ok(table) if written.kind == FileKind::Csv => args.tables.bytes(table),
+            _ => file.bytes.clone(),
+        };
+        let made: Vec<_> = set.files.iter().map(|file| (target(file), bytes(file))).collect();
+        let list: Vec<_> = made.iter().map(|(path, bytes)| (path.clone(), written.kind, &**bytes)).collect();
         written.put(&list)?;
         rows.extend(set.files.iter().map(|file| Row { set: member.name.clone(), ..file.row.clone() }));
         if !args.json {
@@ -252,7 +268,7 @@ fn all(
         let path = args.out.with_extension("index.csv");
         written.put(&[(path.clone(), FileKind::Csv, &luminaire_index::write(&rows))])?;
         if !args.json {
-            tell!("{}: index of {} files", absolute(&path).display(), rows.len());
+            tell!("index of {} files", rows.len());
         }
         written.index = Some(path);
     }
@@ -266,7 +282,7 @@ fn wish(args: &LidArgs) -> Result<Wish> {
         EditionArg::Y2019 => IesEdition::Lm63_2019,
     };
     let shown = args.out.display();
-    let format = LidFormat::of(&args.out, edition).with_context(|| format!("--out {shown}"))?;
+    let format = LidFormat::of(&args.stream.name(&args.out)?, edition).with_context(|| format!("--out {shown}"))?;
     if !matches!(format, LidFormat::Eulumdat | LidFormat::Ies(_)) {
         if args.tiles != Tiles::None {
             bail!("--tiles {}: {shown} is no luminaire file (.ldt or .ies)", args.tiles);
@@ -321,18 +337,11 @@ fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> serde_json::V
     })
 }
 
-/// Returns the path from the root of the file system, where the system knows it.
-fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
-}
-
 /// For people.
 fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
-    let out = absolute(&args.out);
-    let shown = if member.tag.is_empty() { out } else { out.with_file_name(file_name(&args.out, &member.tag, None)) };
+    let of = if member.name.is_empty() { String::new() } else { format!("{}: ", member.name) };
     tell!(
-        "{}: {:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
-        shown.display(),
+        "{of}{:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
         set.flux.value,
         set.peak,
         set.step.degrees(),

@@ -4,6 +4,7 @@
 use super::output::Content;
 use crate::compute::direction::Surface;
 use crate::formats::luminaire::{Luminaire, Photometry};
+use crate::study::files;
 use crate::study::luminaires::{self, INDEX, LuminaireAperture};
 use crate::texts::one_line;
 use serde_json::json;
@@ -18,7 +19,7 @@ const SAME: f64 = 1e-4;
 /// # Errors
 /// Returns an error if the file cannot be read: one line with the file's name and the place in it.
 pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
-    if path.to_string_lossy().to_ascii_lowercase().ends_with(INDEX) {
+    if files::telling_name(path)?.to_ascii_lowercase().ends_with(INDEX) {
         return index(path, as_json).map(Some);
     }
     let Some(luminaire) = luminaires::read_file(path)? else { return Ok(None) };

@@ -5,6 +5,15 @@ use crate::texts::{message, short_numbers, visible};
 use anyhow::Context as _;
 use serde_json::Value;
 use std::io::Write as _;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether standard output is the file that the command writes.
+static IS_FILE: AtomicBool = AtomicBool::new(false);
+
+/// Gives standard output to the file that the command writes: all else that is printed goes to standard error.
+pub(super) fn give_to_file() {
+    IS_FILE.store(true, Ordering::Relaxed);
+}
 
 /// Description of one file, as text or as JSON values (one per state of a dataset file).
 pub(super) enum Content {
@@ -24,7 +33,17 @@ impl Content {
 /// Data to standard output: CSV, JSON, templates. What commands a terminal is visible there; a closed pipe is the reader's
 /// choice, not an error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {
-    match std::io::stdout().lock().write_all(visible(text).as_bytes()) {
+    print_bytes(visible(text).as_bytes())
+}
+
+/// Bytes to standard output, which command no terminal.
+pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
+    if IS_FILE.load(Ordering::Relaxed) {
+        // As with any message, nobody is left to be told that it cannot be told.
+        drop(std::io::stderr().lock().write_all(bytes));
+        return Ok(());
+    }
+    match std::io::stdout().lock().write_all(bytes) {
         Err(e) if e.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
         other => other.context("standard output"),
     }

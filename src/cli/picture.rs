@@ -2,12 +2,12 @@
 
 use super::language::ReportLanguage;
 use super::progress::TerminalProgress;
-use super::writing::Over;
+use super::writing::{Over, StreamFormat};
 use crate::formats::FileKind;
 use crate::report::{Look, Size, TileKind, picture};
 use crate::study::goniophotometer::LayerLibrary as _;
 use crate::study::subject::{Asked, Subject, Wanted};
-use crate::study::{Library, Session, read_scene_file};
+use crate::study::{Library, Session, files, read_scene_file};
 use crate::texts::speak;
 use anyhow::{Context as _, bail};
 use std::path::{Path, PathBuf};
@@ -42,6 +42,9 @@ pub struct PictureArgs {
     /// File to write: .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
+    /// Format of a file without a name.
+    #[command(flatten)]
+    pub stream: StreamFormat,
     /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
@@ -50,7 +53,7 @@ pub struct PictureArgs {
 /// A scene file's subject.
 pub(super) fn subject(path: &Path, wanted: Wanted, library: &Library) -> anyhow::Result<Subject> {
     let file = read_scene_file(path)?;
-    let base = path.parent().unwrap_or(Path::new("."));
+    let base = files::folder(path);
     let asked = Asked { file: &file, base, incident: None, wanted };
     let progress = TerminalProgress::new();
     Subject::of(&asked, &Session::new(), library, &|key| library.product(key), &progress)
@@ -60,7 +63,7 @@ pub(super) fn subject(path: &Path, wanted: Wanted, library: &Library) -> anyhow:
 /// Runs the command.
 pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
     let shown = args.out.display();
-    let ending = args.out.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let ending = args.stream.name(&args.out)?.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     if !["svg", "png"].contains(&&*ending) {
         bail!("--out {shown}: a picture is written as .svg or .png");
     }

@@ -6,14 +6,14 @@ use super::progress::TerminalProgress;
 use super::rank_csv::{Shape, shard_csv, shard_of};
 use super::rank_json::to_json;
 use super::rank_merge::merged;
-use super::writing::Over;
+use super::writing::Tables;
 use crate::compute::rank::Place;
 use crate::drawing::ticks;
 use crate::formats::FileKind;
 use crate::study::rank::{
     Group, List, Shard, Stage, csv_text, groups, keys, lists_of, ranked_table, run as compute, run_key,
 };
-use crate::study::{Library, Session, StudyError, read_scene_file};
+use crate::study::{Library, Session, StudyError, files, read_scene_file};
 use anyhow::{anyhow, bail};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -65,9 +65,9 @@ pub struct RankArgs {
     /// Write the table to a CSV file, too
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print the ranking as JSON, with the contributions to every difference
     #[arg(long)]
     pub json: bool,
@@ -76,7 +76,7 @@ pub struct RankArgs {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     let from = args.scenes.iter().chain(&args.merge).map(PathBuf::as_path);
-    args.over.check(from, args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check(from, args.out.as_deref(), FileKind::Csv)?;
     if !args.merge.is_empty() {
         let (lists, figures) = merged(&args.merge)?;
         return tell(args, &lists, &figures);
@@ -90,7 +90,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     if let (Some(shape), Some(out)) = (&shape, &args.out)
         && there_already(args, shape, out)?
     {
-        tell!("{}: is there already", out.display());
+        tell!("{}: is there already", files::absolute(out).display());
         return Ok(());
     }
     let progress = TerminalProgress::new();
@@ -104,11 +104,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     let mut lists = lists_of(&groups, &items, outcomes, &keys);
     lists.iter_mut().for_each(List::sort);
     match (&shape, &args.out) {
-        (Some(shape), Some(out)) => {
-            let text = shard_csv(&lists, &figures, shape);
-            args.over.write(out, FileKind::Csv, text.as_bytes())?;
-            Ok(())
-        }
+        (Some(shape), Some(out)) => args.tables.put(Some(out), FileKind::Csv, &shard_csv(&lists, &figures, shape)),
         _ => tell(args, &lists, &figures),
     }
 }
@@ -121,7 +117,7 @@ pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Librar
             bail!("{}: named twice; expected each scene once", path.display());
         }
         let file = read_scene_file(path)?;
-        let base = path.parent().unwrap_or(Path::new("."));
+        let base = files::folder(path);
         let find = |words: &str| {
             let (products, found) = library.search(words)?;
             tell_notes(&found);
@@ -151,7 +147,7 @@ fn figures_of(groups: &[Group]) -> Vec<String> {
 fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<bool> {
     match shard_of(out) {
         Some(there) if there == *shape => Ok(true),
-        Some(there) if !args.over.force => bail!(
+        Some(there) if !args.tables.over.force => bail!(
             "{}: holds piece {}/{} of another ranking (other scenes, products or program); choose another name, or replace it \
              with --force",
             out.display(),
@@ -165,7 +161,7 @@ fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<b
 /// Writes and prints whole lists.
 fn tell(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<()> {
     if let Some(out) = &args.out {
-        args.over.write(out, FileKind::Csv, csv_text(&ranked_table(lists, figures)).as_bytes())?;
+        args.tables.put(Some(out), FileKind::Csv, &csv_text(&ranked_table(lists, figures)))?;
     }
     if args.json { print(&format!("{:#}\n", to_json(lists))) } else { print_text(&table(lists)) }
 }

@@ -6,6 +6,8 @@
 
 use super::output::number;
 use crate::compute::rank::{Better, Objective, utility};
+use crate::formats::decimal_comma::with_decimal_points;
+use crate::formats::encoding::decode;
 use crate::study::rank::{BETWEEN, List, Parts, Shard, begin, csv_text, exact, excluded, header};
 use std::path::Path;
 
@@ -34,9 +36,12 @@ impl Shape {
     }
 }
 
-/// The piece that a file holds whole; `None` for all other files, and where there is none.
+/// The piece that a file holds whole; `None` for all other files, for streams, and where there is none.
 pub(super) fn shard_of(path: &Path) -> Option<Shape> {
-    let mut reader = csv::Reader::from_path(path).ok()?;
+    let bytes = if path.is_file() { std::fs::read(path).ok()? } else { return None };
+    let text = decode(&bytes).ok()?;
+    let text = with_decimal_points(&text);
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
     let shape = Shape::read(reader.headers().ok()?.iter().next_back()?)?;
     let rows = reader.records().try_fold(0, |count, record| record.map(|_| count + 1)).ok()?;
     (rows == shape.rows).then_some(shape)

@@ -2,9 +2,11 @@
 
 use super::rank_csv::{Shape, objectives_of, parts_of};
 use crate::compute::estimate::Estimate;
+use crate::formats::decimal_comma::with_decimal_points;
+use crate::formats::encoding::decode;
 use crate::study::files;
 use crate::study::rank::{BETWEEN, Found, List, RESULT, Row, WHERE};
-use anyhow::{anyhow, bail};
+use anyhow::{Context as _, anyhow, bail};
 use csv::StringRecord;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -81,8 +83,10 @@ pub(super) fn merged(parts: &[PathBuf]) -> anyhow::Result<(Vec<List>, Vec<String
 
 fn read(path: &Path) -> anyhow::Result<Piece> {
     let bytes = files::read(path)?;
+    let text = decode(&bytes).with_context(|| path.display().to_string())?;
+    let text = with_decimal_points(&text);
     let wrong = |error: csv::Error| anyhow!("{}: {error}", path.display());
-    let mut reader = csv::Reader::from_reader(bytes.as_slice());
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().map_err(wrong)?.clone();
     let shape = header.iter().next_back().and_then(Shape::read).ok_or_else(|| {
         anyhow!("{}: is no piece of a ranking; expected a file of `cfs rank --shard n/N`", path.display())

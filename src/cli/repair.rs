@@ -1,7 +1,7 @@
 //! `cfs repair`: datasets mended as findings offer, written anew.
 
 use crate::cli::dataset_file;
-use crate::cli::writing::Over;
+use crate::cli::writing::{Over, StreamFormat};
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{Diagnosis, Repair, examine, record, recorded, repaired_all, sun_from_above};
 use crate::formats::{FileKind, format_to_write, write_dataset};
@@ -52,6 +52,9 @@ pub struct RepairArgs {
     /// Dataset file to write, .xml (BSDF XML) or .btdf.txt
     #[arg(long)]
     pub out: PathBuf,
+    /// Format of a file without a name.
+    #[command(flatten)]
+    pub stream: StreamFormat,
     /// Overwriting of existing files.
     #[command(flatten)]
     pub over: Over,
@@ -65,7 +68,8 @@ pub struct RepairArgs {
 pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let name = args.file.display();
     let out_name = args.out.to_string_lossy();
-    let format = format_to_write(&out_name).map_err(|error| anyhow!("{out_name}: {error}"))?;
+    let format = format_to_write(&args.stream.name(&args.out)?.to_string_lossy());
+    let format = format.map_err(|error| anyhow!("{out_name}: {error}"))?;
     args.over.check([&*args.file], Some(&args.out), FileKind::Dataset(format))?;
     let mut datasets = dataset_file::read(&args.file)?;
     for dataset in &mut datasets {

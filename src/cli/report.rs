@@ -81,7 +81,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
         });
     }
     let (Some(what), Some(out)) = (&args.what, &args.out) else { bail!("a scene or product, and --out, are needed") };
-    if !out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
+    if !files::is_stream(out) && !out.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pdf")) {
         bail!("--out {}: a report is written as .pdf", out.display());
     }
     let template = match &args.tender {
@@ -91,7 +91,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     args.over.check([Path::new(what)], Some(out), FileKind::Pdf)?;
     let _spoken = speak(args.language.0);
     let inks = if args.print { &Inks::PRINT } else { &Inks::LIGHT };
-    let is_scene = what.ends_with(".toml") || Path::new(what).is_file();
+    let is_scene = what.ends_with(".toml") || Path::new(what).is_file() || files::is_stream(Path::new(what));
     let (subject, sheet) = if is_scene {
         if args.state.is_some() {
             bail!("--state is for a product; the scene {what} names its own");
@@ -119,7 +119,7 @@ fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result
     if count > 0 && !(1..=count).contains(&args.base) {
         bail!("--base {}: expected a number from 1 to {count}, one of the scene's candidates", args.base);
     }
-    let base = path.parent().unwrap_or(Path::new("."));
+    let base = files::folder(path);
     let (session, progress) = (Session::new(), TerminalProgress::new());
     let wanted = Wanted { lid: true, room: true, control: args.compared == TileKind::Control, year: false };
     Comparison::of(&scene, (args.compared, args.base.saturating_sub(1)), |file, name| {

@@ -3,7 +3,7 @@
 use super::output::{number, print};
 use super::progress::TerminalProgress;
 use super::weather_info::{hour_json, weather_notes};
-use super::writing::Over;
+use super::writing::Tables;
 use crate::compute::lid::BeamSource;
 use crate::formats::FileKind;
 use crate::study::{RoomResult, Scene, SensorResult, Session, load_scene, system::SystemLibrary};
@@ -39,9 +39,9 @@ pub struct RoomArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print the results as JSON, with the computation plan: stages, reasons and times
     #[arg(long)]
     pub json: bool,
@@ -49,7 +49,7 @@ pub struct RoomArgs {
 
 /// Runs the command.
 pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
-    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let scene = load_scene(&args.scene, library)?;
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
@@ -67,15 +67,10 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
         csv.push_str(&cells.map(number).collect::<Vec<_>>().join(","));
         csv.push('\n');
     }
-    if let Some(path) = &args.out {
-        args.over.write(path, FileKind::Csv, csv.as_bytes())?;
+    if table {
+        args.tables.put(args.out.as_deref(), FileKind::Csv, &csv)?;
     }
-    if args.json {
-        print_json(&scene, &result)?;
-    } else if args.out.is_none() {
-        print(&csv)?;
-    }
-    Ok(())
+    if args.json { print_json(&scene, &result) } else { Ok(()) }
 }
 
 /// Share of the light left open by the data from which on a person is told.

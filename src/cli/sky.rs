@@ -2,18 +2,19 @@
 
 use crate::cli::output::print;
 use crate::cli::weather_info::{hour_json, weather_notes};
-use crate::cli::writing::Over;
+use crate::cli::writing::Tables;
 use crate::compute::estimate::Silent;
 use crate::compute::sky::mean_luminance;
 use crate::compute::sky::patches::tregenza_patches;
 use crate::compute::sky::{Outside, Sun};
 use crate::formats::FileKind;
 use crate::study::facade::{FacadeLight, facade_light};
+use crate::study::files;
 use crate::study::sky::{hour_of_weather, illuminances, outside_from_keys};
 use anyhow::anyhow;
 use rayon::prelude::*;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `cfs sky`.
 #[derive(Debug, Clone, clap::Args)]
@@ -38,9 +39,9 @@ pub struct SkyArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print patches and illuminances as JSON
     #[arg(long)]
     pub json: bool,
@@ -58,9 +59,9 @@ struct Row {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let name = args.scene.display();
-    args.over.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
     let scene = crate::study::read_scene_file(&args.scene)?;
-    let base_dir = args.scene.parent().unwrap_or(Path::new("."));
+    let base_dir = files::folder(&args.scene);
     let (outside, sun) =
         outside_from_keys(&scene.sky, &scene.site, base_dir).map_err(|error| anyhow!("{name}: {error}"))?;
 
@@ -68,15 +69,13 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let rows = table(&outside);
     let facade = facade_light(&scene, base_dir, (&outside, sun.as_ref()), &Silent);
     let facade = facade.map_err(|error| anyhow!("{name}: {error}"))?;
-    if let Some(path) = &args.out {
-        args.over.write(path, FileKind::Csv, csv(&rows).as_bytes())?;
+    if args.out.is_some() || !args.json {
+        args.tables.put(args.out.as_deref(), FileKind::Csv, &csv(&rows))?;
     }
     if args.json {
         let mut value = json(&rows, &outside, sun.as_ref(), &facade);
         value["weather"] = hour.as_ref().map(hour_json).into();
         print(&format!("{value:#}\n"))?;
-    } else if args.out.is_none() {
-        print(&csv(&rows))?;
     }
     let light = illuminances(&scene.sky, &scene.site).map_err(|error| anyhow!("{name}: {error}"))?;
     if let Some(note) = light.and_then(|light| light.note()) {

@@ -5,6 +5,7 @@ use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, ProductFinding, Query};
 use crate::compute::btdf::Severity;
 use crate::compute::doctor::{examine_all, meaning};
+use crate::study::files;
 use anyhow::bail;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -48,7 +49,7 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
         // product is offered none.
         let judged: Vec<Judged> = if all.iter().any(|row| row.key == item) {
             catalogue.validate(&item)?.into_iter().map(|finding| Judged { finding, repair: None }).collect()
-        } else if Path::new(&item).exists() {
+        } else if files::is_stream(Path::new(&item)) || Path::new(&item).exists() {
             of_file(Path::new(&item))?
         } else {
             // Passed over, a misspelt item would look as if it were fit for use.

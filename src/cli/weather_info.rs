@@ -3,6 +3,7 @@
 use super::output::Content;
 use crate::compute::weather::{LightSource, Summary, Weather};
 use crate::formats::weather::is_weather_file;
+use crate::study::files;
 use crate::study::sky::HourOfWeather;
 use crate::study::weather::{BUILTIN, load};
 use anyhow::anyhow;
@@ -15,7 +16,7 @@ use std::path::Path;
 /// # Errors
 /// Returns an error if the file cannot be read: one line with the file's name and the place in it.
 pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
-    let name = path.to_string_lossy();
+    let name = files::telling_name(path)?;
     if !name.starts_with(BUILTIN) && !is_weather_file(&name) {
         return Ok(None);
     }

@@ -1,9 +1,19 @@
-//! Files that commands write: not over what they were made from, nor over files of another kind without a word.
+//! Files that commands write: not over what they were made from, nor over files of another kind without a word; to standard
+//! output under the name `-`; each told by its full path.
 
+use super::output;
 use crate::formats::FileKind;
+use crate::formats::decimal_comma::with_decimal_commas;
 use crate::study::StudyError;
 use crate::study::files::{self, Output, Replace};
-use std::path::Path;
+use crate::texts::visible;
+use anyhow::bail;
+use std::borrow::Cow;
+use std::io::IsTerminal as _;
+use std::path::{Path, PathBuf};
+
+/// Most files of one command that are told one by one. Chosen: no effect on results.
+const MAX_TOLD: usize = 4;
 
 /// Options for overwriting existing files.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
@@ -18,25 +28,135 @@ impl Over {
         Replace::Kind { kind, force: self.force }
     }
 
-    /// Before the work: may this file be written? `from`: what the command is about to read.
+    /// Checks before the work whether a file may be written, and gives standard output to it where it is meant. `from`: what
+    /// the command is about to read.
     pub(super) fn check<'a>(
         self,
         from: impl IntoIterator<Item = &'a Path>,
         path: Option<&Path>,
         kind: FileKind,
-    ) -> Result<(), StudyError> {
+    ) -> anyhow::Result<()> {
         from.into_iter().for_each(files::keep);
-        path.map_or(Ok(()), |path| files::check(path, self.replace(kind)))
+        let Some(path) = path else { return Ok(()) };
+        if files::is_standard(path) {
+            if !kind.is_text() && std::io::stdout().is_terminal() {
+                bail!("-: {} is not text for a terminal; expected a pipe or a file as standard output", kind.words());
+            }
+            output::give_to_file();
+        }
+        Ok(files::check(path, self.replace(kind))?)
     }
 
     /// Writes a file whole, or not at all.
     pub(super) fn write(self, path: &Path, kind: FileKind, bytes: &[u8]) -> Result<(), StudyError> {
-        files::write(path, bytes, self.replace(kind))
+        self.write_all(&[(path, kind, bytes)])
     }
 
-    /// Writes files, all of them or none.
+    /// Writes files, all of them or none, and tells them.
     pub(super) fn write_all(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
+        self.write_untold(list)?;
+        tell_written(list.iter().map(|(path, ..)| *path));
+        Ok(())
+    }
+
+    /// Writes files, all of them or none, of which more are to come: [`tell_written`] tells them all.
+    pub(super) fn write_untold(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         let output = |&(path, kind, bytes): &(_, _, _)| Output { path, bytes, replace: self.replace(kind) };
         files::write_all(&list.iter().map(output).collect::<Vec<_>>())
     }
+}
+
+/// Tells on standard error which files were written, by their full paths; of many the first. Streams are no files.
+pub(super) fn tell_written<'a>(paths: impl Iterator<Item = &'a Path>) {
+    let list: Vec<PathBuf> = paths.filter(|path| !files::is_stream(path)).map(files::absolute).collect();
+    match list.as_slice() {
+        [first, others @ ..] if list.len() > MAX_TOLD => {
+            tell!("written: {} and {} more files beside it", first.display(), others.len());
+        }
+        few => few.iter().for_each(|path| tell!("written: {}", path.display())),
+    }
+}
+
+/// Options for writing CSV tables.
+#[derive(Debug, Clone, Copy, Default, clap::Args)]
+pub struct Tables {
+    /// Overwriting of existing files.
+    #[command(flatten)]
+    pub over: Over,
+    /// Write the CSV table with decimal commas, and semicolons between columns, as spreadsheets in German and other languages
+    /// expect it; such a table is read wherever the plain one is
+    #[arg(long)]
+    pub decimal_comma: bool,
+}
+
+impl Tables {
+    /// Checks before the work, as [`Over::check`] does, and whether there are decimals at all.
+    pub(super) fn check<'a>(
+        self,
+        from: impl IntoIterator<Item = &'a Path>,
+        path: Option<&Path>,
+        kind: FileKind,
+    ) -> anyhow::Result<()> {
+        if self.decimal_comma && kind != FileKind::Csv {
+            bail!("--decimal-comma: {} is written; expected a CSV table", kind.words());
+        }
+        self.over.check(from, path, kind)
+    }
+
+    /// Returns a text of this kind in the form that is asked for.
+    fn formed(self, kind: FileKind, text: &str) -> Cow<'_, [u8]> {
+        if self.decimal_comma && kind == FileKind::Csv {
+            Cow::Owned(with_decimal_commas(text))
+        } else {
+            Cow::Borrowed(text.as_bytes())
+        }
+    }
+
+    /// Writes a text to a file, or without one to standard output.
+    pub(super) fn put(self, path: Option<&Path>, kind: FileKind, text: &str) -> anyhow::Result<()> {
+        match path {
+            Some(path) => Ok(self.over.write(path, kind, &self.formed(kind, text))?),
+            None => output::print_bytes(&self.formed(kind, &visible(text))),
+        }
+    }
+
+    /// Returns a table as the bytes of its file.
+    pub(super) fn bytes(self, table: &str) -> Vec<u8> {
+        self.formed(FileKind::Csv, table).into_owned()
+    }
+}
+
+/// Option for the format of a file without a name.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct StreamFormat {
+    /// Format of a file that is written to standard output (-) or to a pipe, as the extension that it would have
+    #[arg(long, value_name = "EXTENSION")]
+    pub format: Option<String>,
+}
+
+impl StreamFormat {
+    /// Returns the name whose extension tells the format of a file.
+    pub(super) fn name(&self, path: &Path) -> anyhow::Result<PathBuf> {
+        match (&self.format, files::is_stream(path)) {
+            (Some(extension), true) => Ok(PathBuf::from(format!("stream.{}", extension.trim_start_matches('.')))),
+            (Some(_), false) => {
+                bail!(
+                    "{}: --format is for standard output and pipes; the name of a file tells its format",
+                    path.display()
+                )
+            }
+            (None, true) if path.extension().is_none() => {
+                bail!("{}: no extension that tells the format; expected --format, as in --format xml", path.display())
+            }
+            (None, _) => Ok(path.to_owned()),
+        }
+    }
+}
+
+/// Refuses standard output and pipes for several files.
+pub(super) fn refuse_stream(path: &Path) -> anyhow::Result<()> {
+    if files::is_stream(path) {
+        bail!("{}: several files would be written, a stream takes one; expected the name of a file", path.display());
+    }
+    Ok(())
 }

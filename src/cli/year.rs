@@ -2,7 +2,7 @@
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
-use super::writing::Over;
+use super::writing::Tables;
 use super::year_json::to_json;
 use crate::formats::FileKind;
 use crate::study::fingerprint::of_results;
@@ -56,9 +56,9 @@ pub struct YearArgs {
     /// Write the table (with --scene-at: the scene) to a file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Form of the table, and overwriting of existing files.
     #[command(flatten)]
-    pub over: Over,
+    pub tables: Tables,
     /// Print the annual metrics with their uncertainties as JSON
     #[arg(long)]
     pub json: bool,
@@ -83,9 +83,9 @@ pub struct YearArgs {
 pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
     let kind = if args.scene_at.is_some() { FileKind::Scene } else { FileKind::Csv };
-    args.over.check([&*args.scene], args.out.as_deref(), kind)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), kind)?;
     let file = read_scene_file(&args.scene)?;
-    let base = args.scene.parent().unwrap_or(Path::new("."));
+    let base = files::folder(&args.scene);
     let told = |error: StudyError| anyhow!("{name}: {error}");
     let progress = TerminalProgress::new();
     if let (Some(time), Some(out)) = (&args.scene_at, &args.out) {
@@ -95,13 +95,13 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     let wanted = wanted(args)?;
     let session = Session::new();
     // Beside a device nothing can be kept.
-    let table = args.out.as_deref().filter(|path| !files::is_standard(path) && (!path.exists() || path.is_file()));
+    let table = args.out.as_deref().filter(|path| !files::is_stream(path));
     let kept = table.map(|path| kept(args, path, &file, base, library)).transpose().map_err(told)?;
     let year = match kept {
         None => year(&file, base, library, &session, &*wanted, &progress).map_err(told)?,
         Some(mut kept) => {
             if kept.count() > 0 {
-                tell!("{}: goes on behind {} hours", kept.path().display(), kept.count());
+                tell!("{}: goes on behind {} hours", files::absolute(kept.path()).display(), kept.count());
             }
             let year = match year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress) {
                 Ok(year) => year,
@@ -114,22 +114,18 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
                     return Err(told(error));
                 }
             };
-            if let Some(path) = table {
-                args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
-            }
+            args.tables.put(table, FileKind::Csv, &csv(&year))?;
             kept.done()?;
             year
         }
     };
     drop(progress);
-    if let Some(path) = args.out.as_deref().filter(|_| table.is_none()) {
-        args.over.write(path, FileKind::Csv, csv(&year).as_bytes())?;
+    if table.is_none() && (args.out.is_some() || !args.json) {
+        args.tables.put(args.out.as_deref(), FileKind::Csv, &csv(&year))?;
     }
     if args.json {
         let opening = opening(&file, &year.settings, &year.steps).map_err(told)?;
         print(&format!("{:#}\n", to_json(&year, &figures(&year), &file, &opening)))?;
-    } else if args.out.is_none() {
-        print(&csv(&year))?;
     }
     for note in &year.notes {
         tell!("note: {note}");
@@ -145,17 +141,16 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
 
 /// Hours of a run that was ended, and those of this one.
 fn kept(args: &YearArgs, table: &Path, file: &SceneFile, base: &Path, library: &Library) -> Result<Kept, StudyError> {
-    Kept::beside(table, of_results(file, base, library)?, PATIENCE, args.over.force)
+    Kept::beside(table, of_results(file, base, library)?, PATIENCE, args.tables.over.force)
 }
 
 /// A scene that finds its files from where it is written.
 fn write_scene(args: &YearArgs, scene: &SceneFile, base: &Path, out: &Path) -> anyhow::Result<()> {
-    let folder = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let beside = out.parent().map(folder) == Some(folder(base));
+    // Nobody knows where what is written to a stream will lie.
+    let beside = !files::is_stream(out) && files::absolute(files::folder(out)) == files::absolute(base);
     let scene = if beside { scene.clone() } else { with_absolute_names(scene, base) };
     let text = toml::to_string(&scene).context("the scene")?;
-    args.over.write(out, FileKind::Scene, text.as_bytes())?;
-    Ok(())
+    args.tables.put(Some(out), FileKind::Scene, &text)
 }
 
 /// A time as `--scene-at` takes it.

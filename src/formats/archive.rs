@@ -50,7 +50,7 @@ pub struct Entry {
 pub struct Contents {
     /// Files that can be read, by name.
     pub files: Vec<Entry>,
-    /// Names that several files have, of which none can be told from the others.
+    /// Names that several files have, of which none can be told from the others: without [`with_distinct_names`].
     pub clashes: Vec<String>,
 }
 
@@ -101,26 +101,87 @@ fn with_slashes(name: &str) -> String {
     name.replace('\\', "/")
 }
 
+/// Bytes of a header in the list at the end of an archive, before its name: APPNOTE 4.3.12. \[bytes\]
+const HEADER: usize = 46;
+
+/// Returns the list at the end of an archive as headers and names, and what follows it.
+fn listed<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> (Vec<(&'a [u8], &'a [u8])>, &'a [u8]) {
+    let mut list = Vec::new();
+    let mut rest =
+        usize::try_from(zip.central_directory_start()).ok().and_then(|at| bytes.get(at..)).unwrap_or_default();
+    // The lengths of three fields are at 28, 30 and 32; the first field is the name.
+    while let Some(head) = rest.get(..HEADER).filter(|head| head.starts_with(b"PK\x01\x02")) {
+        let [name, extra, comment] = [28, 30, 32].map(|at| usize::from(u16::from_le_bytes([head[at], head[at + 1]])));
+        let Some((header, others)) = rest.split_at_checked(HEADER + name + extra + comment) else { break };
+        list.push((header, &header[HEADER..HEADER + name]));
+        rest = others;
+    }
+    (list, rest)
+}
+
 /// Returns the names that stand several times in the list at the end of an archive; the reader knows the last file of each
 /// alone.
 fn repeated<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> HashSet<&'a [u8]> {
-    let mut repeated = HashSet::new();
     if !zip.has_duplicate_names() {
-        return repeated;
+        return HashSet::new();
     }
     let mut seen = HashSet::new();
-    let mut rest =
-        usize::try_from(zip.central_directory_start()).ok().and_then(|at| bytes.get(at..)).unwrap_or_default();
-    // APPNOTE 4.3.12: 46 bytes, the lengths of three fields at 28, 30 and 32 among them; the first field is the name.
-    while let Some(head) = rest.get(..46).filter(|head| head.starts_with(b"PK\x01\x02")) {
-        let [name, extra, comment] = [28, 30, 32].map(|at| usize::from(u16::from_le_bytes([head[at], head[at + 1]])));
-        let Some(raw) = rest.get(46..46 + name) else { break };
-        if !seen.insert(raw) {
-            repeated.insert(raw);
-        }
-        rest = rest.get(46 + name + extra + comment..).unwrap_or_default();
+    listed(bytes, zip).0.into_iter().map(|(_, name)| name).filter(|name| !seen.insert(*name)).collect()
+}
+
+/// Numbers the files of an archive that have the name of one before them, as in `x (2).xml`: the reader knows one file of each
+/// name. Where the list of files is in the form of archives above 4 GB, it stays as it is, see [`Contents::clashes`].
+pub fn with_distinct_names(mut bytes: Vec<u8>) -> Vec<u8> {
+    if let Some((start, end)) =
+        opened(&bytes).ok().filter(ZipArchive::has_duplicate_names).and_then(|zip| renamed(&bytes, &zip))
+    {
+        bytes.truncate(start);
+        bytes.extend(end);
     }
-    repeated
+    bytes
+}
+
+/// Returns where the list at the end of an archive begins, the list without repeated names, and what follows it.
+fn renamed(bytes: &[u8], zip: &ZipArchive<Cursor<&[u8]>>) -> Option<(usize, Vec<u8>)> {
+    let start = usize::try_from(zip.central_directory_start()).ok()?;
+    let (list, rest) = listed(bytes, zip);
+    // APPNOTE 4.3.16: the record at the end has the length of the list at 12. Longer archives have another one before it.
+    if list.len() > MOST_ENTRIES || !rest.starts_with(b"PK\x05\x06") || rest.len() < 22 {
+        return None;
+    }
+    let mut names: HashSet<Vec<u8>> = list.iter().map(|(_, name)| name.to_vec()).collect();
+    let mut count: HashMap<&[u8], usize> = HashMap::new();
+    let mut written = Vec::new();
+    for (header, name) in list {
+        let number = count.entry(name).or_default();
+        let mut own = name.to_vec();
+        *number += 1;
+        while *number > 1
+            && !names.insert({
+                own = numbered(name, *number);
+                own.clone()
+            })
+        {
+            *number += 1;
+        }
+        written.extend_from_slice(&header[..28]);
+        written.extend_from_slice(&u16::try_from(own.len()).ok()?.to_le_bytes());
+        written.extend_from_slice(&header[30..HEADER]);
+        written.extend_from_slice(&own);
+        written.extend_from_slice(&header[HEADER + name.len()..]);
+    }
+    let length = u32::try_from(written.len()).ok()?;
+    written.extend_from_slice(&rest[..12]);
+    written.extend_from_slice(&length.to_le_bytes());
+    written.extend_from_slice(&rest[16..]);
+    Some((start, written))
+}
+
+/// Makes `a/x (2).xml` of `a/x.xml` and 2.
+fn numbered(name: &[u8], number: usize) -> Vec<u8> {
+    let file = name.iter().rposition(|byte| matches!(byte, b'/' | b'\\')).map_or(0, |at| at + 1);
+    let stem = name[file..].iter().rposition(|byte| *byte == b'.').map_or(name.len(), |at| file + at);
+    [&name[..stem], format!(" ({number})").as_bytes(), &name[stem..]].concat()
 }
 
 /// Whether these files are those of an exchange package.
@@ -186,6 +247,14 @@ mod tests {
         assert_eq!(names(&files), ["c/y.xml", "c\\y.xml"]);
         let held: Vec<_> = files.iter().map(|file| read(&bytes, file.index, 10).unwrap()).collect();
         assert_eq!(held, [b"4", b"3"]);
+        // Numbered, both are read.
+        let bytes = with_distinct_names(bytes);
+        let Contents { files, clashes } = contents(&bytes).unwrap();
+        assert_eq!((names(&files), clashes.len()), (vec!["a/x (2).xml", "a/x.xml", "c/y.xml", "c\\y.xml"], 0));
+        let held: Vec<_> = files.iter().map(|file| read(&bytes, file.index, 10).unwrap()).collect();
+        assert_eq!(held, [b"2", b"1", b"4", b"3"]);
+        assert_eq!(with_distinct_names(bytes.clone()), bytes);
+        assert_eq!(numbered(b"a.b/x", 3), b"a.b/x (3)");
     }
 
     #[test]

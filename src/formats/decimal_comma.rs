@@ -1,4 +1,7 @@
 //! Tables as a spreadsheet opens them by a double click where decimals have a comma, as in German: semicolons between fields.
+//! They are read wherever tables are.
+
+use std::borrow::Cow;
 
 /// Mark by which spreadsheets know UTF-8.
 const MARK: &str = "\u{feff}";
@@ -22,9 +25,53 @@ pub fn with_decimal_commas(table: &str) -> Vec<u8> {
     writer.into_inner().expect("memory takes all that is written to it")
 }
 
+/// Returns a table with commas between its fields and a point in its numbers, its lines where they were: the text itself,
+/// unless its first line has more fields between semicolons. Lines that begin with `#` are comments, and become empty.
+pub fn with_decimal_points(table: &str) -> Cow<'_, str> {
+    let reader = |delimiter| {
+        let mut builder = csv::ReaderBuilder::new();
+        builder.delimiter(delimiter).comment(Some(b'#')).has_headers(false).flexible(true).from_reader(table.as_bytes())
+    };
+    let fields = |delimiter| reader(delimiter).records().next().and_then(Result::ok).map_or(0, |first| first.len());
+    if fields(b';') <= fields(b',') {
+        return Cow::Borrowed(table);
+    }
+    let (mut reader, mut record) = (reader(b';'), csv::StringRecord::new());
+    let mut text = Vec::with_capacity(table.len());
+    let mut line = 1;
+    while reader.read_record(&mut record).expect("a table of text has records of text") {
+        let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+        let fields = record.iter().map(|field| {
+            let point = field.trim().replace(',', ".");
+            let is_number = field.contains(',') && point.parse::<f64>().is_ok_and(f64::is_finite);
+            if is_number { point } else { field.to_owned() }
+        });
+        writer.write_record(fields).expect("memory takes all that is written to it");
+        let row = writer.into_inner().expect("memory takes all that is written to it");
+        line += row.iter().filter(|byte| **byte == b'\n').count() as u64;
+        // Empty lines and comments before the row: messages name lines.
+        let skipped = reader.position().line().saturating_sub(line);
+        text.extend(std::iter::repeat_n(b'\n', skipped as usize));
+        text.extend(row);
+        line += skipped;
+    }
+    Cow::Owned(String::from_utf8(text).expect("what was text is text"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tables_come_back_with_their_lines() {
+        let table = "time,state,E_1,\"E, lx\"\n2005-01-01T08:30:00,v1.2,207.308098,-1.5e-3\n,\"a;b, \"\"c\"\"\",12,\n";
+        let written = String::from_utf8(with_decimal_commas(table)).unwrap();
+        assert_eq!(with_decimal_points(written.trim_start_matches(MARK)), table);
+        assert!(matches!(with_decimal_points(table), Cow::Borrowed(_)));
+        let lines = "x; y\n# 1,5; a\n\n 1,5;2\n\"a\nb\";1.234,5\n3;4,0\n";
+        assert_eq!(with_decimal_points(lines), "x, y\n\n\n1.5,2\n\"a\nb\",\"1.234,5\"\n3,4.0\n");
+        assert_eq!(with_decimal_points(""), "");
+    }
 
     #[test]
     fn numbers_have_commas_and_text_stays() {

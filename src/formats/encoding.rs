@@ -1,5 +1,5 @@
-//! How a file's text is encoded: UTF-8, UTF-16 and Latin-1 are read, with any line ends; everything else, and a web page
-//! that was saved in place of a file, is called by its name.
+//! How a file's text is encoded: UTF-8, UTF-16 and Windows-1252 with Latin-1 are read, with any line ends; everything else,
+//! and a web page that was saved in place of a file, is called by its name.
 
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
@@ -11,7 +11,7 @@ use std::fmt;
 pub enum Encoding {
     /// Two bytes a character.
     Utf16,
-    /// One byte a character.
+    /// One byte a character, read as Windows-1252.
     Latin1,
     /// Not at all.
     Binary,
@@ -79,6 +79,21 @@ pub fn not_too_long<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<&T, TooLong> {
 /// So much of a file is looked at for its encoding. \[bytes\]
 const LOOK: usize = 4096;
 
+/// Characters of the bytes 0x80 to 0x9F in Windows-1252, for which Latin-1 has control characters that no text holds.
+/// Source: <https://encoding.spec.whatwg.org/index-windows-1252.txt>, which is also what Latin-1 means there.
+const WINDOWS_1252: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', //
+    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// Returns the character of a byte in Windows-1252.
+fn of_byte(byte: u8) -> char {
+    match byte {
+        0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
+        _ => char::from(byte),
+    }
+}
+
 /// Text in UTF-8, without a byte-order mark.
 ///
 /// # Errors
@@ -102,7 +117,7 @@ pub fn utf8(bytes: &[u8]) -> Result<&str, NotText> {
     }
 }
 
-/// Decodes text in UTF-8, UTF-16 or Latin-1: without a byte-order mark, its lines ended by `\n` alone.
+/// Decodes text in UTF-8, UTF-16 or Windows-1252: without a byte-order mark, its lines ended by `\n` alone.
 ///
 /// # Errors
 /// Returns an error if the bytes are a web page or no text at all.
@@ -152,7 +167,7 @@ pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
     match utf8(bytes) {
         Ok(text) => (text.to_owned(), None),
         Err(NotText { encoding: Encoding::Utf16, .. }) => (from_utf16(bytes), Some(Encoding::Utf16)),
-        Err(NotText { encoding, .. }) => (bytes.iter().map(|&byte| char::from(byte)).collect(), Some(encoding)),
+        Err(NotText { encoding, .. }) => (bytes.iter().map(|&byte| of_byte(byte)).collect(), Some(encoding)),
     }
 }
 
@@ -204,6 +219,8 @@ mod tests {
         let latin = b"line\nM\xfcller\n";
         assert_eq!(utf8(latin), Err(NotText { byte: 6, line: 2, encoding: Encoding::Latin1 }));
         assert_eq!(any_text(latin).0, "line\nMüller\n");
+        let windows = b"\x84M\xfcller\x93 \x96 5 \x80, Lamp\x92s \x85\x99 \x81";
+        assert_eq!(decode(windows).unwrap(), "„Müller“ – 5 €, Lamp’s …™ \u{81}");
         assert_eq!(utf8(b"\x00\xff\x01\x80").unwrap_err().encoding, Encoding::Binary);
         assert_eq!(utf8("\u{feff}ä".as_bytes()), Ok("ä"));
         assert_eq!(utf8(b""), Ok(""));

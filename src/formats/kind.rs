@@ -1,6 +1,7 @@
 //! What kind of file bytes are, of those that the program writes: so that a table never takes the place of a scene.
 
-use super::{Format, dataset_blob, eulumdat, package};
+use super::encoding::any_text;
+use super::{Format, dataset_blob, eulumdat, luminaire_index, package, weather};
 
 /// A kind of file that the program writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,6 +55,11 @@ impl FileKind {
         }
     }
 
+    /// Whether such files are text, which a terminal shows.
+    pub const fn is_text(self) -> bool {
+        !matches!(self, Self::Png | Self::Pdf | Self::Compact | Self::Package)
+    }
+
     /// May bytes be a file of this kind, judged by the first [`HEAD`] of them?
     pub fn may_be(self, head: &[u8]) -> bool {
         let holds = |word: &str| head.windows(word.len()).any(|window| window == word.as_bytes());
@@ -72,6 +78,38 @@ impl FileKind {
             Self::Scene => text(head).is_some_and(|text| text.lines().any(|line| line.trim() == "[[aperture]]")),
             Self::Comparison => text(head).is_some_and(|text| text.lines().any(|line| line.starts_with("figure "))),
         }
+    }
+}
+
+/// Returns the extension of the kind of file that bytes are, with its dot, for input without a name; nothing where they are of
+/// no kind that is read.
+pub fn extension_of(bytes: &[u8]) -> &'static str {
+    let head = &bytes[..bytes.len().min(HEAD as usize)];
+    let of_kind = [
+        (FileKind::Compact, ".cfsd"),
+        (FileKind::Package, ".cfsp"),
+        (FileKind::Dataset(Format::BsdfXml), ".xml"),
+        (FileKind::Dataset(Format::BtdfText), ".btdf.txt"),
+        (FileKind::Ies, ".ies"),
+        (FileKind::Eulumdat, ".ldt"),
+    ];
+    if let Some((_, extension)) = of_kind.iter().find(|(kind, _)| kind.may_be(head)) {
+        return extension;
+    }
+    if package::looks_like_package(bytes) {
+        return ".zip";
+    }
+    let (text, _) = any_text(head);
+    if let Some(extension) = weather::extension_of(&text) {
+        return extension;
+    }
+    if luminaire_index::read(bytes).is_ok() {
+        return ".index.csv";
+    }
+    match text.parse::<toml::Table>() {
+        Ok(table) if table.contains_key("kind") => ".system.toml",
+        Ok(table) if !table.is_empty() => ".toml",
+        _ => "",
     }
 }
 
@@ -134,6 +172,25 @@ mod tests {
                 files.iter().filter(|(_, bytes)| kind.may_be(bytes)).map(|(one, _)| *one).collect();
             assert_eq!(taken, [*kind]);
             assert!(!kind.may_be(SCENE.as_bytes()), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn input_without_a_name_is_told_by_its_content() {
+        let index = b"file,x,y,z,width,height,flux_lm\na_1.ldt,1,0,2,1,1,500\n";
+        let files: [(&[u8], &str); 9] = [
+            (SCENE.as_bytes(), ".toml"),
+            (b"# Opal\nname = \"Opal\"\nkind = \"diffuser\"\n", ".system.toml"),
+            (b"LOCATION,Somewhere,-,Land", ".epw"),
+            (b"\xef\xbb\xbfplace Somewhere\nlatitude 48", ".wea"),
+            (index, ".index.csv"),
+            (b"<?xml version=\"1.0\"?>\n<WindowElement></WindowElement>", ".xml"),
+            (b"IESNA:LM-63-2002\n", ".ies"),
+            (b"PK\x03\x04 another archive", ".zip"),
+            (TABLE.as_bytes(), ""),
+        ];
+        for (bytes, extension) in files {
+            assert_eq!(extension_of(bytes), extension, "{}", String::from_utf8_lossy(bytes));
         }
     }
 

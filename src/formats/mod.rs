@@ -37,7 +37,7 @@ mod written;
 
 pub use btdf_text::CatalogueFields;
 pub use family::{is_one_function, merge_sides};
-pub use kind::{FileKind, HEAD};
+pub use kind::{FileKind, HEAD, extension_of};
 pub use location::{FormatError, Location};
 pub use written::Written;
 

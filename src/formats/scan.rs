@@ -2,8 +2,10 @@
 //!
 //! Read: text with numbers separated by commas, semicolons, tabs or blanks. Either one or more bare numbers a line,
 //! 145 in all; or a table with a header that has a column `L_mean_cdm2`, `luminance` or, failing these,
-//! `L_centre_cdm2`, with 145 rows in order. Lines that begin with `#` are comments. Not read: other lattices, gaps.
+//! `L_centre_cdm2`, with 145 rows in order, between semicolons also with decimal commas. Lines that begin with `#` are
+//! comments. Not read: other lattices, gaps.
 
+use super::decimal_comma::with_decimal_points;
 use super::encoding::{NotText, TooLong, decode, not_too_long};
 use super::location::excerpt;
 use crate::compute::limits;
@@ -40,6 +42,7 @@ pub enum ScanError {
 /// Reads 145 luminances. \[cd/m²\]
 pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
     let text = decode(not_too_long(bytes)?)?;
+    let text = with_decimal_points(&text);
     let mut values = Vec::with_capacity(145);
     let mut column = None;
     let mut first = true;

@@ -8,7 +8,9 @@
 //!
 //! Times are local standard time, rising; each state holds until the next row. Month, day and time of day count: years of
 //! typical weather are put together from many. Further columns are not read, nor are decimal seconds and time zones.
+//! Semicolons may stand between the columns.
 
+use super::decimal_comma::with_decimal_points;
 use super::encoding::{NotText, TooLong, decode, not_too_long};
 use super::location::excerpt;
 use crate::compute::limits::WEATHER_RECORDS;
@@ -64,6 +66,7 @@ pub fn of_year(time: DateTime) -> f64 {
 /// With the line: a row without time or state, times that do not rise.
 pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
     let text = decode(not_too_long(bytes)?)?;
+    let text = with_decimal_points(&text);
     let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
     let header = reader.headers().map_err(|_| StateTableError::Header)?;
     let column = |name: &str| header.iter().position(|field| field == name).ok_or(StateTableError::Header);
@@ -106,12 +109,14 @@ pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::decimal_comma::with_decimal_commas;
     use super::*;
 
     #[test]
     fn rows_are_read_with_their_lines() {
         let text = "\u{feff}sensor,time,state\r\nx,2005-01-01T00:30:00,0\r\nx,1998-01-01 10:30 ,\"a, b\"\r\n,2024-02-29T00:00,45\r\n";
         let rows = read_states(text.as_bytes()).unwrap();
+        assert_eq!(read_states(&with_decimal_commas(text)).unwrap(), rows);
         let of = |row: &StateRow| (row.line, row.of_year - 86_400.0, row.state.clone());
         assert_eq!(of(&rows[0]), (2, 1800.0, "0".to_owned()));
         assert_eq!(of(&rows[1]), (3, 37_800.0, "a, b".to_owned()));
@@ -124,7 +129,7 @@ mod tests {
     fn what_is_wrong_is_told_with_its_line() {
         for (text, words) in [
             ("", "line 1"),
-            ("time;state\n2005-01-01T00:30;0\n", "line 1"),
+            ("time;value\n2005-01-01T00:30;0\n", "line 1"),
             ("time,state\n", "0 rows"),
             ("time,state\nnoon,0\n", "line 2: \"noon\" is no time"),
             ("time,state\n2005-01-01T00:30,0\n2005-01-01T01:30,\n", "line 3: no state"),

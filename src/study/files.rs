@@ -2,13 +2,13 @@
 //!
 //! Every file that the program writes for somebody goes through [`write_all`]: it refuses to take the place of an input and
 //! of a file of another kind, writes beside, and renames when all bytes are there. The name `-` stands for standard input
-//! and output.
+//! and output; standard input and pipes are read once and kept, since readers may ask twice.
 
 use super::error::StudyError;
 use super::part::{Part, resolved};
 use crate::compute::limits;
-use crate::formats::{FileKind, HEAD};
-use std::collections::BTreeSet;
+use crate::formats::{FileKind, HEAD, extension_of};
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -22,6 +22,9 @@ const MOST_OPEN: usize = 200;
 /// The files that this run of the program has read.
 static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
+/// What standard input and pipes held.
+static STREAMS: Mutex<BTreeMap<PathBuf, Vec<u8>>> = Mutex::new(BTreeMap::new());
+
 fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }
 }
@@ -33,11 +36,11 @@ fn wrong(path: &Path, message: String) -> StudyError {
 pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
     let cannot = |error: std::io::Error| wrong(path, format!("cannot be read ({error}); check path and rights"));
     if is_standard(path) {
-        return read_stream(path, std::io::stdin().lock());
+        return read_once(path, || Ok(std::io::stdin().lock()));
     }
     let meta = std::fs::metadata(path).map_err(cannot)?;
     if is_pipe(&meta) {
-        return read_stream(path, std::fs::File::open(path).map_err(cannot)?);
+        return read_once(path, || std::fs::File::open(path).map_err(cannot));
     }
     if !meta.is_file() {
         return Err(wrong(path, "not a file; expected one to read".to_owned()));
@@ -55,6 +58,34 @@ pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
+/// Whether a path stands for standard input or output, or leads to a pipe or a device: neither its name nor its folder says
+/// anything about what is in it.
+pub fn is_stream(path: &Path) -> bool {
+    is_standard(path)
+        || ["/dev/stdin", "/dev/stdout", "/dev/fd"].iter().any(|start| path.starts_with(start))
+        || std::fs::metadata(path).is_ok_and(|meta| !meta.is_file() && !meta.is_dir())
+}
+
+/// Returns the name that tells the kind of a file: its own, or for a stream one that its content tells.
+///
+/// # Errors
+/// Returns an error if the stream cannot be read.
+pub fn telling_name(path: &Path) -> Result<String, StudyError> {
+    let name = path.to_string_lossy();
+    Ok(if is_stream(path) { format!("{name}{}", extension_of(&read(path)?)) } else { name.into_owned() })
+}
+
+/// Returns the folder that relative names in a file start from; those in a stream start where the program runs.
+pub fn folder(path: &Path) -> &Path {
+    path.parent().filter(|_| !is_stream(path)).unwrap_or(Path::new("."))
+}
+
+/// Returns the path from the root of the file system, where the system knows it: the one by which messages name a file that
+/// was written.
+pub fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 /// Whether a path leads to a pipe, which can be read once.
 #[cfg(unix)]
 fn is_pipe(meta: &std::fs::Metadata) -> bool {
@@ -65,6 +96,20 @@ fn is_pipe(meta: &std::fs::Metadata) -> bool {
 #[cfg(not(unix))]
 const fn is_pipe(_: &std::fs::Metadata) -> bool {
     false
+}
+
+/// Reads a stream, or returns what it held when it was read.
+fn read_once<T: std::io::Read>(
+    path: &Path,
+    open: impl FnOnce() -> Result<T, StudyError>,
+) -> Result<Vec<u8>, StudyError> {
+    let mut streams = STREAMS.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(bytes) = streams.get(path) {
+        return Ok(bytes.clone());
+    }
+    let bytes = read_stream(path, open()?)?;
+    streams.insert(path.to_owned(), bytes.clone());
+    Ok(bytes)
 }
 
 /// Reads all bytes of a stream, whose length is known only at its end.
@@ -80,13 +125,12 @@ fn read_stream(path: &Path, stream: impl std::io::Read) -> Result<Vec<u8>, Study
 
 /// Names a file that results depend on and that is read by other means.
 pub fn keep(path: &Path) {
-    if is_standard(path) {
+    // A pipe that is only looked at loses its writer.
+    if is_standard(path) || std::fs::metadata(path).is_ok_and(|meta| !meta.is_file()) {
         return;
     }
     // Where the program runs is not where it may be later.
-    if let Ok(path) = std::path::absolute(path) {
-        INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
-    }
+    INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(absolute(path));
 }
 
 /// The files that this run of the program has read, in the order of their paths.
@@ -194,15 +238,22 @@ fn is_of(path: &Path, kind: FileKind) -> Result<bool, StudyError> {
 /// One sentence that names the file. What was there before is there still.
 pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
     let mut parts: Vec<(&Path, Part)> = Vec::with_capacity(list.len());
+    // Before the first byte: what went to a stream cannot be taken back.
     for (place, one) in list.iter().enumerate() {
         if list[..place].iter().any(|other| other.path == one.path) {
             return Err(wrong(one.path, "is named twice; expected a file for each output".to_owned()));
         }
         check(one.path, one.replace)?;
+    }
+    for one in list {
         let told = |error: std::io::Error| cannot_write(one.path, &error);
         if is_standard(one.path) {
             let mut output = std::io::stdout().lock();
-            output.write_all(one.bytes).and_then(|()| output.flush()).map_err(told)?;
+            match output.write_all(one.bytes).and_then(|()| output.flush()) {
+                // Whoever reads may stop.
+                Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
+                done => done.map_err(told)?,
+            }
             continue;
         }
         let target = resolved(one.path);
@@ -324,6 +375,27 @@ mod tests {
         assert_eq!(read_stream(Path::new("-"), TABLE).unwrap(), TABLE);
         assert!(is_standard(Path::new("-")) && !is_standard(Path::new("./-")));
         assert_eq!(said(check(Path::new("-"), PLAIN)), "");
+        assert_eq!((folder(Path::new("-")), folder(Path::new("a/b.toml"))), (Path::new("."), Path::new("a")));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_told_by_its_content_read_once_and_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&path).status();
+        assert!(made.unwrap().success() && is_stream(&path));
+        // Without a writer, whoever opened the pipe would wait.
+        keep(&path);
+        std::fs::write(folder.path().join("a.csv"), TABLE).unwrap();
+        assert_eq!(said(check(&folder.path().join("a.csv"), PLAIN)), "");
+        let writer = std::thread::spawn({
+            let path = path.clone();
+            move || std::fs::write(path, "LOCATION,Somewhere").unwrap()
+        });
+        assert!(telling_name(&path).unwrap().ends_with("pipe.epw"));
+        writer.join().unwrap();
+        assert_eq!(read(&path).unwrap(), b"LOCATION,Somewhere");
     }
 
     #[cfg(unix)]

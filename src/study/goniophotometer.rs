@@ -85,7 +85,7 @@ impl Described {
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
-        let base = Base::Folder(path.parent().unwrap_or(Path::new(".")).to_owned());
+        let base = Base::Folder(files::folder(path).to_owned());
         let text = decode(&bytes).map_err(|e| error(e.to_string()))?;
         Self::from_text(&text, base).map_err(|e| error(e.to_string()))
     }

@@ -1,5 +1,6 @@
 //! The files that a scene names, with those that they name: what its results are made from.
 
+use super::files;
 use super::luminaires::{self, INDEX};
 use super::scene_file::SceneFile;
 use super::weather::BUILTIN;
@@ -24,7 +25,7 @@ pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
             toml::Value::String(word) if !word.is_empty() => {
                 let path = base.join(&*word);
                 if path.is_file() {
-                    *word = std::path::absolute(&path).unwrap_or(path).to_string_lossy().into_owned();
+                    *word = files::absolute(&path).to_string_lossy().into_owned();
                 }
             }
             toml::Value::Array(values) => values.iter_mut().for_each(|value| absolute(value, base)),

@@ -196,8 +196,13 @@ impl Listing {
                     list.left_out.push(format!("{}: a folder without files", path.display()));
                 }
             } else {
-                let name =
-                    path.file_name().map_or_else(|| path.display().to_string(), |name| name.to_string_lossy().into());
+                let name = match files::telling_name(path) {
+                    Ok(name) => name.rsplit(std::path::is_separator).next().unwrap_or_default().to_owned(),
+                    Err(error) => {
+                        list.failures.push(error.to_string());
+                        continue;
+                    }
+                };
                 list.add(Given { path: path.clone(), within: None, name, named: true });
             }
         }
@@ -247,7 +252,7 @@ impl Listing {
     /// The files of an archive, or the archive itself where it is a package by another name.
     fn unpack(&mut self, file: &Given, depth: usize) {
         let bytes = match file.bytes(&self.left) {
-            Ok(bytes) => Arc::new(bytes),
+            Ok(bytes) => Arc::new(archive::with_distinct_names(bytes)),
             Err(error) => return self.failures.push(error),
         };
         let Contents { files, clashes } = match archive::contents(&bytes) {

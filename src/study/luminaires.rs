@@ -46,10 +46,10 @@ pub struct LuminaireAperture {
 /// # Errors
 /// A file that cannot be read.
 pub fn read_file(path: &Path) -> Result<Option<Luminaire>, StudyError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let read = match extension.as_str() {
-        "ldt" => eulumdat::read,
-        "ies" => ies::read,
+    let name = files::telling_name(path)?.to_ascii_lowercase();
+    let read = match name.rsplit_once('.') {
+        Some((_, "ldt")) => eulumdat::read,
+        Some((_, "ies")) => ies::read,
         _ => return Ok(None),
     };
     read(&files::read(path)?).map(Some).map_err(|error| wrong(path, error.to_string()))

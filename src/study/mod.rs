@@ -84,7 +84,7 @@ pub fn read_scene_file(path: &Path) -> Result<SceneFile, StudyError> {
 /// Reads and resolves a scene file. The error names the file.
 pub fn load_scene(path: &Path, library: &dyn SystemLibrary) -> Result<Scene, StudyError> {
     let file = read_scene_file(path)?;
-    let base = path.parent().unwrap_or(Path::new("."));
+    let base = files::folder(path);
     Scene::resolve(&file, base, library).map_err(|e| match e {
         StudyError::File { .. } | StudyError::Cancelled(_) => e,
         other => StudyError::File { path: path.to_owned(), message: other.to_string() },

@@ -22,6 +22,7 @@ mod report_cli;
 mod rooms;
 mod safe_cli;
 mod solar_cli;
+mod streams_cli;
 mod weather_cli;
 mod year_cli;
 mod year_kept_cli;

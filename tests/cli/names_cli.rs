@@ -42,9 +42,19 @@ fn a_name_that_is_not_utf_8_is_written_and_its_sibling_stays() {
 fn what_is_written_is_named_by_its_absolute_path() {
     let folder = tempfile::tempdir().unwrap();
     scene(folder.path());
-    let output = cfs(folder.path()).args(["lid", "a.toml", "--out", "a.ldt"]).output().unwrap();
-    let path = folder.path().join("a.ldt").display().to_string();
-    assert!(said(&output).contains(&path), "{path} is not in: {}", said(&output));
+    for (command, name) in [
+        (&["lid", "a.toml"][..], "a.ldt"),
+        (&["room", "a.toml"], "a.csv"),
+        (&["picture", "a.toml", "--tile", "room"], "a.svg"),
+        (&["catalogue", "export", "clear-single"], "a.cfsp"),
+    ] {
+        let output = cfs(folder.path()).args(command).args(["--out", name]).output().unwrap();
+        let told = format!("written: {}\n", folder.path().join(name).display());
+        assert!(said(&output).ends_with(&told), "{told} is not in: {}", said(&output));
+    }
+    let output = cfs(folder.path()).args(["lid", "a.toml", "--tiles", "3x2", "--out", "b.ldt"]).output().unwrap();
+    let told = format!("written: {} and 6 more files beside it\n", folder.path().join("b_1.ldt").display());
+    assert!(said(&output).ends_with(&told), "{told} is not in: {}", said(&output));
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! EPW, the weather files of EnergyPlus ("Auxiliary Programs: EPW data dictionary").
 //!
 //! Read: eight lines of header in any of their spellings, then rows of 35 fields of which the first 16 must be there.
-//! Hours count from 1 to 24 and end there; of one record an hour the minute (0 or 60) says nothing. Rows are believed and
-//! the header's flags not: leap years, periods, gaps, records per hour. Missing codes are no values.
+//! Hours count from 1 to 24 and end there, or from 0 to 23; of one record an hour the minute (0 or 60) says nothing. Rows are
+//! believed and the header's flags not: leap years, periods, gaps, records per hour. Missing codes are no values.
 
 use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, weekday};
 use super::labels::{Label, Stated, place_intervals};
@@ -74,7 +74,7 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
         findings,
         field_names: [DIRECT, DIFFUSE],
     };
-    place_intervals(&mut weather, &labels, stated)?;
+    place_intervals(&mut weather, &mut labels, stated)?;
     Ok(weather)
 }
 
@@ -207,7 +207,7 @@ fn row(text: &str, line: usize, changed: &mut Changed) -> Result<(Record, Label)
     let day = day(written, month, date)?;
     changed.years += usize::from(i32::from(day.year) != written);
     let label = Label {
-        hour: hour.integer(1, 24)? as u8,
+        hour: hour.integer(0, 24)? as u8,
         // Of one record an hour the minute may be anything.
         minute: minute.integer(0, 60).ok().map(|minute| minute as u8),
         column: u16::try_from(minute.column).unwrap_or(u16::MAX),

@@ -2,7 +2,8 @@
 //!
 //! The dictionary has the minute at which the interval ends, and programs write the one at which it begins as well: 10 to 60
 //! or 0 to 50. The rows tell which, since they follow each other without gaps; where both do, the sun tells. The number of
-//! records per hour in the header is checked against the minutes.
+//! records per hour in the header is checked against the minutes. Hours count from 1 to 24; where they count from 0 to 23, the
+//! sun tells as well whether the intervals begin or end there.
 
 use crate::compute::btdf::Finding;
 use crate::compute::weather::{Record, Weather};
@@ -11,7 +12,7 @@ use crate::formats::{FormatError, Location};
 /// Hour and minute of a row.
 #[derive(Debug, Clone, Copy)]
 pub struct Label {
-    /// Hour, 1 … 24.
+    /// Hour, 1 … 24, or 0 … 23.
     pub hour: u8,
     /// Minute, 0 … 60; `None` where the field is no such number.
     pub minute: Option<u8>,
@@ -30,14 +31,61 @@ pub struct Stated {
 
 /// Difference in closure by which the sun tells begin from end. \[W/m²\]
 const CLEARLY: f64 = 5.0;
+/// Name of the hour in messages.
+const HOUR: &str = "field 4 (hour)";
 /// Name of the minute in messages.
 const MINUTE: &str = "field 5 (minute)";
 
 /// Sets the length of the intervals and where each begins.
 ///
 /// # Errors
-/// Returns an error if a minute is not that of an interval, or if rows are apart by what does not divide an hour.
-pub fn place_intervals(weather: &mut Weather, labels: &[Label], stated: Stated) -> Result<(), FormatError> {
+/// Returns an error if a minute is not that of an interval, if rows are apart by what does not divide an hour, or if an hour 0
+/// is not the first of a day.
+pub fn place_intervals(weather: &mut Weather, labels: &mut [Label], stated: Stated) -> Result<(), FormatError> {
+    let is_from_zero = count_from_one(&weather.records, labels)?;
+    place_in_hours(weather, labels, stated)?;
+    if !is_from_zero {
+        return Ok(());
+    }
+    // Both follow each other as well as their rows do, so that only the sun tells.
+    let length = 60 * i32::from(weather.interval);
+    let at_begins = rms(weather);
+    shift(weather, -length);
+    let is_end = at_begins.zip(rms(weather)).is_some_and(|(at_begins, at_ends)| at_ends + CLEARLY < at_begins);
+    if !is_end {
+        shift(weather, length);
+    }
+    let read = if is_end { "end, 0 the last one of the day before" } else { "begin" };
+    let message =
+        format!("hours count from 0 to 23, not from 1 to 24: they were read as those at which the intervals {read}");
+    weather.findings.push(Finding::info("hour-zero", message));
+    Ok(())
+}
+
+/// Counts hours from 1 where rows count them from 0; returns whether they do.
+fn count_from_one(records: &[Record], labels: &mut [Label]) -> Result<bool, FormatError> {
+    if labels.iter().all(|label| label.hour > 0) {
+        return Ok(false);
+    }
+    for (k, (record, label)) in records.iter().zip(&*labels).enumerate() {
+        let is_late = k > 0 && label.hour == 0 && records[k - 1].day == record.day && labels[k - 1].hour > 0;
+        if label.hour == 24 || is_late {
+            let at = Location::line(record.line as usize).in_element(HOUR);
+            let found = if is_late { "hour 0 after other hours of its day" } else { "hour 24 in a file with hour 0" };
+            return Err(FormatError::new(at, found, "hours from 1 to 24, or from 0 to 23"));
+        }
+    }
+    labels.iter_mut().for_each(|label| label.hour += 1);
+    Ok(true)
+}
+
+/// Moves all intervals. \[s\]
+fn shift(weather: &mut Weather, seconds: i32) {
+    weather.records.iter_mut().for_each(|record| record.start += seconds);
+}
+
+/// Sets the length of the intervals and where each begins, for hours that count from 1.
+fn place_in_hours(weather: &mut Weather, labels: &[Label], stated: Stated) -> Result<(), FormatError> {
     let interval = interval(weather, labels, stated)?;
     weather.interval = interval;
     if interval != stated.interval {
@@ -157,6 +205,11 @@ mod tests {
 
     /// An EPW file that states `records` an hour, with rows of hour, minute and light (global, direct normal, diffuse).
     fn file(records: u16, rows: &[(u8, u8, [f64; 3])]) -> Result<Weather, FormatError> {
+        read("x.epw", text(records, rows).as_bytes())
+    }
+
+    /// The text of [`file`].
+    fn text(records: u16, rows: &[(u8, u8, [f64; 3])]) -> String {
         let head = "LOCATION,Somewhere,-,Land,-,-,50,15,1,250\n";
         let mut text = format!("{head}DATA PERIODS,1,{records},Data,Sunday,6/21,6/21\n");
         for (hour, minute, [global, direct, diffuse]) in rows {
@@ -164,7 +217,7 @@ mod tests {
                 "2018,6,21,{hour},{minute},?9,15,8,60,101300,0,1361,300,{global},{direct},{diffuse},999999,999999,999999\n"
             );
         }
-        read("x.epw", text.as_bytes())
+        text
     }
 
     /// Rows of two hours with these minutes.
@@ -211,6 +264,40 @@ mod tests {
             let weather = file(2, &rows).unwrap();
             assert_eq!((weather.interval, codes(&weather).contains(&"minute-begin")), (30, begin));
             assert_eq!(weather.records[0].start, if begin { 1800 } else { 0 });
+        }
+    }
+
+    #[test]
+    fn hours_from_zero_begin_or_end_as_the_sun_tells() {
+        let day = Day::new(2018, 6, 21).unwrap();
+        let station = file(1, &rows(&[60])).unwrap().station;
+        // Light of the middle of an interval, in hours from midnight.
+        let lit = |middle: f64| {
+            let mut path = SunPath::new(&station);
+            path.turn_to(day.number()).unwrap();
+            let sine = path.at(60.0 * middle).z.max(0.0);
+            let direct = if sine > 0.0 { 800.0 } else { 0.0 };
+            [100.0 + direct * sine, direct, 100.0]
+        };
+        for (middle, first, words) in [(0.5, 0, "begin"), (-0.5, -3600, "end, 0 the last")] {
+            let rows: Vec<_> = (0..24).map(|hour| (hour, 0, lit(f64::from(hour) + middle))).collect();
+            let (mut text, length) = (text(1, &rows), text(1, &[]).len());
+            // One day has too few hours of sun.
+            text += &text[length..].replace("2018,6,21,", "2018,6,22,");
+            let weather = read("x.epw", text.as_bytes()).unwrap();
+            let starts: Vec<i32> = weather.records.iter().take(24).map(|record| record.start).collect();
+            assert_eq!(starts, (0..24).map(|hour| first + 3600 * hour).collect::<Vec<_>>());
+            assert_eq!((weather.interval, codes(&weather)), (60, vec!["hour-zero"]));
+            assert!(weather.findings[0].message.contains(words), "{}", weather.findings[0].message);
+        }
+        // Without light they begin there, also in steps of half an hour.
+        let rows: Vec<_> = (0..24).flat_map(|hour| [0, 30].map(|minute| (hour, minute, [0.0; 3]))).collect();
+        let weather = file(2, &rows).unwrap();
+        assert_eq!((weather.interval, weather.records[0].start, weather.records[47].start), (30, 0, 84_600));
+        for (hours, words) in [([1, 24, 0], "hour 24"), ([22, 23, 0], "hour 0 after")] {
+            let rows: Vec<_> = hours.iter().map(|hour| (*hour, 0, [0.0; 3])).collect();
+            let error = file(1, &rows).unwrap_err().to_string();
+            assert!(error.contains(words) && error.contains("field 4 (hour)"), "{error}");
         }
     }
 

@@ -23,7 +23,13 @@ pub fn is_weather_file(name: &str) -> bool {
     [".epw", ".wea", table::EXTENSION].iter().any(|end| name.ends_with(end))
 }
 
-/// Reads a weather file of any of the formats, told by its first word, then by its name; in UTF-8, UTF-16 or Latin-1, with
+/// Returns the extension of the weather format that a text's first word tells.
+pub fn extension_of(text: &str) -> Option<&'static str> {
+    let words = [(table::MAGIC, table::EXTENSION), ("LOCATION", ".epw"), ("place", ".wea")];
+    words.iter().find(|(word, _)| text.starts_with(word)).map(|(_, extension)| *extension)
+}
+
+/// Reads a weather file of any of the formats, told by its first word, then by its name; in UTF-8, UTF-16 or Windows-1252, with
 /// any line ends.
 ///
 /// # Errors
@@ -38,14 +44,14 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Weather, FormatError> {
         Ok(text) => text,
     };
     let name = name.to_ascii_lowercase();
-    if text.starts_with(table::MAGIC) {
-        table::read(&text)
-    } else if text.starts_with("LOCATION") || name.ends_with(".epw") {
-        epw::read(&text)
-    } else if text.starts_with("place") || name.ends_with(".wea") {
-        wea::read(&text)
-    } else {
-        let expected = "EPW (first word LOCATION), WEA (first word place) or a cfs-weather table";
-        Err(FormatError::new(Location::line(1), "no weather file of a known format", expected))
+    let named = || [".epw", ".wea"].into_iter().find(|extension| name.ends_with(extension));
+    match extension_of(&text).or_else(named) {
+        Some(table::EXTENSION) => table::read(&text),
+        Some(".epw") => epw::read(&text),
+        Some(_) => wea::read(&text),
+        None => {
+            let expected = "EPW (first word LOCATION), WEA (first word place) or a cfs-weather table";
+            Err(FormatError::new(Location::line(1), "no weather file of a known format", expected))
+        }
     }
 }

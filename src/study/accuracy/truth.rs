@@ -1,6 +1,8 @@
 //! A truth from outside: illuminances of the same sensors in a file, by measurement or by another program.
 
 use crate::compute::estimate::Estimate;
+use crate::formats::decimal_comma::with_decimal_points;
+use crate::formats::encoding::decode;
 use crate::study::error::StudyError;
 use crate::study::files;
 use crate::study::scene::Scene;
@@ -31,7 +33,7 @@ struct Columns {
 
 impl Truth {
     /// Reads a table with the columns of `cfs room`: x,y,z and E_lx; beside these nx,ny,nz, E_direct_lx and E_error_lx
-    /// count, where they are there. Lines that begin with # are passed over.
+    /// count, where they are there. Lines that begin with # are passed over, and decimal commas are read.
     ///
     /// # Errors
     /// One sentence that names the file, the line and what is wrong there: a column that is missing, another number of
@@ -39,13 +41,13 @@ impl Truth {
     pub fn read(path: &Path, scene: &Scene) -> Result<Self, StudyError> {
         let wrong = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
+        let text = decode(&bytes).map_err(|error| wrong(error.to_string()))?;
         let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-        Self::parse(name, &bytes, scene).map_err(wrong)
+        Self::parse(name, &with_decimal_points(&text), scene).map_err(wrong)
     }
 
-    fn parse(name: String, bytes: &[u8], scene: &Scene) -> Result<Self, String> {
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(bytes);
+    fn parse(name: String, text: &str, scene: &Scene) -> Result<Self, String> {
+        let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
         let header = reader.headers().map_err(|error| told(&error))?;
         let line = header.position().map_or(1, csv::Position::line);
         let columns = Columns::of(header).map_err(|message| format!("line {line}: {message}"))?;
