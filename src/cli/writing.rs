@@ -1,5 +1,6 @@
 //! Files that commands write: not over what they were made from, nor over files of another kind without a word.
 
+use crate::drawing::{Drawing, missing_characters};
 use crate::formats::FileKind;
 use crate::study::StudyError;
 use crate::study::files::{self, Output, Replace};
@@ -11,6 +12,13 @@ pub struct Over {
     /// Overwrite an existing file even if it is of another type (input files are never overwritten)
     #[arg(long)]
     pub force: bool,
+}
+
+/// Names the characters that stand as boxes in the PNG or PDF file that was written.
+pub(super) fn warn_of_missing_characters(drawings: &[Drawing]) {
+    if let Some(warning) = missing_characters(drawings) {
+        tell!("warning: {warning}");
+    }
 }
 
 impl Over {
