@@ -8,6 +8,7 @@ use super::paint::tile::pointed_foot;
 use super::state::Tile;
 use super::window::App;
 use super::work::{Outcome, Pixels};
+use crate::drawing::missing_characters;
 use crate::report::{Size, TileKind};
 use crate::texts::tiles as say;
 
@@ -24,7 +25,9 @@ impl App {
         let order = Order { choices, ..order };
         self.start(Lane::Copy, move |progress| {
             let drawn = order.picture(progress);
-            Outcome::Copied(tile, drawn.map(|drawing| drawing.to_pixels(size.pixels()[0] / drawing.width)))
+            let warning = drawn.as_ref().ok().and_then(|drawing| missing_characters(std::slice::from_ref(drawing)));
+            let pixels = drawn.map(|drawing| drawing.to_pixels(size.pixels()[0] / drawing.width));
+            Outcome::Copied(tile, pixels).with_warning(warning)
         });
     }
 

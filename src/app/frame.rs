@@ -8,7 +8,7 @@ use super::restoring::sessions_folder;
 use super::text_size::SMALLEST_WINDOW;
 use super::window::{App, Services};
 use super::window_place::{bring_on_screen, mend_saved};
-use super::{language, panels, theme, title};
+use super::{fonts, language, panels, right_to_left, theme, title};
 use crate::catalogue::SourceFile;
 use crate::study::{Library, fault};
 use std::path::{Path, PathBuf};
@@ -22,6 +22,8 @@ impl App {
             self.installed = true;
             self.ctx = ctx.clone();
             theme::install(ctx);
+            ctx.add_font_provider(self.missing_characters.clone());
+            ctx.on_end_pass("right_to_left", Arc::new(right_to_left::reorder));
             self.state.settings.theme.apply(ctx);
             // The window's own keys do it, within bounds.
             ctx.options_mut(|options| options.zoom_with_keyboard = false);
@@ -74,6 +76,7 @@ impl App {
             self.apply(command);
             ui.ctx().request_repaint();
         }
+        self.ask_fonts();
         self.in_field = ui.ctx().memory(|memory| memory.focused().is_some());
         // Now, not with the next frame: a slow one would take its time from the second that may be lost.
         self.keep_session();
@@ -147,6 +150,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
             let mut app = App::new(services, settings);
             app.library = library;
             app.desktop_language = language::of_desktop();
+            app.find_fonts = fonts::system_fonts;
             app.report_faults(fault::folder().as_deref());
             app.begin_session(sessions.as_deref(), open.is_empty());
             app.logic(&cc.egui_ctx);

@@ -8,8 +8,8 @@ use crate::catalogue::{Catalogue, NewProduct, Product, StateName};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::drawing::Drawing;
 use crate::drawing::colours::Inks;
+use crate::drawing::{Drawing, missing_characters};
 use crate::formats::decimal_comma::with_decimal_commas;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire_index::{self, Row};
@@ -118,16 +118,23 @@ impl Order {
         Ok((subject.name, pages))
     }
 
-    /// The bytes of everything that is one file.
-    fn bytes(&self, path: &Path, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
+    /// Returns the bytes of everything that is one file. `warning`: what they do not show as it is.
+    fn bytes(&self, path: &Path, warning: &mut Option<String>, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
         let choices = &self.choices;
         Ok(match choices.what {
             What::Picture => {
                 let drawing = self.picture(progress)?;
-                if choices.vector { choices.size.svg(&drawing).into_bytes() } else { choices.size.png(&drawing)? }
+                if choices.vector {
+                    choices.size.svg(&drawing).into_bytes()
+                } else {
+                    let bytes = choices.size.png(&drawing)?;
+                    *warning = missing_characters(&[drawing]);
+                    bytes
+                }
             }
             What::Report => {
                 let (title, pages) = self.report(progress)?;
+                *warning = missing_characters(&pages);
                 pdf::write(&pages, &title)?
             }
             What::Luminaire if self.choices.without_beam => {
@@ -231,18 +238,19 @@ impl Order {
         Ok(files)
     }
 
-    /// Makes everything, then writes it: whole, or not at all. The path comes back.
+    /// Makes everything, then writes it: whole, or not at all. Returns the path, and what the file does not show as it is.
     ///
     /// # Errors
     /// What cannot be made, or not be written; then no file is new.
-    pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<PathBuf, AppError> {
+    pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<(PathBuf, Option<String>), AppError> {
         if !path.to_string_lossy().to_lowercase().ends_with(self.choices.ending()) {
             return Err(AppError::HandOnEnding(self.choices.ending()).about(path.display()));
         }
+        let mut warning = None;
         let files = match self.choices.what {
             What::Series => self.series(path, progress)?,
             What::Luminaire if self.choices.tiles => self.tiles(path, progress)?,
-            _ => vec![(path.to_owned(), self.bytes(path, progress)?)],
+            _ => vec![(path.to_owned(), self.bytes(path, &mut warning, progress)?)],
         };
         // Withdrawn after the last computation: nothing is written either.
         check(progress)?;
@@ -252,7 +260,7 @@ impl Order {
         let in_tiles = self.choices.what == What::Luminaire && self.choices.tiles;
         if !in_tiles {
             write_several(&files, &made_from)?;
-            return Ok(path.to_owned());
+            return Ok((path.to_owned(), warning));
         }
         let index = index_of(&in_own_folder(path));
         let folder = path.with_extension("");
@@ -261,7 +269,7 @@ impl Order {
             // Only where nothing is in it: what was there before stays.
             let _ = std::fs::remove_dir(&folder);
         })?;
-        Ok(index)
+        Ok((index, warning))
     }
 
     /// What would be written at a path, as far as it can be shown.
@@ -319,7 +327,7 @@ impl Order {
                 Preview::Files(vec![(name(path), words)])
             }
             What::Luminaire | What::Table | What::Dataset | What::Scene => {
-                let bytes = self.bytes(path, progress)?;
+                let bytes = self.bytes(path, &mut None, progress)?;
                 let text = String::from_utf8_lossy(&bytes);
                 Preview::Text(text.lines().take(LINES).collect::<Vec<_>>().join("\n"), bytes.len())
             }

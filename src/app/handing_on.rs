@@ -139,8 +139,9 @@ impl App {
         match self.order() {
             Some(order) => {
                 self.writing = true;
-                self.start(Lane::Export, move |progress| {
-                    Outcome::Written(PathUse::HandOn, order.write(&path, progress))
+                self.start(Lane::Export, move |progress| match order.write(&path, progress) {
+                    Ok((path, warning)) => Outcome::Written(PathUse::HandOn, Ok(path)).with_warning(warning),
+                    Err(error) => Outcome::Written(PathUse::HandOn, Err(error)),
                 });
             }
             None => self.tell(&AppError::NoProduct),

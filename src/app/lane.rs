@@ -15,6 +15,8 @@ pub enum Lane {
     Arrange,
     /// Repairs of what was read.
     Mend,
+    /// Looking for fonts of the system.
+    Fonts,
     /// Asking the desktop for paths.
     Dialog,
     /// What the checks say about the selected dataset.
@@ -74,6 +76,7 @@ impl Lane {
             Self::Import => shell::LANE_IMPORT,
             Self::Arrange => shell::LANE_ARRANGE,
             Self::Mend => shell::LANE_MEND,
+            Self::Fonts => shell::LANE_FONTS,
             Self::Dialog => shell::LANE_DIALOG,
             Self::Findings => products::LANE_FINDINGS,
             Self::Gallery => products::LANE_GALLERY,

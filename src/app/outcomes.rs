@@ -254,6 +254,8 @@ impl App {
                 }
             }
             Outcome::Written(_, Err(error)) => self.tell(&error),
+            Outcome::Warning(text) => self.toasts.warning(text),
+            Outcome::Fonts(fonts, missing) => self.take_fonts(fonts, missing),
         }
     }
 

@@ -140,15 +140,16 @@ pub fn bar_frame(ui: &egui::Ui) -> egui::Frame {
     egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 4))
 }
 
+/// Returns a font that is used where all others lack a character.
+pub fn fallback(name: &str, data: FontData) -> FontInsert {
+    let family = |family| InsertFontFamily { family, priority: FontPriority::Lowest };
+    FontInsert::new(name, data, vec![family(FontFamily::Proportional), family(FontFamily::Monospace)])
+}
+
 /// Sets fonts, both themes and spacing. Once, at the start.
 pub fn install(ctx: &Context) {
-    let family = |family| InsertFontFamily { family, priority: FontPriority::Lowest };
-    ctx.add_font(FontInsert::new(
-        "fallback",
-        // Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
-        FontData::from_static(DEJAVU),
-        vec![family(FontFamily::Proportional), family(FontFamily::Monospace)],
-    ));
+    // Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
+    ctx.add_font(fallback("fallback", FontData::from_static(DEJAVU)));
     for (theme, palette) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {
         ctx.style_mut_of(theme, |style| {
             style.text_styles = [

@@ -11,6 +11,7 @@ use super::engine::{Engine, LidFigures};
 use super::error::AppError;
 use super::examining::Examined;
 use super::export::Exports;
+use super::fonts::{FindFonts, MissingCharacters, no_fonts};
 use super::gallery::Gallery;
 use super::import::KeptImport;
 use super::jobs::{JobState, Jobs, Lane};
@@ -102,6 +103,9 @@ pub struct App {
     pub(super) examined: Examined,
     /// Pictures of products.
     pub gallery: Gallery,
+    /// Looks for fonts for characters that the built-in fonts lack.
+    pub find_fonts: FindFonts,
+    pub(super) missing_characters: Arc<MissingCharacters>,
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
@@ -196,6 +200,8 @@ impl App {
             weather_view: calendar::State::default(),
             examined: Examined::default(),
             gallery: Gallery::default(),
+            find_fonts: no_fonts,
+            missing_characters: Arc::default(),
             ctx: egui::Context::default(),
             installed: false,
             shown_title: String::new(),

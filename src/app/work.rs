@@ -148,6 +148,20 @@ pub enum Outcome {
     Copied(Tile, Result<Pixels, AppError>),
     /// A file was written.
     Written(PathUse, Result<PathBuf, AppError>),
+    /// A message about what was made.
+    Warning(String),
+    /// Fonts of the system by name, and characters that none of them has.
+    Fonts(Vec<(String, egui::FontData)>, Vec<char>),
+}
+
+impl Outcome {
+    /// Adds a warning, if there is one.
+    pub fn with_warning(self, warning: Option<String>) -> Self {
+        match warning {
+            Some(warning) => Self::Several(vec![self, Self::Warning(warning)]),
+            None => self,
+        }
+    }
 }
 
 /// A part of what is known of a candidate.

@@ -2,7 +2,11 @@
 
 use super::language::ReportLanguage;
 use super::progress::TerminalProgress;
+<<<<<<< HEAD
 use super::writing::{Over, StreamFormat};
+=======
+use super::writing::{Over, warn_of_missing_characters};
+>>>>>>> 3bbd406b1a904aadcab9a6769310fd7ff87cb884
 use crate::formats::FileKind;
 use crate::report::{Look, Size, TileKind, picture};
 use crate::study::goniophotometer::LayerLibrary as _;
@@ -70,7 +74,7 @@ pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
     let kind = if ending == "svg" { FileKind::Svg } else { FileKind::Png };
     args.over.check([&*args.scene], Some(&args.out), kind)?;
     let subject = subject(&args.scene, args.tile.needs(), library)?;
-    let _spoken = speak(args.language.0);
+    let spoken = speak(args.language.0);
     let look = Look { size: args.size, print: args.print, caption: !args.plain };
     let drawing = picture(&subject, args.tile, &look).with_context(|| args.scene.display().to_string())?;
     let bytes = if ending == "svg" {
@@ -79,5 +83,9 @@ pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
         args.size.png(&drawing).with_context(|| format!("--out {shown}"))?
     };
     args.over.write(&args.out, kind, &bytes)?;
+    drop(spoken);
+    if kind == FileKind::Png {
+        warn_of_missing_characters(&[drawing]);
+    }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use super::language::ReportLanguage;
 use super::picture::subject;
 use super::progress::TerminalProgress;
-use super::writing::Over;
+use super::writing::{Over, warn_of_missing_characters};
 use crate::drawing::colours::Inks;
 use crate::formats::FileKind;
 use crate::formats::encoding::decode;
@@ -89,7 +89,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
         None => tender::TEMPLATE.to_owned(),
     };
     args.over.check([Path::new(what)], Some(out), FileKind::Pdf)?;
-    let _spoken = speak(args.language.0);
+    let spoken = speak(args.language.0);
     let inks = if args.print { &Inks::PRINT } else { &Inks::LIGHT };
     let is_scene = what.ends_with(".toml") || Path::new(what).is_file() || files::is_stream(Path::new(what));
     let (subject, sheet) = if is_scene {
@@ -109,6 +109,8 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     };
     let pages = pages.with_context(|| what.clone())?;
     args.over.write(out, FileKind::Pdf, &pdf::write(&pages, &subject.name)?)?;
+    drop(spoken);
+    warn_of_missing_characters(&pages);
     Ok(())
 }
 

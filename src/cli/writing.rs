@@ -2,6 +2,7 @@
 //! output under the name `-`; each told by its full path.
 
 use super::output;
+use crate::drawing::{Drawing, missing_characters};
 use crate::formats::FileKind;
 use crate::formats::decimal_comma::with_decimal_commas;
 use crate::study::StudyError;
@@ -21,6 +22,13 @@ pub struct Over {
     /// Overwrite an existing file even if it is of another type (input files are never overwritten)
     #[arg(long)]
     pub force: bool,
+}
+
+/// Names the characters that stand as boxes in the PNG or PDF file that was written.
+pub(super) fn warn_of_missing_characters(drawings: &[Drawing]) {
+    if let Some(warning) = missing_characters(drawings) {
+        tell!("warning: {warning}");
+    }
 }
 
 impl Over {

@@ -1,7 +1,10 @@
 //! The font of all drawings: DejaVu Sans as it is shipped, read as far as widths and outlines of letters need (TrueType:
-//! `cmap`, `hmtx`, `loca`, `glyf`). Letters that it does not have are drawn as its empty box.
+//! `cmap`, `hmtx`, `loca`, `glyf`). Letters that it does not have are drawn as its empty box. Words that are written from
+//! right to left are shaped by a library, which joins Arabic letters.
 
 use super::shape::Point;
+use crate::texts::visual_parts;
+use rustybuzz::{Direction, Face, UnicodeBuffer, shape};
 use std::sync::LazyLock;
 
 /// The file, for those who embed it.
@@ -211,10 +214,50 @@ fn flattened(contour: &[(Point, bool)]) -> Vec<Point> {
     out
 }
 
+/// The font as the shaper reads it.
+static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::from_slice(DEJAVU, 0));
+
+/// A glyph of a line. Lengths are relative to the size.
+struct Placed {
+    glyph: u16,
+    advance: f64,
+    /// Shift of its outline, to the right and up: of vowel signs.
+    shift: Point,
+}
+
+/// Returns the glyphs of a line from left to right.
+fn placed(text: &str) -> Vec<Placed> {
+    let font = &*FONT;
+    let mut placed = Vec::with_capacity(text.len());
+    for (range, right_to_left) in visual_parts(text) {
+        let part = &text[range];
+        let Some(face) = FACE.as_ref().filter(|_| right_to_left) else {
+            let glyphs = part.chars().map(|c| font.glyph(c));
+            placed.extend(glyphs.map(|glyph| Placed { glyph, advance: font.advance(glyph), shift: [0.0; 2] }));
+            continue;
+        };
+        let mut buffer = UnicodeBuffer::new();
+        buffer.push_str(part);
+        buffer.set_direction(Direction::RightToLeft);
+        buffer.guess_segment_properties();
+        let shaped = shape(face, &[], buffer);
+        placed.extend(shaped.glyph_infos().iter().zip(shaped.glyph_positions()).map(|(info, position)| Placed {
+            glyph: u16::try_from(info.glyph_id).unwrap_or(0),
+            advance: f64::from(position.x_advance) / font.units,
+            shift: [position.x_offset, position.y_offset].map(|length| f64::from(length) / font.units),
+        }));
+    }
+    placed
+}
+
+/// Returns the characters of a text that the font does not have.
+pub fn missing_characters(text: &str) -> impl Iterator<Item = char> {
+    text.chars().filter(|c| !c.is_control() && FONT.glyph(*c) == 0)
+}
+
 /// Width of a text of a size.
 pub fn width(text: &str, size: f64) -> f64 {
-    let font = &*FONT;
-    size * text.chars().map(|c| font.advance(font.glyph(c))).sum::<f64>()
+    size * placed(text).iter().map(|one| one.advance).sum::<f64>()
 }
 
 /// Outlines of a text's letters, a list for each letter, y down, the baseline at 0 and beginning at 0.
@@ -222,16 +265,16 @@ pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let font = &*FONT;
     let scale = size / font.units;
     let mut x = 0.0;
-    text.chars()
-        .map(|c| {
-            let glyph = font.glyph(c);
+    placed(text)
+        .into_iter()
+        .map(|Placed { glyph, advance, shift: [right, up] }| {
             let mut contours = Vec::new();
             font.contours(glyph, 4, &mut contours);
-            let start = x;
-            x += size * font.advance(glyph);
+            let start = [x + size * right, -size * up];
+            x += size * advance;
             contours
                 .into_iter()
-                .map(|one| one.into_iter().map(|[u, v]| [start + scale * u, -scale * v]).collect())
+                .map(|one| one.into_iter().map(|[u, v]| [start[0] + scale * u, start[1] - scale * v]).collect())
                 .collect()
         })
         .collect()
@@ -314,6 +357,24 @@ mod tests {
         // The second letter begins where the first ends.
         let left = of("MI")[1][0].iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
         assert!(left > width("M", 100.0));
+    }
+
+    #[test]
+    fn words_from_right_to_left_are_turned_and_joined() {
+        let of = |text: &str| outlines(text, 100.0);
+        // The last letter stands left, also of a word among others.
+        assert_eq!((of("שלום").len(), &of("שלום")[0]), (4, &of("ם")[0]));
+        assert_eq!(of("M שלום")[2].len(), of("ם")[0].len());
+        // The first letter is joined with the second: its initial form, which Unicode also has by itself.
+        let ink = |text: &str| area(of(text).last().unwrap());
+        assert!((ink("ستارة") - ink("\u{feb3}")).abs() < 1e-6 && (ink("ستارة") - ink("س")).abs() > 1.0);
+        let together = width("ستارة", 10.0) + width(" 80", 10.0);
+        assert!((width("ستارة 80", 10.0) - together).abs() < 1e-9);
+    }
+
+    #[test]
+    fn characters_that_the_font_lacks_are_known() {
+        assert_eq!(missing_characters("Жалюзи 铝窗, תריס, ستارة, Περσίδα\n").collect::<String>(), "铝窗");
     }
 
     #[test]

@@ -21,5 +21,5 @@ mod svg;
 pub mod thumbnail;
 pub mod ticks;
 
-pub use paper::Drawing;
+pub use paper::{Drawing, missing_characters};
 pub use shape::{Align, Frame, Point, Rgb, Shape, TEXT, circle};

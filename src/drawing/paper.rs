@@ -1,8 +1,10 @@
 //! A drawing: shapes on paper, and the files that they become.
 
+use super::font;
 use super::raster::Raster;
 use super::shape::{Frame, Shape, moved};
 use super::svg;
+use crate::texts::{character_names, hand_on as texts};
 
 /// Shapes on white paper, later ones on top.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,9 +84,39 @@ impl Drawing {
     }
 }
 
+/// Returns a message that names the characters of drawings that the font does not have: PNG and PDF have a box for each.
+pub fn missing_characters(drawings: &[Drawing]) -> Option<String> {
+    let (mut missing, mut first) = (Vec::new(), None);
+    for shape in drawings.iter().flat_map(|drawing| &drawing.shapes) {
+        let Shape::Text { text, .. } = shape else { continue };
+        for character in font::missing_characters(text) {
+            first.get_or_insert(text);
+            if !missing.contains(&character) {
+                missing.push(character);
+            }
+        }
+    }
+    first.map(|text| texts::missing_characters(text, character_names(&missing)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn characters_that_are_drawn_as_boxes_are_named_once() {
+        let mut drawing = cross();
+        assert_eq!(missing_characters(&[drawing.clone()]), None);
+        drawing.add(Shape::text([0.0, 0.0], "Room – 铝百叶窗 80", [0; 3]));
+        drawing.add(Shape::text([0.0, 0.0], "百叶", [0; 3]));
+        let message = missing_characters(&[cross(), drawing.clone(), drawing.clone()]).unwrap();
+        assert!(message.contains("Room – 铝百叶窗 80") && message.contains("铝 (U+94DD)"), "{message}");
+        assert_eq!(message.matches("U+").count(), 4, "{message}");
+        // What is said is true: an SVG has the text, in the order of its letters.
+        assert!(drawing.to_svg().contains("铝百叶窗"));
+        drawing.shapes = vec![Shape::text([0.0, 0.0], "תריס 80", [0; 3])];
+        assert!(missing_characters(&[drawing.clone()]).is_none() && drawing.to_svg().contains(">תריס 80<"));
+    }
 
     fn cross() -> Drawing {
         Drawing {

@@ -4,7 +4,7 @@ use super::ReportError;
 use super::picture::PROGRAM;
 use crate::drawing::font::{DEJAVU, MIDDLE, width};
 use crate::drawing::{Drawing, Point as Place, Rgb, Shape};
-use crate::texts::{Language, Text, hand_on as texts, language};
+use crate::texts::{Language, Text, hand_on as texts, language, visual_parts};
 use krilla::Document;
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Point, Transform};
@@ -94,9 +94,15 @@ fn draw(surface: &mut Surface<'_>, shape: &Shape, font: &Font) {
             surface.set_stroke(None);
             surface.set_fill(Some(fill(*colour, 1.0)));
             surface.push_transform(&Transform::from_rotate_at(*turn as f32, *x as f32, *y as f32));
-            let start = x - align.share() * width(text, *size);
-            let at = Point::from_xy(start as f32, (y + MIDDLE * size) as f32);
-            surface.draw_text(at, font.clone(), *size as f32, text, false, TextDirection::LeftToRight);
+            let mut start = x - align.share() * width(text, *size);
+            // The encoder shapes in one direction, and so keeps the text that a reader copies.
+            for (range, right_to_left) in visual_parts(text) {
+                let direction = if right_to_left { TextDirection::RightToLeft } else { TextDirection::LeftToRight };
+                let part = &text[range];
+                let at = Point::from_xy(start as f32, (y + MIDDLE * size) as f32);
+                surface.draw_text(at, font.clone(), *size as f32, part, false, direction);
+                start += width(part, *size);
+            }
             surface.pop();
         }
     }

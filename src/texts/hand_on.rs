@@ -262,6 +262,7 @@ texts! {
     fn open_brace(open, close, name) = "a {open} without its {close}; expected {name}" | "eine {open} ohne ihre {close}; erwartet {name}";
     fn no_field(name, names) = "{{{name}}} is no field; fields are {names}" | "{{{name}}} ist kein Feld; Felder sind {names}";
     fn no_pdf(why) = "the PDF could not be made: {why}" | "das PDF konnte nicht gemacht werden: {why}";
+    fn missing_characters(text, characters) = "“{text}” cannot be drawn as it is: the font of pictures and PDF files lacks {characters}; a box stands for each. A picture as .svg keeps the text" | "„{text}“ lässt sich nicht vollständig zeichnen: der Schrift für Bilder und PDF fehlt {characters}; für jedes Zeichen steht ein Kästchen. Ein Bild als .svg behält den Text";
     const NO_FONT = "the font cannot be read" | "die Schrift ist nicht lesbar";
     const NO_EXTENT = "a page without an extent" | "eine Seite ohne Ausdehnung";
     fn no_tile(words) = "no tile; expected one of {words}" | "keine Kachel; erwartet eine von {words}";

@@ -8,13 +8,15 @@
 //! CIE S 017 (ILV) and DIN 5034 for German.
 
 mod ascii;
+mod bidi;
 mod csv_cell;
 mod plain;
 mod spoken;
 
 pub use ascii::{ascii_words, composed, folded, is_syllable};
+pub use bidi::{has_right_to_left, visual_parts};
 pub use csv_cell::{csv_cell, inert_cell};
-pub use plain::{message, one_line, short_numbers, visible};
+pub use plain::{character_names, message, one_line, short_numbers, visible};
 pub use spoken::{Language, Speaking, Text, decimal, decimal_sign, fixed, language, speak};
 
 /// Texts of one file: constants, and functions of what they name in braces (anything that [`std::fmt::Display`]s; numbers

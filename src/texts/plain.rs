@@ -1,11 +1,14 @@
 //! Text from files as it may be shown: what commands a terminal or turns a line around is made visible, and a number of
 //! three hundred digits is written short.
 
+use super::take_in;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// Digits in a row that nobody reads.
 const MOST_DIGITS: usize = 24;
+/// Maximum number of characters that a message names. Chosen: a line.
+const MAX_NAMED: usize = 8;
 
 /// Does a character do something else than stand where it is? Line breaks and tabs are what they look like.
 fn acts(c: char) -> bool {
@@ -81,9 +84,25 @@ pub fn message(text: &str) -> String {
     short_numbers(&one_line(text)).into_owned()
 }
 
+/// Returns characters with their numbers in Unicode: "铝 (U+94DD), 百 (U+767E)", the first of many.
+pub fn character_names(characters: &[char]) -> String {
+    let name = |c: &char| format!("{c} (U+{:04X})", u32::from(*c));
+    let names: Vec<String> = characters.iter().take(MAX_NAMED).map(name).collect();
+    match characters.len() - names.len() {
+        0 => names.join(", "),
+        more => take_in::and_more(names.join(", "), more),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn characters_are_named_by_their_numbers() {
+        assert_eq!(character_names(&['铝', '\u{e9}']), "铝 (U+94DD), é (U+00E9)");
+        assert!(character_names(&['窗'; 11]).ends_with("窗 (U+7A97) and 3 more"));
+    }
 
     #[test]
     fn what_commands_a_terminal_is_seen() {

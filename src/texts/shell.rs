@@ -105,6 +105,7 @@ texts! {
     const LANE_IMPORT = "reading files" | "Dateien lesen";
     const LANE_ARRANGE = "arranging" | "Zuordnung";
     const LANE_MEND = "repairing" | "Reparatur";
+    const LANE_FONTS = "fonts of the system" | "Schriften des Systems";
     const LANE_DIALOG = "file dialog" | "Dateidialog";
     const LANE_STORE = "storing" | "Speichern";
     const LANE_SUBSCRIBED = "subscribed folders" | "Abonnierte Ordner";
@@ -136,6 +137,7 @@ texts! {
     fn computing(what) = "computing {what}…" | "{what} wird gerechnet…";
     const ITS_DATA = "its data" | "Datensatz";
     fn builtin_failed(error) = "Built-in products: {error}" | "Mitgelieferte Produkte: {error}";
+    fn no_font(characters) = "No font on this computer has {characters}; a box stands for each. Install a font that has them, for instance Noto Sans CJK for Chinese, Japanese and Korean, and start the program again" | "Keine Schrift auf diesem Rechner hat {characters}; für jedes Zeichen steht ein Kästchen. Eine passende Schrift installieren, zum Beispiel Noto Sans CJK für Chinesisch, Japanisch und Koreanisch, und das Programm neu starten";
     fn written(path) = "Written: {path}" | "Geschrieben: {path}";
     const NOTHING_NEW = "Nothing new: all of it was there already" | "Nichts Neues: alles war schon da";
     const ADDED = "Added to the catalogue; Ctrl+Z takes it out again" | "In den Katalog aufgenommen; Strg+Z nimmt es wieder heraus";

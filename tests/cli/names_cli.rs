@@ -39,6 +39,29 @@ fn a_name_that_is_not_utf_8_is_written_and_its_sibling_stays() {
 }
 
 #[test]
+fn characters_that_stand_as_boxes_in_a_picture_or_report_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let apertures = vec![facade([0.5, 1.0], [3.0, 1.5], "{ file = \"o.system.toml\" }")];
+    std::fs::write(at.join("a.toml"), Text { apertures, ..Text::default() }.toml()).unwrap();
+    let boxes = |name: &str, out: &str| {
+        let opal =
+            format!("name = {name:?}\nkind = \"diffuser\"\n[diffuser]\ntransmittance = 0.5\nreflectance = 0.4\n");
+        std::fs::write(at.join("o.system.toml"), opal + "model = \"lambertian\"\n").unwrap();
+        let what: &[&str] = if out.ends_with("pdf") { &["report"] } else { &["picture", "--tile", "transmittance"] };
+        let output = cfs(at).args(what).args(["a.toml", "--language", "de", "--out", out]).output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+        said(&output).lines().filter(|line| line.starts_with("warning: ")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    for out in ["o.png", "o.pdf"] {
+        let warnings = boxes("铝百叶窗 80", out);
+        assert!(warnings.len() == 1 && warnings[0].contains("窗 (U+7A97)"), "{warnings:?}");
+        assert_eq!(boxes("תריס ستارة Жалюзи", out), [""; 0], "{out}");
+    }
+    assert_eq!(boxes("铝百叶窗 80", "o.svg"), [""; 0], "text stays text");
+}
+
+#[test]
 fn what_is_written_is_named_by_its_absolute_path() {
     let folder = tempfile::tempdir().unwrap();
     scene(folder.path());

@@ -27,6 +27,7 @@ mod product_sheet;
 mod rearranging;
 mod room_view;
 mod scene_panel;
+mod scripts;
 mod tiles_view;
 mod tour_view;
 mod truth;
