@@ -380,26 +380,6 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_pipe_is_told_by_its_content_read_once_and_kept() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("pipe");
-        let made = std::process::Command::new("mkfifo").arg(&path).status();
-        assert!(made.unwrap().success() && is_stream(&path));
-        // Without a writer, whoever opened the pipe would wait.
-        keep(&path);
-        std::fs::write(folder.path().join("a.csv"), TABLE).unwrap();
-        assert_eq!(said(check(&folder.path().join("a.csv"), PLAIN)), "");
-        let writer = std::thread::spawn({
-            let path = path.clone();
-            move || std::fs::write(path, "LOCATION,Somewhere").unwrap()
-        });
-        assert!(telling_name(&path).unwrap().ends_with("pipe.epw"));
-        writer.join().unwrap();
-        assert_eq!(read(&path).unwrap(), b"LOCATION,Somewhere");
-    }
-
-    #[cfg(unix)]
-    #[test]
     fn links_stay_links_and_rights_stay_rights() {
         use std::os::unix::fs::{PermissionsExt as _, symlink};
         let folder = tempfile::tempdir().unwrap();

@@ -113,6 +113,24 @@ fn input_from_a_pipe_is_recognised_by_its_content() {
     assert_eq!(fed(at, &["catalogue", "import", "-", "--name", "Opal"], &opal()), b"opal\n");
 }
 
+#[cfg(unix)]
+#[test]
+fn a_named_pipe_is_read_once_where_a_command_asks_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let scene = scene(at);
+    assert!(Command::new("mkfifo").arg(at.join("pipe")).status().unwrap().success());
+    // An output that is there is compared with the inputs, which must not open the pipe.
+    std::fs::write(at.join("a.csv"), "").unwrap();
+    for arguments in [&["room", "pipe", "--out", "a.csv"][..], &["report", "pipe", "--out", "a.pdf"]] {
+        let (path, scene) = (at.join("pipe"), scene.clone());
+        let writer = std::thread::spawn(move || std::fs::write(path, scene).unwrap());
+        done(at, arguments);
+        writer.join().unwrap();
+    }
+    assert_eq!(std::fs::read(at.join("a.csv")).unwrap(), done(at, &["room", "a.toml"]));
+}
+
 #[test]
 fn tables_with_decimal_commas_are_read_again() {
     let folder = tempfile::tempdir().unwrap();
