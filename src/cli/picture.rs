@@ -2,11 +2,7 @@
 
 use super::language::ReportLanguage;
 use super::progress::TerminalProgress;
-<<<<<<< HEAD
-use super::writing::{Over, StreamFormat};
-=======
-use super::writing::{Over, warn_of_missing_characters};
->>>>>>> 3bbd406b1a904aadcab9a6769310fd7ff87cb884
+use super::writing::{Over, StreamFormat, warn_of_missing_characters};
 use crate::formats::FileKind;
 use crate::report::{Look, Size, TileKind, picture};
 use crate::study::goniophotometer::LayerLibrary as _;
