@@ -79,16 +79,16 @@ impl<const N: usize> Piece<N> {
         half * points.map(|((_, weights), values)| weights[rule] * values[quantity]).sum::<f64>()
     }
 
-    /// Returns what the two last rules differ by in the first quantity.
+    /// Returns the error of the last rule in the first quantity: half of what it differs by from the rule before. Of steps
+    /// anywhere in a piece it is 0.42 and 0.49 of that in the mean for three and seven points, of kinks 0.11 and 0.24, of
+    /// smooth integrands less than a hundredth.
     fn off(&self) -> f64 {
-        (self.integral(self.rule, 0) - self.integral(self.rule - 1, 0)).abs()
+        0.5 * (self.integral(self.rule, 0) - self.integral(self.rule - 1, 0)).abs()
     }
 }
 
 /// ∫ f over the range of `knots` (rising), and its error. The piece that is off by most gets more points, and is halved then,
-/// until what two rules say of the first quantity differs by no more than `relative` of the whole, or `absolute`, taken together.
-///
-/// The error is what the two differ by: of a smooth integrand hundreds of times too much, of one with kinks about what it is.
+/// until the errors of the first quantity come to no more than `relative` of the whole, or `absolute`, see [`Piece::off`].
 pub fn sweep<const N: usize>(
     mut f: impl FnMut(f64) -> [f64; N],
     knots: &[f64],
@@ -141,9 +141,11 @@ mod tests {
         let ([sine, one], error) = sweep(|x| [x.sin(), 1.0], &[0.0, 1.0, std::f64::consts::PI], 1e-6, 0.0);
         assert!((sine - 2.0).abs() <= error && error < 1e-4, "{sine} {error}");
         assert!((one - std::f64::consts::PI).abs() < 1e-12);
-        let ([kink], error) = sweep(|x| [(x - 0.37_f64).abs()], &[0.0, 1.0], 1e-5, 0.0);
-        let exact = 0.5 * (0.37 * 0.37 + 0.63 * 0.63);
-        assert!((kink - exact).abs() <= error && error < 1e-4, "{kink} {exact} {error}");
+        // Kinks at places that no rule knows.
+        let places = || (0..20).map(|k| (0.37 + 0.618_034 * f64::from(k)).fract());
+        let ([kinks], error) = sweep(|x| [places().map(|at| (x - at).abs()).sum()], &[0.0, 1.0], 1e-5, 0.0);
+        let exact: f64 = places().map(|at| 0.5 * (at * at + (1.0 - at) * (1.0 - at))).sum();
+        assert!((kinks - exact).abs() <= error && error <= 1e-5 * exact * (1.0 + 1e-9), "{kinks} {exact} {error}");
         let ([jump], error) = sweep(|x| [f64::from(x > 0.3)], &[0.0, 1.0], 1e-3, 0.0);
         assert!((jump - 0.7).abs() <= error.max(1e-4) && error < 5e-3, "{jump} {error}");
     }

@@ -165,16 +165,27 @@ impl Plane {
         // Of other planes, no value is asked for of corners behind them.
         let corner = |a: f64, b: f64| {
             let seen = is_parallel.contains(&true) || self.in_front(a, b);
-            (if seen { self.corner(moved(0, a), moved(1, b)) } else { 0.0 }, seen)
+            (if seen { self.corner(a, b) } else { 0.0 }, seen)
         };
         let row_at = |a: f64, row: &mut Vec<(f64, bool)>| {
             row.clear();
-            row.extend(lines_b.iter().map(|&b| corner(a, b)));
+            let mut last = (f64::NAN, (0.0, false));
+            row.extend(lines_b.iter().map(|&b| {
+                let b = moved(1, b);
+                if b != last.0 {
+                    last = (b, corner(a, b));
+                }
+                last.1
+            }));
         };
         let (mut row, mut next, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        row_at(lines_a[0], &mut row);
+        row_at(moved(0, lines_a[0]), &mut row);
         for (i, a) in lines_a.windows(2).enumerate() {
-            row_at(a[1], &mut next);
+            if moved(0, a[0]) == moved(0, a[1]) {
+                next.clone_from(&row);
+            } else {
+                row_at(moved(0, a[1]), &mut next);
+            }
             for (j, b) in lines_b.windows(2).enumerate() {
                 let corners = [row[j], row[j + 1], next[j], next[j + 1]];
                 let seen = match corners.iter().filter(|corner| corner.1).count() {
