@@ -4,6 +4,7 @@ use super::error::StudyError;
 use super::moment;
 use super::scene_file::{SceneFile, SystemKeys, TimeKey};
 use super::sun_position::{Place, parse_local_time};
+use crate::texts::ascii_words;
 use std::path::Path;
 
 /// The day of every month.
@@ -140,7 +141,8 @@ fn tag(words: &[&str]) -> String {
     let plain = |word: &str| -> String {
         // The year and the colon say nothing that a name needs.
         let word = word.get(5..).filter(|_| word.contains('T') && word.len() == 16).unwrap_or(word);
-        word.chars()
+        ascii_words(word)
+            .chars()
             .filter(|c| *c != ':')
             .map(|c| if c.is_ascii_alphanumeric() || c == '.' { c } else { '-' })
             .collect()
@@ -199,6 +201,7 @@ points = [[2.0, 2.0, 0.85]]
         );
         assert_eq!(dark, ["2026-12-21T05:30"]);
         assert_eq!(members[1].tag, "06-21T0530_tilt-45");
+        assert_eq!(tag(&["2026-06-21T05:30", "открыто 45"]), "06-21T0530_otkryto-45");
         let keys = &members[5].scene;
         assert_eq!(keys.sky.time.as_ref().unwrap().text(), "2026-12-21T12:00");
         assert!(matches!(&keys.aperture[0].system, SystemKeys::File { state: Some(state), .. } if state == "tilt 45"));
