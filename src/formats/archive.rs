@@ -104,8 +104,11 @@ fn with_slashes(name: &str) -> String {
 /// Bytes of a header in the list at the end of an archive, before its name: APPNOTE 4.3.12. \[bytes\]
 const HEADER: usize = 46;
 
-/// Returns the list at the end of an archive as headers and names, and what follows it.
-fn listed<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> (Vec<(&'a [u8], &'a [u8])>, &'a [u8]) {
+/// A header in the list at the end of an archive with the name in it.
+type Listed<'a> = (&'a [u8], &'a [u8]);
+
+/// Returns the list at the end of an archive, and what follows it.
+fn listed<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> (Vec<Listed<'a>>, &'a [u8]) {
     let mut list = Vec::new();
     let mut rest =
         usize::try_from(zip.central_directory_start()).ok().and_then(|at| bytes.get(at..)).unwrap_or_default();
