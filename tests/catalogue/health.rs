@@ -310,3 +310,25 @@ fn other_files_are_not_mended_into_catalogues() {
     let told = check_file(&path).unwrap_err().to_string();
     assert!(told.contains("no catalogue"), "{told}");
 }
+
+#[test]
+fn pages_of_another_kind_are_found_and_written_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = filled(folder.path(), 1);
+    let whole = Catalogue::open(&path).unwrap().search(&Query::default()).unwrap();
+    let db = Connection::open(&path).unwrap();
+    db.execute_batch("PRAGMA wal_checkpoint(TRUNCATE)").unwrap();
+    let root: usize = db
+        .query_row("SELECT rootpage FROM sqlite_schema WHERE name = 'collection_product'", [], |row| row.get(0))
+        .unwrap();
+    drop(db);
+    let mut bytes = std::fs::read(&path).unwrap();
+    let page = &mut bytes[4096 * (root - 1)..4096 * root];
+    // An index without entries becomes a table without rows: SQLite's own checks count both alike.
+    page[0] = 0x0d;
+    std::fs::write(&path, &bytes).unwrap();
+    let health = check_file(&path).unwrap();
+    assert_eq!(health.damages.iter().map(|one| &one.place).collect::<Vec<_>>(), [&Place::Pages]);
+    assert!(mend(&path, &health).unwrap().after.damages.is_empty());
+    assert_eq!(Catalogue::open(&path).unwrap().search(&Query::default()).unwrap(), whole);
+}
