@@ -135,65 +135,62 @@ impl Plane {
         }
     }
 
-    fn in_front(&self, a: f64, b: f64) -> bool {
-        self.normal.dot(DVec3::new(a - self.origin[0], b - self.origin[1], self.distance)) > 0.0
+    /// Returns a line of the wall at a coordinate along one of its axes. A plane parallel to the lines cuts cells as one more
+    /// line does: lines behind it are moved to it.
+    fn line(&self, axis: usize, at: f64) -> Line {
+        let behind = self.is_parallel(axis) && self.normal[axis] * (at - self.origin[axis]) < 0.0;
+        let from = if behind { 0.0 } else { at - self.origin[axis] };
+        let inverse = (from * from + self.distance * self.distance).sqrt().recip();
+        Line { from, inverse, weight: inverse * (from * self.normal.z - self.distance * self.normal[axis]) }
     }
 
-    /// n·∫ω dω over the quadrant of the wall that ends in the corner (a, b), but for parts that cancel in second
+    /// Whether the point's plane is parallel to the lines of one coordinate.
+    fn is_parallel(&self, axis: usize) -> bool {
+        self.normal.z == 0.0 && self.normal[1 - axis] == 0.0
+    }
+
+    /// n·∫ω dω over the quadrant of the wall that ends in the corner of two lines, but for parts that cancel in second
     /// differences.
-    fn corner(&self, a: f64, b: f64) -> f64 {
-        let (x, y, d) = (a - self.origin[0], b - self.origin[1], self.distance);
-        // Of a point's plane at right angles to the wall one of the two has no share.
-        let edge = |x: f64, y: f64, share: f64| {
-            let r = (x * x + d * d).sqrt();
-            if share == 0.0 { 0.0 } else { share * (y / r).atan() / r }
-        };
-        let n = self.normal;
-        0.5 * (edge(x, y, x * n.z - d * n.x) + edge(y, x, y * n.z - d * n.y))
+    fn corner(a: &Line, b: &Line) -> f64 {
+        // Of a plane at right angles to the wall one of the two may have no share.
+        let edge =
+            |of: &Line, to: &Line| if of.weight == 0.0 { 0.0 } else { of.weight * (to.from * of.inverse).atan() };
+        0.5 * (edge(a, b) + edge(b, a))
     }
 
     /// Calls `take` with the configuration factor of every cell between lines on the wall, and the cell's two numbers.
-    fn cells(&self, wall: &Wall, [lines_a, lines_b]: [&[f64]; 2], mut take: impl FnMut(usize, usize, f64)) {
-        // A plane parallel to lines of the wall cuts cells as one more line does: lines behind it are moved to it.
-        let n = self.normal;
-        let is_parallel = [n.y == 0.0 && n.z == 0.0, n.x == 0.0 && n.z == 0.0];
-        let moved = |axis: usize, line: f64| match is_parallel[axis] {
-            true if n[axis] > 0.0 => line.max(self.origin[axis]),
-            true => line.min(self.origin[axis]),
-            false => line,
-        };
+    fn cells(&self, wall: &Wall, at: [&[f64]; 2], mut take: impl FnMut(usize, usize, f64)) {
+        let lines = [0, 1].map(|axis| at[axis].iter().map(|&at| self.line(axis, at)).collect::<Vec<Line>>());
+        let is_cut_by_lines = self.is_parallel(0) || self.is_parallel(1);
         // Of other planes, no value is asked for of corners behind them.
-        let corner = |a: f64, b: f64| {
-            let seen = is_parallel.contains(&true) || self.in_front(a, b);
-            (if seen { self.corner(a, b) } else { 0.0 }, seen)
+        let corner = |a: &Line, b: &Line| {
+            let seen = is_cut_by_lines || self.normal.dot(DVec3::new(a.from, b.from, self.distance)) > 0.0;
+            (if seen { Self::corner(a, b) } else { 0.0 }, seen)
         };
-        let row_at = |a: f64, row: &mut Vec<(f64, bool)>| {
+        let row_at = |a: &Line, row: &mut Vec<(f64, bool)>| {
             row.clear();
-            let mut last = (f64::NAN, (0.0, false));
-            row.extend(lines_b.iter().map(|&b| {
-                let b = moved(1, b);
-                if b != last.0 {
-                    last = (b, corner(a, b));
-                }
-                last.1
-            }));
+            for (j, b) in lines[1].iter().enumerate() {
+                let same = j > 0 && lines[1][j - 1].from == b.from;
+                row.push(if same { row[j - 1] } else { corner(a, b) });
+            }
         };
         let (mut row, mut next, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        row_at(moved(0, lines_a[0]), &mut row);
-        for (i, a) in lines_a.windows(2).enumerate() {
-            if moved(0, a[0]) == moved(0, a[1]) {
+        row_at(&lines[0][0], &mut row);
+        for (i, pair) in lines[0].windows(2).enumerate() {
+            if pair[0].from == pair[1].from {
                 next.clone_from(&row);
             } else {
-                row_at(moved(0, a[1]), &mut next);
+                row_at(&pair[1], &mut next);
             }
-            for (j, b) in lines_b.windows(2).enumerate() {
+            for j in 0..lines[1].len() - 1 {
                 let corners = [row[j], row[j + 1], next[j], next[j + 1]];
                 let seen = match corners.iter().filter(|corner| corner.1).count() {
                     4 => corners[0].0 - corners[1].0 - corners[2].0 + corners[3].0,
                     0 => 0.0,
                     _ => {
-                        let corners = [(a[0], b[0]), (a[1], b[0]), (a[1], b[1]), (a[0], b[1])];
-                        clip(&corners.map(|(a, b)| wall.point(a, b) - self.position), self.room_normal, &mut kept);
+                        let corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)];
+                        let corners = corners.map(|(i, j)| wall.point(at[0][i], at[1][j]) - self.position);
+                        clip(&corners, self.room_normal, &mut kept);
                         vector_solid_angle(&kept).dot(self.room_normal).abs()
                     }
                 };
@@ -202,6 +199,16 @@ impl Plane {
             std::mem::swap(&mut row, &mut next);
         }
     }
+}
+
+/// A line of a wall.
+struct Line {
+    /// Its distance from the point's foot along the wall. \[m\]
+    from: f64,
+    /// One over its distance from the point. \[1/m\]
+    inverse: f64,
+    /// What the angle along it counts for.
+    weight: f64,
 }
 
 /// The same from one polygon on a wall, given by its corners in the wall's own two coordinates.
