@@ -318,11 +318,12 @@ fn pages_of_another_kind_are_found_and_written_anew() {
     let whole = Catalogue::open(&path).unwrap().search(&Query::default()).unwrap();
     let db = Connection::open(&path).unwrap();
     db.execute_batch("PRAGMA wal_checkpoint(TRUNCATE)").unwrap();
-    let root: usize = db
+    let root: i64 = db
         .query_row("SELECT rootpage FROM sqlite_schema WHERE name = 'collection_product'", [], |row| row.get(0))
         .unwrap();
     drop(db);
     let mut bytes = std::fs::read(&path).unwrap();
+    let root = usize::try_from(root).unwrap();
     let page = &mut bytes[4096 * (root - 1)..4096 * root];
     // An index without entries becomes a table without rows: SQLite's own checks count both alike.
     page[0] = 0x0d;
