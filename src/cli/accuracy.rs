@@ -142,7 +142,7 @@ pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
         .transpose()?;
     let picture = picture.map(|(path, png)| (path, if png { FileKind::Png } else { FileKind::Svg }));
     let from = [Some(&*args.scene), args.reference.as_deref()];
-    args.tables.check(from.into_iter().flatten(), args.csv.as_deref(), FileKind::Csv)?;
+    args.tables.check(from.into_iter().flatten(), args.csv.as_deref(), FileKind::Csv, false)?;
     if let Some((path, kind)) = picture {
         args.tables.over.check([], Some(path), kind)?;
     }
@@ -167,7 +167,7 @@ pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
 
 /// Of the scene's ranking.
 fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
-    args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv, false)?;
     let groups = asked(std::slice::from_ref(&args.scene), args.products.as_deref(), library)?;
     let accuracy =
         ranking(&groups, library, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;
@@ -179,7 +179,7 @@ fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
 
 /// Of the scene's year.
 fn of_year(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
-    args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv, false)?;
     let file = read_scene_file(&args.scene)?;
     let base = files::folder(&args.scene);
     let accuracy = annual(&file, base, library, &|_| true, &TerminalProgress::new())

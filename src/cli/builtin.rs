@@ -54,7 +54,7 @@ pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Res
 /// Computes what is missing of all built-in products, and writes them where asked.
 pub(super) fn build(catalogue: &mut Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
     args.tables.over.check([], args.out.as_deref(), FileKind::Package)?;
-    args.tables.check([], args.table.as_deref(), FileKind::Csv)?;
+    args.tables.check([], args.table.as_deref(), FileKind::Csv, false)?;
     let start = Instant::now();
     let computed = provided(catalogue, |_| true)?;
     catalogue.fill_figures(&TerminalProgress::new())?;

@@ -75,7 +75,7 @@ pub fn run(args: &CompareArgs, library: &Library) -> anyhow::Result<()> {
         _ => FileKind::Comparison,
     };
     let from = args.what.iter().map(Path::new).chain(args.scene.as_deref());
-    args.tables.check(from, args.out.as_deref(), kind)?;
+    args.tables.check(from, args.out.as_deref(), kind, true)?;
     let base = args.scene.as_deref().map(read).transpose()?;
     let mut list: Vec<(String, One)> = Vec::new();
     for what in &args.what {

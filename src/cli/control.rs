@@ -53,7 +53,7 @@ pub struct ControlArgs {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
-    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;
     let file = read_scene_file(&args.scene)?;
     let base = files::folder(&args.scene);
     let told = |error: crate::study::StudyError| anyhow!("{name}: {error}");

@@ -145,7 +145,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         LidFormat::Png => FileKind::Png,
         LidFormat::Svg => FileKind::Svg,
     };
-    args.tables.check([&**path], None, kind)?;
+    args.tables.check([&**path], None, kind, true)?;
     if needs_index(&wish, &members) {
         refuse_stream(&args.out)?;
         if args.out.file_name().is_none_or(|name| name.to_str().is_none()) {

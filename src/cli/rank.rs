@@ -76,7 +76,7 @@ pub struct RankArgs {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     let from = args.scenes.iter().chain(&args.merge).map(PathBuf::as_path);
-    args.tables.check(from, args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check(from, args.out.as_deref(), FileKind::Csv, false)?;
     if !args.merge.is_empty() {
         let (lists, figures) = merged(&args.merge)?;
         return tell(args, &lists, &figures);

@@ -49,7 +49,7 @@ pub struct RoomArgs {
 
 /// Runs the command.
 pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
-    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;
     let scene = load_scene(&args.scene, library)?;
     let result =
         Session::new().room(&scene, &TerminalProgress::new()).with_context(|| args.scene.display().to_string())?;

@@ -59,7 +59,7 @@ struct Row {
 /// Runs the command; errors name the file and the key.
 pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let name = args.scene.display();
-    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;
     let scene = crate::study::read_scene_file(&args.scene)?;
     let base_dir = files::folder(&args.scene);
     let (outside, sun) =

@@ -98,15 +98,20 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Checks before the work, as [`Over::check`] does, and whether there are decimals at all.
+    /// Checks before the work, as [`Over::check`] does, and whether there are decimals at all. `is_printed`: whether without a
+    /// file the table goes to standard output.
     pub(super) fn check<'a>(
         self,
         from: impl IntoIterator<Item = &'a Path>,
         path: Option<&Path>,
         kind: FileKind,
+        is_printed: bool,
     ) -> anyhow::Result<()> {
         if self.decimal_comma && kind != FileKind::Csv {
             bail!("--decimal-comma: {} is written; expected a CSV table", kind.words());
+        }
+        if self.decimal_comma && path.is_none() && !is_printed {
+            bail!("--decimal-comma: no CSV table is written; expected a file for it");
         }
         self.over.check(from, path, kind)
     }

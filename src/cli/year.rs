@@ -83,7 +83,7 @@ pub struct YearArgs {
 pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
     let kind = if args.scene_at.is_some() { FileKind::Scene } else { FileKind::Csv };
-    args.tables.check([&*args.scene], args.out.as_deref(), kind)?;
+    args.tables.check([&*args.scene], args.out.as_deref(), kind, !args.json)?;
     let file = read_scene_file(&args.scene)?;
     let base = files::folder(&args.scene);
     let told = |error: StudyError| anyhow!("{name}: {error}");

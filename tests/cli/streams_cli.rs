@@ -84,6 +84,7 @@ fn several_files_and_an_unknown_format_are_refused_for_standard_output() {
         (&["lid", "a.toml", "--out", "a.ldt", "--format", "ldt"], "for standard output"),
         (&["convert", "a.xml", "-", "--format", "pdf"], "BSDF XML"),
         (&["lid", "a.toml", "--out", "a.ldt", "--decimal-comma"], "CSV table"),
+        (&["room", "a.toml", "--json", "--decimal-comma"], "no CSV table is written"),
     ] {
         let output = cfs(at, arguments);
         assert!(output.status.code() == Some(2) && said(&output).contains(words), "{arguments:?}: {}", said(&output));
