@@ -1,6 +1,6 @@
 //! Words as parts of file names, in characters that every system takes.
 
-use crate::texts::ascii_words;
+use crate::texts::ascii_letters;
 
 /// Longest part of a name made from words. \[characters\]
 const LONGEST: usize = 80;
@@ -8,7 +8,7 @@ const LONGEST: usize = 80;
 /// A word in ASCII letters, digits, point and hyphen; other runs become one hyphen.
 pub fn safe(word: &str) -> String {
     let mut text = String::new();
-    for c in ascii_words(word).chars() {
+    for c in ascii_letters(word).chars() {
         if c.is_ascii_alphanumeric() || c == '.' || (c == '-' && text.is_empty()) {
             text.push(c);
         } else if !text.ends_with('-') && !text.is_empty() {

@@ -2,7 +2,7 @@
 
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
-use crate::texts::{Text, ascii_words, catalogue as text};
+use crate::texts::{Text, ascii_letters, catalogue as text};
 
 /// How data came to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -220,7 +220,7 @@ pub(crate) fn slug(name: &str, maker: &str) -> String {
 fn plain(name: &str) -> String {
     let mut key = String::new();
     // Apostrophes stand for soft signs: part of a word.
-    for letter in ascii_words(name).chars().filter(|letter| *letter != '\'') {
+    for letter in ascii_letters(name).chars().filter(|letter| *letter != '\'') {
         if letter.is_ascii_alphanumeric() {
             key.push(letter.to_ascii_lowercase());
         } else if !key.is_empty() && !key.ends_with('-') {

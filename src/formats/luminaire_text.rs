@@ -70,6 +70,7 @@ pub(super) fn ascii(text: &str) -> String {
             'Ö' => spelt.push_str("Oe"),
             'Ü' => spelt.push_str("Ue"),
             '°' => spelt.push_str(" deg"),
+            '×' => spelt.push('x'),
             letter if letter.is_control() => spelt.push(' '),
             letter => spelt.push(letter),
         }

@@ -4,7 +4,7 @@ use super::error::StudyError;
 use super::moment;
 use super::scene_file::{SceneFile, SystemKeys, TimeKey};
 use super::sun_position::{Place, parse_local_time};
-use crate::texts::ascii_words;
+use crate::texts::ascii_letters;
 use std::path::Path;
 
 /// The day of every month.
@@ -141,7 +141,7 @@ fn tag(words: &[&str]) -> String {
     let plain = |word: &str| -> String {
         // The year and the colon say nothing that a name needs.
         let word = word.get(5..).filter(|_| word.contains('T') && word.len() == 16).unwrap_or(word);
-        ascii_words(word)
+        ascii_letters(word)
             .chars()
             .filter(|c| *c != ':')
             .map(|c| if c.is_ascii_alphanumeric() || c == '.' { c } else { '-' })

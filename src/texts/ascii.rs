@@ -2,6 +2,7 @@
 
 use any_ascii::any_ascii_char;
 use unicode_normalization::UnicodeNormalization as _;
+use unicode_normalization::char::is_combining_mark;
 
 /// Whether a character is a syllable or a word: Chinese, Japanese and Korean are written without blanks between words.
 pub const fn is_syllable(letter: char) -> bool {
@@ -64,6 +65,17 @@ pub fn ascii_words(text: &str) -> String {
     words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// Returns letters and digits of a text as [`ascii_words`] does, for keys and names of files: signs other than dashes are
+/// blanks.
+pub fn ascii_letters(text: &str) -> String {
+    let letter = |letter: char| match letter {
+        '\u{2010}'..='\u{2015}' | '−' => '-',
+        letter if letter.is_ascii() || letter.is_alphanumeric() || is_combining_mark(letter) => letter,
+        _ => ' ',
+    };
+    ascii_words(&composed(text).chars().map(letter).collect::<String>())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,5 +110,6 @@ mod tests {
         ] {
             assert_eq!(ascii_words(text), ascii);
         }
+        assert_eq!(ascii_letters("−35° Ko\u{308}ln, 铝 5 €"), "-35 Koln, Lu 5");
     }
 }

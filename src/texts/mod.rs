@@ -13,7 +13,7 @@ mod csv_cell;
 mod plain;
 mod spoken;
 
-pub use ascii::{ascii_words, composed, folded, is_syllable};
+pub use ascii::{ascii_letters, ascii_words, composed, folded, is_syllable};
 pub use bidi::{has_right_to_left, visual_parts};
 pub use csv_cell::{csv_cell, inert_cell};
 pub use plain::{character_names, message, one_line, short_numbers, visible};
