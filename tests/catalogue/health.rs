@@ -315,7 +315,11 @@ fn other_files_are_not_mended_into_catalogues() {
 fn pages_of_another_kind_are_found_and_written_anew() {
     let folder = tempfile::tempdir().unwrap();
     let path = filled(folder.path(), 1);
-    let whole = Catalogue::open(&path).unwrap().search(&Query::default()).unwrap();
+    // Data of built-in products are computed when they are asked for: which products there are does not change.
+    let keys = || -> Vec<String> {
+        Catalogue::open(&path).unwrap().search(&Query::default()).unwrap().iter().map(|row| row.key.clone()).collect()
+    };
+    let whole = keys();
     let db = Connection::open(&path).unwrap();
     db.execute_batch("PRAGMA wal_checkpoint(TRUNCATE)").unwrap();
     let root: i64 = db
@@ -331,5 +335,5 @@ fn pages_of_another_kind_are_found_and_written_anew() {
     let health = check_file(&path).unwrap();
     assert_eq!(health.damages.iter().map(|one| &one.place).collect::<Vec<_>>(), [&Place::Pages]);
     assert!(mend(&path, &health).unwrap().after.damages.is_empty());
-    assert_eq!(Catalogue::open(&path).unwrap().search(&Query::default()).unwrap(), whole);
+    assert_eq!(keys(), whole);
 }
