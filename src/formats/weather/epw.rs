@@ -207,7 +207,8 @@ fn row(text: &str, line: usize, changed: &mut Changed) -> Result<(Record, Label)
     let day = day(written, month, date)?;
     changed.years += usize::from(i32::from(day.year) != written);
     let label = Label {
-        hour: hour.integer(0, 24)? as u8,
+        // 0 of files that count from 0: messages name the hours of the format.
+        hour: if hour.number()? == 0.0 { 0 } else { hour.integer(1, 24)? as u8 },
         // Of one record an hour the minute may be anything.
         minute: minute.integer(0, 60).ok().map(|minute| minute as u8),
         column: u16::try_from(minute.column).unwrap_or(u16::MAX),
