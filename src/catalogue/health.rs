@@ -135,14 +135,14 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
 }
 
 fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
-    let mut told = Vec::new();
+    let mut messages = Vec::new();
     for pragma in [format!("PRAGMA integrity_check({MOST_TOLD})"), "PRAGMA foreign_key_check".to_owned()] {
         let keys = pragma.contains("foreign");
         let mut ask = match db.prepare(&pragma) {
             Ok(ask) => ask,
             // Not even the list of tables can be read.
             Err(error) if error.sqlite_error_code() == Some(ErrorCode::DatabaseCorrupt) => {
-                told.push(said(&error));
+                messages.push(said(&error));
                 break;
             }
             Err(error) => return Err(error.into()),
@@ -154,25 +154,25 @@ fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
                 Ok(Some(row)) => {
                     let said: String = row.get(0)?;
                     if keys {
-                        told.push(format!("table {said} names something that is not there"));
+                        messages.push(format!("table {said} names something that is not there"));
                     } else if said != "ok" {
-                        told.push(said.replace('\n', "; "));
+                        messages.push(said.replace('\n', "; "));
                     }
                 }
                 // So broken that it cannot even be looked through.
                 Err(error) => {
-                    told.push(said(&error));
+                    messages.push(said(&error));
                     break;
                 }
             }
         }
     }
-    if told.is_empty() {
-        told.extend(read_through(db).err().map(|error| said(&error)));
+    if messages.is_empty() {
+        messages.extend(read_through(db).err().map(|error| said(&error)));
     }
-    told.dedup();
-    told.truncate(MOST_TOLD);
-    Ok(told)
+    messages.dedup();
+    messages.truncate(MOST_TOLD);
+    Ok(messages)
 }
 
 /// Reads all rows of all tables and indices: a page of another kind without any rows passes SQLite's own checks.

@@ -194,7 +194,8 @@ impl Written {
     /// Writes files, all of them or none.
     fn put(&mut self, list: &[(PathBuf, FileKind, &[u8])]) -> Result<()> {
         let new: Vec<_> = list.iter().filter(|(path, ..)| !path.exists()).map(|(path, ..)| path.clone()).collect();
-        self.over.write_untold(&list.iter().map(|(path, kind, bytes)| (&**path, *kind, *bytes)).collect::<Vec<_>>())?;
+        self.over
+            .write_silently(&list.iter().map(|(path, kind, bytes)| (&**path, *kind, *bytes)).collect::<Vec<_>>())?;
         self.paths.extend(list.iter().map(|(path, ..)| path.clone()));
         self.new.extend(new);
         Ok(())

@@ -1,5 +1,5 @@
 //! Files that commands write: not over what they were made from, nor over files of another kind without a word; to standard
-//! output under the name `-`; each told by its full path.
+//! output under the name `-`; each is named by its full path.
 
 use super::output;
 use crate::drawing::{Drawing, missing_characters};
@@ -13,8 +13,8 @@ use std::borrow::Cow;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-/// Most files of one command that are told one by one. Chosen: no effect on results.
-const MAX_TOLD: usize = 4;
+/// Most files of one command that are named one by one. Chosen: no effect on results.
+const MAX_NAMED: usize = 4;
 
 /// Options for overwriting existing files.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
@@ -60,25 +60,25 @@ impl Over {
         self.write_all(&[(path, kind, bytes)])
     }
 
-    /// Writes files, all of them or none, and tells them.
+    /// Writes files, all of them or none, and names them on standard error.
     pub(super) fn write_all(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
-        self.write_untold(list)?;
+        self.write_silently(list)?;
         tell_written(list.iter().map(|(path, ..)| *path));
         Ok(())
     }
 
-    /// Writes files, all of them or none, of which more are to come: [`tell_written`] tells them all.
-    pub(super) fn write_untold(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
+    /// Writes files, all of them or none, of which more are to come: [`tell_written`] names them all.
+    pub(super) fn write_silently(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         let output = |&(path, kind, bytes): &(_, _, _)| Output { path, bytes, replace: self.replace(kind) };
         files::write_all(&list.iter().map(output).collect::<Vec<_>>())
     }
 }
 
-/// Tells on standard error which files were written, by their full paths; of many the first. Streams are no files.
+/// Says on standard error which files were written, by their full paths; of many the first. Streams are no files.
 pub(super) fn tell_written<'a>(paths: impl Iterator<Item = &'a Path>) {
     let list: Vec<PathBuf> = paths.filter(|path| !files::is_stream(path)).map(files::absolute).collect();
     match list.as_slice() {
-        [first, others @ ..] if list.len() > MAX_TOLD => {
+        [first, others @ ..] if list.len() > MAX_NAMED => {
             tell!("written: {} and {} more files beside it", first.display(), others.len());
         }
         few => few.iter().for_each(|path| tell!("written: {}", path.display())),

@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn input_without_a_name_is_told_by_its_content() {
+    fn input_without_a_name_is_recognised_by_its_content() {
         let index = b"file,x,y,z,width,height,flux_lm\na_1.ldt,1,0,2,1,1,500\n";
         let files: [(&[u8], &str); 9] = [
             (SCENE.as_bytes(), ".toml"),

@@ -9,7 +9,7 @@ use crate::texts::{ascii_words, composed};
 /// headers alone are longer. \[characters\]
 const LOST_BREAKS: usize = 200;
 
-/// Text of a file: UTF-8 or Windows-1252, as such files are, or UTF-16, which is told; without a byte-order mark, lines
+/// Text of a file: UTF-8 or Windows-1252, as such files are, or UTF-16, with a finding; without a byte-order mark, lines
 /// ended by a line feed.
 ///
 /// # Errors

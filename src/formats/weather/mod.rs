@@ -29,7 +29,7 @@ pub fn extension_of(text: &str) -> Option<&'static str> {
     words.iter().find(|(word, _)| text.starts_with(word)).map(|(_, extension)| *extension)
 }
 
-/// Reads a weather file of any of the formats, told by its first word, then by its name; in UTF-8, UTF-16 or Windows-1252, with
+/// Reads a weather file of any of the formats, recognised by its first word, then by its name; in UTF-8, UTF-16 or Windows-1252, with
 /// any line ends.
 ///
 /// # Errors
