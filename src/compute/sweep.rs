@@ -149,4 +149,27 @@ mod tests {
         let ([jump], error) = sweep(|x| [f64::from(x > 0.3)], &[0.0, 1.0], 1e-3, 0.0);
         assert!((jump - 0.7).abs() <= error.max(1e-4) && error < 5e-3, "{jump} {error}");
     }
+
+    #[test]
+    fn errors_are_at_most_half_of_what_rules_differ_by() {
+        let step = |x: f64, at: f64| f64::from(x > at);
+        let kink = |x: f64, at: f64| (x - at).abs();
+        // Over −1 … 1.
+        let of_step = |at: f64| 1.0 - at;
+        let of_kink = |at: f64| 1.0 + at * at;
+        let cases: [(fn(f64, f64) -> f64, fn(f64) -> f64, [f64; 2]); 2] =
+            [(step, of_step, [0.415, 0.492]), (kink, of_kink, [0.112, 0.236])];
+        for (f, exact, shares) in cases {
+            for (rule, share) in [1, 2].into_iter().zip(shares) {
+                let (mut error, mut difference) = (0.0, 0.0);
+                for place in 0..20_000 {
+                    let at = (f64::from(place) + 0.5) / 10_000.0 - 1.0;
+                    let piece = Piece::new(&mut |x| [f(x, at)], [-1.0, 1.0], 0);
+                    error += (piece.integral(rule, 0) - exact(at)).abs();
+                    difference += (piece.integral(rule, 0) - piece.integral(rule - 1, 0)).abs();
+                }
+                assert!((error / difference - share).abs() < 1e-3, "{rule}: {}", error / difference);
+            }
+        }
+    }
 }
