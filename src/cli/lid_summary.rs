@@ -1,0 +1,61 @@
+//! What `cfs lid` says about the luminaires it has made.
+
+use super::lid::LidArgs;
+use crate::compute::lid::c_gamma::Aim;
+use crate::study::luminaire_series::Member;
+use crate::study::luminaire_set::LuminaireSet;
+
+/// Figures for programs.
+pub(super) fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> serde_json::Value {
+    serde_json::json!({
+        "out": args.out.to_string_lossy(),
+        "set": member.name,
+        "aperture": args.aperture,
+        "flux_lm": set.flux.value,
+        "flux_error_lm": set.flux.error,
+        "peak_cd": set.peak,
+        "scaled_by": set.scaled_by,
+        "step_deg": set.step.degrees(),
+        "aim": match set.aim { Aim::Mounted => "mounted", Aim::Down => "down" },
+        // The sum of nothing is −0.
+        "beam_lm": set.files.iter().map(|file| file.row.beam).sum::<f64>() + 0.0,
+        "beam_apart": set.apart.map(|apart| serde_json::json!({
+            "flux_lm": apart.flux,
+            "direction": apart.direction.to_array(),
+            "normal_lx": apart.normal,
+        })),
+        "tiles": set.tiling.map(|tiling| serde_json::json!({ "columns": tiling.columns, "rows": tiling.rows })),
+        "files": set.files.iter().map(|file| &file.row.file).collect::<Vec<_>>(),
+        "index": set.tiling.map(|_| args.out.with_extension("index.csv").to_string_lossy().into_owned()),
+        "reached": set.reached.map(|reached| serde_json::json!({
+            "sum": reached.sum,
+            "rms": reached.rms,
+            "worst": reached.worst,
+            "fields": reached.fields,
+        })),
+    })
+}
+
+/// Sentences for people.
+pub(super) fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
+    let of = if member.name.is_empty() { String::new() } else { format!("{}: ", member.name) };
+    tell!(
+        "{of}{:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
+        set.flux.value,
+        set.peak,
+        set.step.degrees(),
+        100.0 * (set.scaled_by - 1.0)
+    );
+    if let Some(tiling) = set.tiling {
+        tell!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
+    }
+    if let Some(apart) = set.apart {
+        tell!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", apart.flux, apart.normal);
+    } else if args.without_beam {
+        tell!("--without-beam: there is no straight sunbeam to leave out");
+    }
+    if let Some(reached) = set.reached {
+        let missed = if reached.holds() { "" } else { " More than 1 %: this light is too sharp for point luminaires." };
+        tell!("{}{missed}", reached.sentence());
+    }
+}
