@@ -24,6 +24,7 @@ pub mod info;
 pub mod keeping;
 mod language;
 pub mod lid;
+mod lid_summary;
 pub mod like;
 mod limits;
 pub mod listing;
