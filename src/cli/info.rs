@@ -10,6 +10,7 @@ use crate::compute::direction::Incident;
 use crate::compute::doctor::{Diagnosis, examine_all};
 use crate::formats::system_toml::is_system_file;
 use crate::study::{Library, files};
+use crate::texts::findings::meaning;
 use crate::texts::one_line;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
@@ -165,7 +166,7 @@ fn thermal_json(thermal: &Thermal) -> Value {
 pub(super) fn finding_json(one: &Diagnosis) -> Value {
     json!({
         "severity": one.finding.severity.word(), "code": one.finding.code, "message": one.finding.message,
-        "meaning": one.meaning, "repair": one.repair.map(|repair| repair.to_string()), "sure": one.sure,
+        "meaning": meaning(one.finding.code), "repair": one.repair.map(|repair| repair.to_string()), "sure": one.sure,
     })
 }
 
@@ -300,11 +301,12 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
         let _ = writeln!(text, "  none");
     }
     let mut last = None;
-    for Diagnosis { finding, meaning, repair, sure } in found {
+    for Diagnosis { finding, repair, sure } in found {
         // A finding that asks for several repairs is said once.
         if last.replace(finding) != Some(finding) {
             let _ =
                 writeln!(text, "  {:<8} {:<22} {}", finding.severity.word(), finding.code, one_line(&finding.message));
+            let meaning = meaning(finding.code);
             if finding.severity != Severity::Info && !meaning.is_empty() {
                 let _ = writeln!(text, "{:34}{meaning}", "");
             }

@@ -262,9 +262,9 @@ fn all(
         written.put(&list)?;
         rows.extend(set.files.iter().map(|file| Row { set: member.name.clone(), ..file.row.clone() }));
         if !args.json {
-            report(args, &set, member);
+            report(args.without_beam, &set, member);
         }
-        summaries.push(summary(args, &set, member));
+        summaries.push(summary(&args.out, args.aperture, &set, member));
     }
     if needs_index(wish, members) {
         let path = args.out.with_extension("index.csv");

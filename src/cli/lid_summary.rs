@@ -1,16 +1,16 @@
 //! What `cfs lid` says about the luminaires it has made.
 
-use super::lid::LidArgs;
 use crate::compute::lid::c_gamma::Aim;
 use crate::study::luminaire_series::Member;
 use crate::study::luminaire_set::LuminaireSet;
+use std::path::Path;
 
-/// Figures for programs.
-pub(super) fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> serde_json::Value {
+/// Figures of the luminaires of an aperture, numbered from 1, as JSON; `out` is the file that was asked for.
+pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Member) -> serde_json::Value {
     serde_json::json!({
-        "out": args.out.to_string_lossy(),
+        "out": out.to_string_lossy(),
         "set": member.name,
-        "aperture": args.aperture,
+        "aperture": aperture,
         "flux_lm": set.flux.value,
         "flux_error_lm": set.flux.error,
         "peak_cd": set.peak,
@@ -26,7 +26,7 @@ pub(super) fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> se
         })),
         "tiles": set.tiling.map(|tiling| serde_json::json!({ "columns": tiling.columns, "rows": tiling.rows })),
         "files": set.files.iter().map(|file| &file.row.file).collect::<Vec<_>>(),
-        "index": set.tiling.map(|_| args.out.with_extension("index.csv").to_string_lossy().into_owned()),
+        "index": set.tiling.map(|_| out.with_extension("index.csv").to_string_lossy().into_owned()),
         "reached": set.reached.map(|reached| serde_json::json!({
             "sum": reached.sum,
             "rms": reached.rms,
@@ -36,8 +36,8 @@ pub(super) fn summary(args: &LidArgs, set: &LuminaireSet, member: &Member) -> se
     })
 }
 
-/// Sentences for people.
-pub(super) fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
+/// Prints the figures as sentences; `without_beam`: whether the direct sun was to be left out.
+pub(super) fn report(without_beam: bool, set: &LuminaireSet, member: &Member) {
     let of = if member.name.is_empty() { String::new() } else { format!("{}: ", member.name) };
     tell!(
         "{of}{:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
@@ -51,7 +51,7 @@ pub(super) fn report(args: &LidArgs, set: &LuminaireSet, member: &Member) {
     }
     if let Some(apart) = set.apart {
         tell!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", apart.flux, apart.normal);
-    } else if args.without_beam {
+    } else if without_beam {
         tell!("--without-beam: there is no straight sunbeam to leave out");
     }
     if let Some(reached) = set.reached {

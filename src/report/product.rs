@@ -19,6 +19,7 @@ use crate::drawing::{Drawing, Frame};
 use crate::study::comparison::{DataFacts, FIGURES, Facts, Value};
 use crate::study::product_control::state_words;
 use crate::study::subject::Subject;
+use crate::texts::findings::words;
 use crate::texts::{Text, fixed, hand_on as texts};
 
 /// Incidences of the indicatrices: from the normal upwards. \[°\]
@@ -372,24 +373,28 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
         add(texts::LINK, &link);
     }
     pages.figures(&list);
-    let findings: Vec<(Severity, String)> = match &subject.product {
+    let findings: Vec<(Severity, String, String)> = match &subject.product {
         Some(product) => {
-            let mut list: Vec<(Severity, String)> = Vec::new();
+            let mut list = Vec::new();
             for finding in &product.findings {
-                let one = (finding.severity, finding.message.clone());
+                let one = (finding.severity, finding.code.clone(), finding.message.clone());
                 if !list.contains(&one) {
                     list.push(one);
                 }
             }
             list
         }
-        None => dataset.findings.iter().map(|finding| (finding.severity, finding.message.clone())).collect(),
+        None => {
+            let own = dataset.findings.iter();
+            own.map(|finding| (finding.severity, finding.code.to_owned(), finding.message.clone())).collect()
+        }
     };
     if findings.is_empty() {
         pages.paragraph(texts::CHECKS_SILENT.get());
     }
-    for (severity, message) in findings {
-        pages.paragraph(&texts::finding(severity_words(severity), message));
+    for (severity, code, message) in findings {
+        let title = words(&code).map_or(&*code, |words| words.title.get());
+        pages.paragraph(&texts::finding(severity_words(severity), title, message));
     }
 }
 

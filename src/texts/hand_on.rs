@@ -120,7 +120,7 @@ texts! {
     const EMERGENT_BASIS = "emergent basis" | "Austrittsbasis";
     const LINK = "link" | "Verweis";
     const CHECKS_SILENT = "The checks of the data have nothing to say." | "Die Datenprüfung hat nichts zu melden.";
-    fn finding(severity, message) = "{severity}: {message}" | "{severity}: {message}";
+    fn finding(severity, title, message) = "{severity}, {title}: {message}" | "{severity}, {title}: {message}";
 
     // The study.
     const STUDY = "Daylight study" | "Tageslichtstudie";

@@ -53,6 +53,7 @@ pub mod catalogue;
 pub mod choose;
 pub mod commands;
 pub mod compare;
+pub mod findings;
 pub mod goniophotometer;
 pub mod hand_on;
 pub mod scene;
@@ -65,11 +66,12 @@ pub mod year;
 
 /// Every text in English and in German, with the names of what is filled in, by the file that says it.
 pub fn pairs() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
-    let files: [(&str, &[(&str, &str)]); 13] = [
+    let files: [(&str, &[(&str, &str)]); 14] = [
         ("catalogue", catalogue::PAIRS),
         ("choose", choose::PAIRS),
         ("commands", commands::PAIRS),
         ("compare", compare::PAIRS),
+        ("findings", findings::PAIRS),
         ("goniophotometer", goniophotometer::PAIRS),
         ("hand_on", hand_on::PAIRS),
         ("scene", scene::PAIRS),

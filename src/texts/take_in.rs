@@ -133,6 +133,7 @@ texts! {
     const ERROR = "error" | "Fehler";
     const WARNING = "warning" | "Warnung";
     const INFO = "info" | "Hinweis";
+    fn titled(severity, title) = "{severity}: {title}" | "{severity}: {title}";
     const SURE = "Beyond doubt. Nothing is stored yet, and it can be undone" | "Zweifelsfrei. Noch ist nichts gespeichert, und es lässt sich zurücknehmen";
     const UNSURE = "A question: only if it is so for the product. Try it: nothing is stored, and it can be undone" | "Eine Frage: nur, wenn es für das Produkt stimmt. Versuchen: nichts wird gespeichert, und es lässt sich zurücknehmen";
     const PICTURE_TIP = "Section: outside on the left; if it is not so, up and down or the sides are exchanged" | "Schnitt: außen links; stimmt das nicht, sind oben und unten oder die Seiten vertauscht";

@@ -122,7 +122,10 @@ fn faults_planted_number_by_number_are_found_and_the_repair_offered_undoes_them(
     for (code, broken) in cases {
         let found = examine(&broken);
         let one = found.iter().find(|one| one.finding.code == code).unwrap_or_else(|| panic!("{code}: {found:?}"));
-        assert!(one.finding.severity > Severity::Info && !one.meaning.is_empty(), "{one:?}");
+        assert!(
+            one.finding.severity > Severity::Info && !cfs::texts::findings::meaning(one.finding.code).is_empty(),
+            "{one:?}"
+        );
         let repair = one.repair.unwrap();
         let mended = repaired(&broken, repair).unwrap();
         assert!(largest_difference(&mended, &sound) < 1e-12, "{code} by {repair}");

@@ -2,6 +2,7 @@
 //! bad examples further down.
 
 mod arrows;
+mod findings;
 mod layers;
 mod licences;
 mod scan;

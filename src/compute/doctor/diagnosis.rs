@@ -1,6 +1,5 @@
-//! A finding with what it means and what could be done about it.
+//! A finding with the repair that is offered for it.
 
-use super::meaning::meaning;
 use super::repair::{BandScope, Repair};
 use crate::compute::btdf::{Finding, Severity};
 
@@ -34,13 +33,11 @@ impl Confidence {
     }
 }
 
-/// A finding, what it means for results, and the repair that is offered.
+/// A finding and the repair that is offered.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
     /// What was found.
     pub finding: Finding,
-    /// What that does to results; one sentence, may be empty.
-    pub meaning: &'static str,
     /// What would mend it, where that is safe to offer.
     pub repair: Option<Repair>,
     /// Is the repair beyond doubt? Only such repairs may be made without being asked for one by one.
@@ -49,7 +46,7 @@ pub struct Diagnosis {
 
 impl From<Finding> for Diagnosis {
     fn from(finding: Finding) -> Self {
-        Self { meaning: meaning(finding.code), finding, repair: None, sure: false }
+        Self { finding, repair: None, sure: false }
     }
 }
 

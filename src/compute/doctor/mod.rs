@@ -1,7 +1,7 @@
 //! The data doctor: what is odd about a dataset, what that does to results, and how it may be mended.
 //!
 //! [`examine`] asks everything that can be asked of the numbers themselves; what only a reader can know (syntax,
-//! labels, counts) is already in [`Dataset::findings`] and is passed on with its meaning. [`repaired()`] does what a
+//! labels, counts) is already in [`Dataset::findings`] and is passed on. [`repaired()`] does what a
 //! finding offers, and nothing is ever mended without being asked for.
 //!
 //! Comparisons between functions are made on common cells in through-names ([`blocks`]), where a clear pane is a
@@ -20,7 +20,6 @@ mod energy;
 mod hypotheses;
 mod identity;
 mod judgement;
-mod meaning;
 mod orientation;
 mod patches;
 mod reading;
@@ -35,7 +34,6 @@ mod witnesses;
 pub use copies::same_values;
 pub use derive::by_reciprocity;
 pub use diagnosis::{Confidence, Diagnosis};
-pub use meaning::meaning;
 pub use orientation::{Ways, sun_from_above};
 pub use repair::{BandScope, BlockScope, Repair, RepairKind, record, recorded};
 pub use repaired::{RepairError, repaired, repaired_all};

@@ -71,14 +71,22 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
             // Wide cells in quarters, as without anything before them.
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
             let step = cell.width / pieces;
-            let absolute = PAST * whole * cell.projected_solid_angle() / PI / pieces;
+            let absolute = PAST * whole * cell.projected_solid_angle() / PI;
             let (mut sum, mut error, mut met) = (Parts::default(), 0.0, false);
             let mut untouched = 0.0;
-            for piece in 0..pieces as usize {
+            let piece = |piece: usize| {
                 let from = cell.phi - 0.5 * cell.width + piece as f64 * step;
                 let region =
                     Region { frame: *frame, theta: (cell.theta_min, cell.theta_max), phi: (from, from + step) };
-                match on_dome::over(&prospect, &region, Weight::Projected, PAST, absolute) {
+                on_dome::over(&prospect, &region, Weight::Projected, PAST, absolute / pieces)
+            };
+            let found = if basis.len() == 1 {
+                on_dome::over_hemisphere(&prospect, frame, PAST, absolute)
+            } else {
+                (0..pieces as usize).map(piece).collect()
+            };
+            for part in found {
+                match part {
                     Some((parts, off)) => {
                         met = true;
                         sum.before += parts.before;

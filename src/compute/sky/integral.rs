@@ -6,7 +6,7 @@
 use super::on_dome;
 use super::outside::Outside;
 use super::patches::Patch;
-use super::prospect::Prospect;
+use super::prospect::{Parts, Prospect};
 use super::region::{Frame, Region, Weight};
 use super::scan_region;
 use crate::compute::direction::{Dir, World};
@@ -138,29 +138,43 @@ fn tip(
     (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
 }
 
+/// Error of what things before sky and ground change, relative to it.
+const CHANGED: f64 = 1e-5;
+
 /// What things that stand before sky and ground change of a region's integral.
 fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
-    let found = on_dome::over(&Prospect::new(&open, surroundings, eye), region, weight, 1e-5, 0.0);
-    found.map_or_else(Estimate::default, |(parts, error)| {
-        Estimate::new(parts.before - parts.behind, error + parts.uncertainty)
-    })
+    let found = on_dome::over(&Prospect::new(&open, surroundings, eye), region, weight, CHANGED, 0.0);
+    found.map_or_else(Estimate::default, change)
+}
+
+/// What things that stand before sky and ground change of a plane's illuminance. \[lx\]
+fn changed_on(outside: &Outside, plane: &Frame) -> Estimate {
+    let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
+    let open = outside.open();
+    let found = on_dome::over_hemisphere(&Prospect::new(&open, surroundings, eye), plane, CHANGED, 0.0);
+    found.into_iter().flatten().map(change).sum()
+}
+
+/// Difference that what stands before sky and ground makes.
+fn change((parts, error): (Parts, f64)) -> Estimate {
+    Estimate::new(parts.before - parts.behind, error + parts.uncertainty)
 }
 
 /// Illuminance of a plane from sky, skyline and ground and what stands before them, without the beam. \[lx\]
 pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     let frame = Frame::facing(normal);
     // Quarters: shorter pieces, and the knots of a façade's horizon among them.
-    (0..4)
+    let open: Estimate = (0..4)
         .map(|quarter| {
             let from = f64::from(quarter) * FRAC_PI_2;
             let region = Region { frame, theta: (0.0, FRAC_PI_2), phi: (from, from + FRAC_PI_2) };
             let tolerance = Tolerance { relative: 1e-7, ..Tolerance::absolute(1e-9 * outside.diffuse_horizontal) };
             integrate_region(outside, &region, Weight::Projected, tolerance)
-                + changed(outside, &region, Weight::Projected)
         })
-        .sum()
+        .sum();
+    open + changed_on(outside, &frame)
 }
 
 /// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
@@ -180,4 +194,44 @@ pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
     let mean = flux * (1.0 / patch.solid_angle());
     // Of a patch that is all hidden the sky is taken away again: what remains of it is error, no light.
     Estimate::new(mean.value.max(0.0), mean.error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::polygon::projected_solid_angle;
+    use crate::compute::sky::Distribution;
+    use crate::compute::surroundings::Surroundings;
+    use crate::compute::surroundings::solid::Solid;
+    use glam::DVec3;
+    use std::sync::Arc;
+
+    /// Black boxes hide from a wall and a roof what their faces cover of a uniform sky, wherever their edges run.
+    #[test]
+    fn black_boxes_hide_the_projected_solid_angles_of_their_faces() {
+        let solid = |from: [f64; 3], to: [f64; 3], turn| Solid::new(from.into(), to.into(), turn);
+        let slats = (0..12).map(|k| 0.5 + 0.25 * f64::from(k));
+        let cases = [
+            vec![solid([-2.0, -1.0, 2.0], [2.0, -0.1, 2.2], 0.0)],
+            vec![solid([1.0, -1.5, 0.5], [1.1, -0.1, 3.0], 0.0)],
+            vec![solid([-9.0, -20.0, 0.5], [1.0, -9.0, 14.0], 0.4)],
+            // None covers another.
+            slats.map(|z| solid([-0.9, -0.101, z], [0.9, -0.1, z + 0.1], 0.0)).collect(),
+        ];
+        let eye = DVec3::new(0.1, 0.0, 0.4);
+        for solids in cases {
+            let outside = Outside::new(Distribution::uniform(), 1e4).unwrap();
+            let past = outside.clone().behind(Arc::new(Surroundings::dark(solids.clone(), None))).seen_from(eye);
+            for normal in [DVec3::NEG_Y, DVec3::Z] {
+                let faces = solids.iter().flat_map(|solid| (0..6).map(|number| solid.face(number)));
+                let seen = faces.filter(|face| face.normal.dot(eye - face.origin) > 0.0);
+                let covered =
+                    seen.map(|face| projected_solid_angle(&face.corners().map(|corner| corner - eye), normal));
+                let exact = -1e4 / PI * covered.map(f64::abs).sum::<f64>();
+                let normal = Dir::from_unit(normal);
+                let found = irradiance(&past, normal).value - irradiance(&outside, normal).value;
+                assert!((found / exact - 1.0).abs() < 2.0 * CHANGED, "{normal:?}: {found} {exact}");
+            }
+        }
+    }
 }

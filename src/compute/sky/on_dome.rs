@@ -31,7 +31,28 @@ pub(super) fn over(
     (parts.behind > 0.0 || parts.before > 0.0).then_some((parts, error))
 }
 
-/// The same by bearings.
+/// What the hemisphere before a plane holds, weighted by the cosine to its normal, in parts, each as [`over`] gives it: all of
+/// it by the meridians along most edges, or in quarters where those of the dome are needed.
+pub(super) fn over_hemisphere(
+    prospect: &Prospect<'_>,
+    plane: &Frame,
+    relative: f64,
+    absolute: f64,
+) -> Vec<Option<(Parts, f64)>> {
+    if !prospect.is_of_the_dome() {
+        let region = Region { frame: prospect.frame_along_edges(plane), theta: (0.0, PI), phi: (0.0, PI) };
+        let density = |theta: f64, direction: DVec3| theta.sin() * direction.dot(plane.z).max(0.0);
+        return vec![prospect.over_by(&region, &density, relative, absolute)];
+    }
+    let quarter = |k: u32| {
+        let phi = (f64::from(k) * FRAC_PI_2, f64::from(k + 1) * FRAC_PI_2);
+        let region = Region { frame: *plane, theta: (0.0, FRAC_PI_2), phi };
+        over(prospect, &region, Weight::Projected, relative, 0.25 * absolute)
+    };
+    (0..4).map(quarter).collect()
+}
+
+/// [`over`] by bearings.
 fn by_bearings(
     prospect: &Prospect<'_>,
     region: &Region,

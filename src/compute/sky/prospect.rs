@@ -190,13 +190,38 @@ impl<'a> Prospect<'a> {
         out.sort_unstable_by(f64::total_cmp);
     }
 
+    /// Frame whose pole lies in a plane: of the axes of the plane's `frame` the one about which edges before the plane turn
+    /// by the least angle in all. Its meridians run along most edges and meet few; those before the plane are φ in 0 … π.
+    pub fn frame_along_edges(&self, frame: &Frame) -> Frame {
+        let axes = [
+            Frame { x: frame.y, y: frame.z, z: frame.x },
+            // Left-handed, so that φ = 90° is the normal here, too.
+            Frame { x: frame.x, y: frame.z, z: frame.y },
+        ];
+        let turns = axes.map(|axes| {
+            let turn = |edge: &Edge| {
+                let [a, b] = edge.ends.map(|end| axes.angles(end).1);
+                if a > 0.0 || b > 0.0 { (a.clamp(0.0, PI) - b.clamp(0.0, PI)).abs() } else { 0.0 }
+            };
+            self.edges.iter().map(turn).sum::<f64>()
+        });
+        axes[usize::from(turns[1] < turns[0])]
+    }
+
     /// Has what is seen borders that are simple along bearings alone?
     pub fn is_of_the_dome(&self) -> bool {
         self.surroundings.skyline.is_some() || self.open.is_piecewise_constant()
     }
 
     /// Along one meridian: what a region holds, all as densities of azimuth; the first number is what steers a sweep.
-    fn line(&self, region: &Region, near: &Near, phi: f64, weight: Weight, breaks: &mut Vec<f64>) -> [f64; 5] {
+    fn line(
+        &self,
+        region: &Region,
+        near: &Near,
+        phi: f64,
+        density: &impl Fn(f64, DVec3) -> f64,
+        breaks: &mut Vec<f64>,
+    ) -> [f64; 5] {
         self.breaks(&region.frame, phi, region.theta, &near.edges, breaks);
         if let Some(peak) = self.peak {
             let theta = region.frame.angles(peak).0;
@@ -208,7 +233,7 @@ impl<'a> Prospect<'a> {
         let mut sum = [0.0; 5];
         let along = self.along(near, region.frame.meridian(phi));
         for pair in breaks.windows(2).filter(|pair| pair[1] - pair[0] > 1e-12) {
-            self.add(&along, (pair[0], pair[1]), |theta, _| weight.density(theta), &mut sum);
+            self.add(&along, (pair[0], pair[1]), density, &mut sum);
         }
         sum
     }
@@ -261,6 +286,17 @@ impl<'a> Prospect<'a> {
 
     /// What a region holds by meridians of its own frame; `None` where nothing stands before sky and ground there. And the error of the cubature.
     pub fn over(&self, region: &Region, weight: Weight, relative: f64, absolute: f64) -> Option<(Parts, f64)> {
+        self.over_by(region, &|theta, _| weight.density(theta), relative, absolute)
+    }
+
+    /// [`Self::over`] for any density per θ and φ at a θ and a direction.
+    pub fn over_by(
+        &self,
+        region: &Region,
+        density: &impl Fn(f64, DVec3) -> f64,
+        relative: f64,
+        absolute: f64,
+    ) -> Option<(Parts, f64)> {
         let near = self.near(&region.cap())?;
         let (theta, high, wide) =
             (0.5 * (region.theta.0 + region.theta.1), region.theta.1 - region.theta.0, region.phi.1 - region.phi.0);
@@ -268,14 +304,14 @@ impl<'a> Prospect<'a> {
         let mut breaks = Vec::with_capacity(16);
         if wide * theta.sin() > LARGE || high > LARGE {
             let (sums, error) =
-                sweep(|phi| self.line(region, &near, phi, weight, &mut breaks), &knots, relative, absolute);
+                sweep(|phi| self.line(region, &near, phi, density, &mut breaks), &knots, relative, absolute);
             return Some((Parts::of(sums), error));
         }
         let mut sums = [0.0; 5];
         for pair in knots.windows(2) {
             let points = 3 + (2.0 * (pair[1] - pair[0]) * theta.sin() / LARGE) as usize;
             for &(x, share) in rule(points) {
-                let line = self.line(region, &near, pair[0] + (pair[1] - pair[0]) * x, weight, &mut breaks);
+                let line = self.line(region, &near, pair[0] + (pair[1] - pair[0]) * x, density, &mut breaks);
                 sums.iter_mut().zip(line).for_each(|(sum, part)| *sum += share * (pair[1] - pair[0]) * part);
             }
         }

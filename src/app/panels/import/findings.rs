@@ -6,6 +6,7 @@ use crate::app::theme;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::direction::{Dir, Incident};
 use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways, sun_from_above};
+use crate::texts::findings::words;
 use crate::texts::{Text, take_in as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
@@ -61,24 +62,26 @@ pub fn of_selection(ui: &mut Ui, state: &State, dataset: &Arc<Dataset>) {
     }
 }
 
-/// Findings with their meaning, and a button for every repair that is offered and not yet made.
+/// Shows findings with their title and meaning, and a button for every repair that is offered and not yet made.
 pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnMut(Repair)) {
     let palette = theme::palette(ui);
     if list.is_empty() {
         ui.label(text::NOTHING_TO_SAY);
     }
     for severity in [Severity::Error, Severity::Warning, Severity::Info] {
-        for Diagnosis { finding, meaning, repair, sure } in list.iter().filter(|one| one.finding.severity == severity) {
+        for Diagnosis { finding, repair, sure } in list.iter().filter(|one| one.finding.severity == severity) {
             let (colour, word) = match severity {
                 Severity::Error => (palette.error, text::ERROR),
                 Severity::Warning => (palette.warning, text::WARNING),
                 Severity::Info => (palette.weak, text::INFO),
             };
             ui.add_space(4.0);
-            ui.colored_label(colour, word.get());
+            let words = words(finding.code);
+            ui.colored_label(colour, text::titled(word, words.map_or(finding.code, |words| words.title.get())));
             ui.add(egui::Label::new(&finding.message).wrap());
+            let meaning = words.map_or("", |words| words.meaning.get());
             if severity != Severity::Info && !meaning.is_empty() {
-                ui.add(egui::Label::new(egui::RichText::new(*meaning).color(palette.weak)).wrap());
+                ui.add(egui::Label::new(egui::RichText::new(meaning).color(palette.weak)).wrap());
             }
             if let Some(repair) = repair.filter(|repair| !made.contains(repair)) {
                 // The same repair may be offered by several findings.
