@@ -136,6 +136,7 @@ texts! {
     fn titled(severity, title) = "{severity}: {title}" | "{severity}: {title}";
     const SURE = "Beyond doubt. Nothing is stored yet, and it can be undone" | "Zweifelsfrei. Noch ist nichts gespeichert, und es lässt sich zurücknehmen";
     const UNSURE = "A question: only if it is so for the product. Try it: nothing is stored, and it can be undone" | "Eine Frage: nur, wenn es für das Produkt stimmt. Versuchen: nichts wird gespeichert, und es lässt sich zurücknehmen";
+    fn sun_at_45(tau, up, down) = "Sun at 45° altitude, perpendicular to the façade in plan: τ {tau}; {up} % of the transmitted light goes up, {down} % down" | "Sonne in 45° Höhe, im Grundriss senkrecht zur Fassade: τ {tau}; vom durchgelassenen Licht gehen {up} % nach oben, {down} % nach unten";
     const PICTURE_TIP = "Section: outside on the left; if it is not so, up and down or the sides are exchanged" | "Schnitt: außen links; stimmt das nicht, sind oben und unten oder die Seiten vertauscht";
 
     // What is said after a change.

@@ -49,9 +49,11 @@ impl Ways {
         (sum > 0.0).then(|| Self { tau: sum, up: up / sum, right: right / sum })
     }
 
-    /// Of a sun 45° above in front: the mean of two suns a little to the right and to the left of it. Straight ahead is
-    /// a border between cells of many functions, where the value would be that of one side alone.
-    fn from_above(btdf: &Btdf) -> Option<Self> {
+    /// Returns the shares for a sun at 45° altitude, perpendicular to the façade in plan; `None` when nothing passes.
+    ///
+    /// Mean of two suns a little to the right and to the left of it: straight ahead is a border between cells of many functions,
+    /// where the value would be that of one side alone.
+    pub fn from_above(btdf: &Btdf) -> Option<Self> {
         let beside = |aside: f64| Self::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2 + aside)));
         match (beside(ASIDE), beside(-ASIDE)) {
             (Some(a), Some(b)) => {

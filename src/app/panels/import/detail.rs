@@ -60,8 +60,8 @@ fn state(ui: &mut Ui, (own, place): Row, product: &Proposed, commands: &mut Vec<
     ui.weak(text::bases(&dataset.format, &dataset.incident_basis, &dataset.emergent_basis));
     if let Some(seen) = seen(ui, dataset) {
         ui.weak(text::taus(fixed(seen.tau[0], 3), fixed(seen.tau[1], 3)));
-        if let Some(sentence) = &seen.sentence {
-            picture(ui, seen.up, sentence);
+        if let Some(ways) = &seen.ways {
+            picture(ui, ways);
         }
     }
     let repairs = product.wished.as_ref().unwrap_or(&product.repairs);

@@ -4,12 +4,10 @@ use crate::app::import::number;
 use crate::app::state::State;
 use crate::app::theme;
 use crate::compute::btdf::{Dataset, Severity};
-use crate::compute::direction::{Dir, Incident};
-use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways, sun_from_above};
+use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways};
 use crate::texts::findings::words;
-use crate::texts::{Text, take_in as text};
+use crate::texts::{Text, fixed, take_in as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use std::sync::Arc;
 
 /// How many findings there are of each severity, the worst first: `1 error, 2 warnings`; empty without any.
@@ -99,10 +97,8 @@ pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut as
 pub(super) struct Seen {
     /// Transmittance at normal incidence and under uniform light.
     pub tau: [f64; 2],
-    /// What becomes of the sun from above, in a sentence.
-    pub sentence: Option<String>,
-    /// Share of its light that leaves upwards.
-    pub up: Option<f64>,
+    /// Shares of the light of a sun at 45° altitude; `None` when nothing passes.
+    pub ways: Option<Ways>,
 }
 
 /// What is shown of a dataset; `None` for one without transmission of light from outside.
@@ -114,17 +110,15 @@ pub(super) fn seen(ui: &Ui, dataset: &Arc<Dataset>) -> Option<Arc<Seen>> {
         return Some(seen);
     }
     let btdf = dataset.transmission()?;
-    let up = Ways::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2))).map(|ways| ways.up);
     let tau = [btdf.tau_normal(), btdf.tau_hemispherical()];
-    let seen = Arc::new(Seen { tau, sentence: sun_from_above(btdf), up });
+    let seen = Arc::new(Seen { tau, ways: Ways::from_above(btdf) });
     ui.data_mut(|data| data.insert_temp::<Kept>(id, (dataset.clone(), seen.clone())));
     Some(seen)
 }
 
 /// The section through a window with the sun 45° above outside, on the left, and arrows into the room as long as their
-/// shares of the light; `up`: the share that leaves upwards.
-pub(super) fn picture(ui: &mut Ui, up: Option<f64>, sentence: &str) {
-    let Some(up) = up else { return };
+/// shares of the light; below it the figures.
+pub(super) fn picture(ui: &mut Ui, &Ways { tau, up, .. }: &Ways) {
     let (response, painter) = ui.allocate_painter(Vec2::new(120.0, 72.0), Sense::hover());
     let palette = theme::palette(ui);
     let line: Color32 = ui.visuals().text_color();
@@ -142,5 +136,6 @@ pub(super) fn picture(ui: &mut Ui, up: Option<f64>, sentence: &str) {
         }
     }
     response.on_hover_text(text::PICTURE_TIP);
-    ui.add(egui::Label::new(sentence).wrap());
+    let [up, down] = [up, 1.0 - up].map(|share| fixed(100.0 * share, 0));
+    ui.add(egui::Label::new(text::sun_at_45(fixed(tau, 2), up, down)).wrap());
 }
