@@ -7,12 +7,12 @@ use pulp::Arch;
 const SUMS: usize = 16;
 
 /// Work on many numbers, compiled for what the processor has.
-pub(crate) fn wide<R>(work: impl FnOnce() -> R) -> R {
+pub fn wide<R>(work: impl FnOnce() -> R) -> R {
     Arch::new().dispatch(work)
 }
 
 /// Σ a·b.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     wide(|| {
         let mut sums = [0.0; SUMS];
         let (whole_a, whole_b) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
@@ -28,7 +28,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Adds a row times a factor to what there is.
-pub(crate) fn add_scaled<T: Copy + Into<f64>>(sums: &mut [f64], row: &[T], factor: f64) {
+pub fn add_scaled<T: Copy + Into<f64>>(sums: &mut [f64], row: &[T], factor: f64) {
     wide(|| sums.iter_mut().zip(row).for_each(|(sum, &e)| *sum += factor * e.into()));
 }
 

@@ -455,7 +455,7 @@ fn sensor_key(scene: &Scene) -> impl Iterator<Item = u64> + '_ {
     scene.sensors.iter().flat_map(|s| bits(s.position.to_array()).chain(bits(s.normal.to_array())))
 }
 
-pub(in crate::study) fn basis_key(basis: Option<&RingBasis>) -> Key {
+pub(crate) fn basis_key(basis: Option<&RingBasis>) -> Key {
     let mut key = Vec::new();
     if let Some(basis) = basis {
         key.push(basis.len() as u64);

@@ -34,13 +34,14 @@ impl Order {
 
 /// One group: an orthonormal matrix from what its parts keep to what it keeps and its wavelets.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Block {
+pub struct Block {
     /// Generations from the root.
     pub level: u32,
     /// The block that it is part of; itself for the root.
     pub parent: u32,
-    /// First block inside, and how many; none: its parts are cells.
+    /// First block inside.
     pub first_child: u32,
+    /// Number of blocks inside; none: its parts are cells.
     pub children: u32,
     /// ∫cosθ dω of all its cells. \[sr\]
     pub weight: f64,
@@ -123,7 +124,7 @@ impl Transform {
     }
 
     /// Blocks, coarse to fine; parents before their parts.
-    pub(crate) fn blocks(&self) -> &[Block] {
+    pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 

@@ -15,7 +15,7 @@ use crate::study::subject::Subject;
 use crate::texts::hand_on as texts;
 
 /// The plan on paper: depth to the right, x downwards (seen from above), the façade at the left.
-pub(in crate::report) struct Plan {
+pub(crate) struct Plan {
     /// The room.
     pub area: Frame,
     scale: f64,

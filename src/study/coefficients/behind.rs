@@ -340,7 +340,7 @@ fn cells_seen(opening: &Opening<'_>, grid: &Grid, sent: &Sent, sensors: &[Sensor
 }
 
 /// Returns weights of luminances by patch at points of an aperture in the room frame, computed or kept. \[sr\]
-pub(in crate::study) fn seen_by_points(
+pub(crate) fn seen_by_points(
     session: &Session,
     scene: &Scene,
     index: usize,

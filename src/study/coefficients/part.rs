@@ -33,7 +33,7 @@ use std::hash::{DefaultHasher, Hasher};
 use std::sync::{Arc, OnceLock};
 
 /// Maximum number of skies whose sums are found at once.
-pub(in crate::study) const TOGETHER: usize = 128;
+pub(crate) const TOGETHER: usize = 128;
 /// Number of skies of which there are as many, or dark ones besides, so that no sky's sums hang on the number of others.
 const COLUMNS: usize = 32;
 

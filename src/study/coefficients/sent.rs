@@ -15,10 +15,10 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Cells or bands with their luminance per illuminance. \[1/sr\]
-pub(in crate::study) type Luminances = Vec<(usize, f64)>;
+pub(crate) type Luminances = Vec<(usize, f64)>;
 
 /// The light of all patches.
-pub(in crate::study) struct Sent {
+pub(crate) struct Sent {
     /// Emergent cells.
     pub cells: Arc<RingBasis>,
     /// Bands of the profile angle, where rows are by these: whether in the horizontal plane, and how many.
@@ -31,7 +31,7 @@ pub(in crate::study) struct Sent {
 
 /// The light of one patch.
 #[derive(Default)]
-pub(in crate::study) struct Patch {
+pub(crate) struct Patch {
     /// On cells.
     pub own: Luminances,
     /// Rows, with the illuminance that each stands for.

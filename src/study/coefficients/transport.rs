@@ -23,7 +23,7 @@ pub(super) const TREE_SAMPLED: usize = 1024;
 /// Sub-patches where the light of lobes is interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
 /// Directions in cells that are as wide as a dataset's. \[rad\]
-pub(in crate::study) const SPACING: f64 = 4.0 * PI / 180.0;
+pub(crate) const SPACING: f64 = 4.0 * PI / 180.0;
 /// Gauss points for τ across a ring.
 pub(super) const ACROSS: usize = 3;
 /// What the straightened cells of a tree cost, relative.
@@ -65,7 +65,7 @@ pub(super) struct Column {
 }
 
 /// The division of the incident hemisphere that suits a system, and how far apart directions in it may stand. \[rad\]
-pub(in crate::study) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
+pub(crate) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
     match &btdf.scattered {
         None | Some(Scattered::Lambert(_)) => (sub_patches(PATCH), SPACING),
         Some(Scattered::Cells(matrix)) => (matrix.incident().clone(), SPACING),

@@ -19,7 +19,7 @@ impl Session {
     ///
     /// # Errors
     /// Cancelled.
-    pub(in crate::study) fn data_shares(
+    pub(crate) fn data_shares(
         &self,
         scene: &Scene,
         known: impl Fn(usize) -> bool,

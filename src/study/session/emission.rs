@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 impl Session {
     /// What an aperture emits under the scene's outside, frame and dirt counted.
-    pub(in crate::study) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
+    pub(crate) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
         self.emission_under(scene, aperture, &scene.facing(aperture))
     }
 
@@ -50,7 +50,7 @@ impl Session {
     }
 
     /// Answers of a described system for all diffuse light.
-    pub(in crate::study) fn sky_through(&self, very: &VerySystem) -> Arc<(VerySystem, SkyThrough)> {
+    pub(crate) fn sky_through(&self, very: &VerySystem) -> Arc<(VerySystem, SkyThrough)> {
         let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
         self.skies.find(key, || (very.clone(), SkyThrough::new(very.0.as_ref())))
     }

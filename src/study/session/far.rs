@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Outsides of which all others are made.
-pub(in crate::study) struct Constants {
+pub(crate) struct Constants {
     /// Black sky, black skyline, ground of luminance 1.
     pub ground: Option<Outside>,
     /// Black sky and ground, skyline of luminance 1; `None` without one.
@@ -39,7 +39,7 @@ impl Constants {
 }
 
 /// A black outside with the skyline of another, as black.
-pub(in crate::study) fn dark(outside: &Outside) -> Option<Outside> {
+pub(crate) fn dark(outside: &Outside) -> Option<Outside> {
     let black = Outside::new(Distribution::uniform(), 0.0).ok()?;
     match with_luminance(outside, 0.0) {
         Some(skyline) => Some(black.behind(skyline)),
@@ -48,7 +48,7 @@ pub(in crate::study) fn dark(outside: &Outside) -> Option<Outside> {
 }
 
 /// The skyline that rises and falls, if any does.
-pub(in crate::study) fn shape(outside: &Outside) -> Option<&Skyline> {
+pub(crate) fn shape(outside: &Outside) -> Option<&Skyline> {
     outside.surroundings()?.skyline.as_ref()
 }
 
@@ -59,12 +59,12 @@ fn with_luminance(outside: &Outside, luminance: f64) -> Option<Arc<Surroundings>
 }
 
 /// Luminance of the skyline of either kind. \[cd/m²\]
-pub(in crate::study) fn luminance(outside: &Outside) -> f64 {
+pub(crate) fn luminance(outside: &Outside) -> f64 {
     shape(outside).map_or(outside.skyline_luminance(), |skyline| skyline.luminance)
 }
 
 /// Do two outsides hide the same of the sky?
-pub(in crate::study) fn same(one: &Outside, other: &Outside) -> bool {
+pub(crate) fn same(one: &Outside, other: &Outside) -> bool {
     one.skyline_altitude() == other.skyline_altitude()
         && match (shape(one), shape(other)) {
             (None, None) => true,

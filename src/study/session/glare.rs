@@ -37,7 +37,7 @@ pub struct EyeGlare {
 }
 
 /// Light of all apertures for eyes.
-pub(in crate::study) struct Shining {
+pub(crate) struct Shining {
     emissions: Vec<Emission>,
     /// Where boxes or a skyline stand before them: what of each the sun reaches, and by points of its rim.
     lit: Vec<Lit>,
@@ -60,13 +60,13 @@ impl Session {
     }
 
     /// What all apertures send to eyes.
-    pub(in crate::study) fn shining(&self, scene: &Scene, progress: &dyn Progress) -> Result<Shining, StudyError> {
+    pub(crate) fn shining(&self, scene: &Scene, progress: &dyn Progress) -> Result<Shining, StudyError> {
         Ok(Shining::of(scene, self.lights(scene, progress)?.emissions))
     }
 
     /// The same of the sun alone, before an outside that is dark but for it; past boxes what is scattered is the mean over the
     /// aperture.
-    pub(in crate::study) fn sunshine(&self, scene: &Scene) -> Shining {
+    pub(crate) fn sunshine(&self, scene: &Scene) -> Shining {
         let emission = |index: usize| {
             let facing = scene.facing(index);
             if facing.sun_illuminance() <= 0.0 {
@@ -86,7 +86,7 @@ impl Session {
 }
 
 /// The apertures of a scene as an eye sees them.
-pub(in crate::study) fn eye_field(scene: &Scene, eye: &Sensor) -> Field {
+pub(crate) fn eye_field(scene: &Scene, eye: &Sensor) -> Field {
     Field::new(&inside(scene, eye), scene.apertures.iter().map(|one| &one.aperture))
 }
 
@@ -158,7 +158,7 @@ impl Shining {
 }
 
 /// DGP of what an eye sees.
-pub(in crate::study) fn evaluated(
+pub(crate) fn evaluated(
     field: &Field,
     eye: &Sensor,
     luminance: &[f64],

@@ -21,7 +21,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Numbers of fine patches, tried one after the other until the stated error is small enough.
-pub(in crate::study) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
+pub(crate) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 
 /// Of the differences between the two densities, wall by wall (their sum may cancel), what the extrapolated result may
 /// be off. Chosen together with [`REST`] and [`NEAR`] so that about 99 % of the sensors of 81 rooms, 24 of them at random,
@@ -29,16 +29,16 @@ pub(in crate::study) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 const DIFFERENCE: f64 = 0.6;
 
 /// Number of fine patches times the relative error that both densities share: sampling of the first light.
-pub(in crate::study) const REST: f64 = 3.0;
+pub(crate) const REST: f64 = 3.0;
 
 /// Of what the slopes of near patches give to a sensor, what may be wrong.
 const NEAR: f64 = 0.8;
 
 /// [`DIFFERENCE`] where what the slopes give is not told apart.
-pub(in crate::study) const DIFFERENCE_ALONE: f64 = 1.6;
+pub(crate) const DIFFERENCE_ALONE: f64 = 1.6;
 
 /// What taking the light on an aperture as even costs of what it throws back to a sensor, relative.
-pub(in crate::study) const UNEVEN: f64 = 0.1;
+pub(crate) const UNEVEN: f64 = 0.1;
 
 impl Session {
     /// Interreflected light at every sensor, and the largest gap of flux before it was closed. Refines until the stated

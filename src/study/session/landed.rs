@@ -8,7 +8,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 
 /// What all sensors get per illuminance of a patch by beams.
-pub(in crate::study) struct Landed {
+pub(crate) struct Landed {
     sensors: usize,
     /// Where the columns of a sensor's walls begin, and where the last ones end.
     walls: Vec<usize>,
@@ -18,7 +18,7 @@ pub(in crate::study) struct Landed {
 }
 
 /// The light of one or more beams.
-pub(in crate::study) struct LandedLight {
+pub(crate) struct LandedLight {
     /// Twice reflected or more, sensor by sensor. \[lx\]
     pub values: Vec<f64>,
     /// How far these hang on where in a patch the beams lie.

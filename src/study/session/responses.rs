@@ -27,7 +27,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Weights of all sensors.
-pub(in crate::study) struct Responses {
+pub(crate) struct Responses {
     /// The balance.
     pub radiosity: Arc<Radiosity>,
     room: ThroughRoom,
@@ -39,7 +39,7 @@ pub(in crate::study) struct Responses {
 
 /// Interreflected light at a sensor, or weights that make it.
 #[derive(Clone, Copy, Default)]
-pub(in crate::study) struct Reflected {
+pub(crate) struct Reflected {
     /// All of it.
     pub value: f64,
     /// What the two densities differ by.
@@ -57,7 +57,7 @@ impl Reflected {
 
 impl Session {
     /// For a room of about so many fine patches.
-    pub(in crate::study) fn responses(
+    pub(crate) fn responses(
         &self,
         scene: &Scene,
         count: usize,
@@ -99,7 +99,7 @@ impl Session {
     }
 
     /// What the sensors of [`Self::responses`] get of beams.
-    pub(in crate::study) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
+    pub(crate) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
         let key = [&room.room.key[..], &room.room.sensor_key].concat();
         self.landed.get(key, || {
             let gather = self.gathering(scene, room.count, &room.radiosity)?;

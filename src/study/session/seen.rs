@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Stops what is no longer wanted.
-pub(in crate::study) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
+pub(crate) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
     if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
 }
 
@@ -24,7 +24,7 @@ pub(in crate::study) fn check(progress: &dyn Progress) -> Result<(), Cancelled> 
 const BLOCK: usize = 4096;
 
 /// Is a table of so many numbers a sensor small enough to be kept?
-pub(in crate::study) fn keeps(scene: &Scene, numbers: usize) -> bool {
+pub(crate) fn keeps(scene: &Scene, numbers: usize) -> bool {
     scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
 }
 
@@ -32,7 +32,7 @@ pub(in crate::study) fn keeps(scene: &Scene, numbers: usize) -> bool {
 ///
 /// # Errors
 /// More sensors than they are made for.
-pub(in crate::study) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
+pub(crate) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
     let (count, most) = (scene.sensors.len(), limits::RESPONSE_BYTES / each.max(1));
     if count > most {
         let message = format!("{count} sensors (through a year, in this room and with this system, at most {most})");
@@ -42,7 +42,7 @@ pub(in crate::study) fn within_budget(scene: &Scene, each: usize) -> Result<(), 
 }
 
 /// A sensor where light is to be found for it: one in an opening just inside of it.
-pub(in crate::study) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
+pub(crate) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
     let enter = |position, one: &SceneAperture| one.aperture.entered(position, sensor.normal);
     Sensor { position: scene.apertures.iter().fold(sensor.position, enter), ..*sensor }
 }
@@ -108,7 +108,7 @@ impl SeenBands<'_> {
 }
 
 /// Of one sensor.
-pub(in crate::study) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
+pub(crate) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
     let view = aperture.view(sensor.position, sensor.normal);
     view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count))
 }

@@ -3,7 +3,7 @@
 use crate::compute::dot::add_scaled;
 
 /// Rows of the cells of which any sensor sees anything.
-pub(in crate::study) struct SeenCells {
+pub(crate) struct SeenCells {
     sensors: usize,
     /// Where the row of a cell begins; `None` where no sensor sees it.
     first: Vec<Option<u32>>,

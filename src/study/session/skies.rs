@@ -34,13 +34,7 @@ fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers
 
 impl Session {
     /// Patches before an aperture, found anew or kept; `spacing` of the directions \[rad\].
-    pub(in crate::study) fn sky_patches(
-        &self,
-        scene: &Scene,
-        index: usize,
-        patches: RingBasis,
-        spacing: f64,
-    ) -> Arc<SkyPatches> {
+    pub(crate) fn sky_patches(&self, scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Arc<SkyPatches> {
         // A skyline that rises and falls has too much of a shape for a key.
         if far::shape(&scene.outside).is_some() {
             return Arc::new(SkyPatches::new(scene, index, patches, spacing));
@@ -56,7 +50,7 @@ impl Session {
     ///
     /// # Errors
     /// Cancelled.
-    pub(in crate::study) fn standing(
+    pub(crate) fn standing(
         &self,
         before: &Before,
         outside: &Outside,
@@ -73,7 +67,7 @@ impl Session {
 
     /// Returns weights of a moment's luminances by patch at points of an aperture, computed by `find` or kept. `kind`:
     /// number of lists with the same points. \[sr\]
-    pub(in crate::study) fn seen_patches(
+    pub(crate) fn seen_patches(
         &self,
         (prepared, kind): (&Prepared, u64),
         eyes: &[DVec3],
@@ -88,7 +82,7 @@ impl Session {
 
     /// Returns for every sensor of a scene the points of an aperture's grid through which it sees cells, or bands of the
     /// profile angle (whether in the horizontal plane, and their number), computed by `find` or kept. \[sr\]
-    pub(in crate::study) fn cells_at_points(
+    pub(crate) fn cells_at_points(
         &self,
         scene: &Scene,
         index: usize,
@@ -107,27 +101,17 @@ impl Session {
     }
 
     /// The hours of a year on so many patches.
-    pub(in crate::study) fn sky_year(
-        &self,
-        year: (u64, usize),
-        fingerprint: u64,
-        patches: usize,
-    ) -> Option<Arc<SkyYear>> {
+    pub(crate) fn sky_year(&self, year: (u64, usize), fingerprint: u64, patches: usize) -> Option<Arc<SkyYear>> {
         year_of(&self.sky_years, year, fingerprint, patches)
     }
 
     /// The hours of a year by so many moments of what sensors see.
-    pub(in crate::study) fn seen_year(
-        &self,
-        year: (u64, usize),
-        fingerprint: u64,
-        moments: usize,
-    ) -> Option<Arc<SkyYear>> {
+    pub(crate) fn seen_year(&self, year: (u64, usize), fingerprint: u64, moments: usize) -> Option<Arc<SkyYear>> {
         year_of(&self.seen_years, year, fingerprint, moments)
     }
 
     /// Returns the sunlit parts of an aperture in the hours of a year, behind prepared obstructions of this number.
-    pub(in crate::study) fn sunlit_year(
+    pub(crate) fn sunlit_year(
         &self,
         (number, hours): (u64, usize),
         prepared: u64,
@@ -139,17 +123,13 @@ impl Session {
     }
 
     /// Skies that the directions of a façade's patches are tried under.
-    pub(in crate::study) fn trial_skies(
-        &self,
-        facade: Bearing,
-        find: impl FnOnce() -> Vec<Outside>,
-    ) -> Arc<Vec<Outside>> {
+    pub(crate) fn trial_skies(&self, facade: Bearing, find: impl FnOnce() -> Vec<Outside>) -> Arc<Vec<Outside>> {
         let key = vec![facade.radians().to_bits()];
         self.trial_skies.find(key, find)
     }
 
     /// What a sky gives on patches of some fingerprint, found anew or kept.
-    pub(in crate::study) fn exact_sky(
+    pub(crate) fn exact_sky(
         &self,
         outside: &Outside,
         fingerprint: u64,

@@ -9,7 +9,7 @@ use crate::study::scene::Scene;
 const RELATIVE: f64 = 1e-7;
 
 /// Patches and what is even in them.
-pub(in crate::study) struct SkyPatches {
+pub(crate) struct SkyPatches {
     /// They.
     pub patches: RingBasis,
     /// Where they are.
@@ -43,6 +43,6 @@ impl SkyPatches {
 }
 
 /// Of every patch. \[lx\]
-pub(in crate::study) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
+pub(crate) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
 }

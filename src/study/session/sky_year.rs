@@ -4,10 +4,10 @@ use crate::compute::room::sunlit_part::SunlitPart;
 use std::sync::OnceLock;
 
 /// Sunlit part of an aperture by hour, each found when it is first asked for.
-pub(in crate::study) type SunlitYear = Vec<OnceLock<SunlitPart>>;
+pub(crate) type SunlitYear = Vec<OnceLock<SunlitPart>>;
 
 /// By hour, each found when it is first asked for; in half the digits, 6 · 10⁻⁸ of each.
-pub(in crate::study) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
+pub(crate) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
 
 impl SkyYear {
     /// Nothing known of so many hours.

@@ -18,7 +18,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// All mirroring apertures of a scene.
-pub(in crate::study) struct ThrownBack {
+pub(crate) struct ThrownBack {
     sides: Vec<Side>,
     /// Luminances of all mirroring cells, once they have settled, by what falls in through each: (1 − R G)⁻¹ R.
     settled: Mat<f32>,

@@ -26,13 +26,13 @@ const IMAGES: [DVec3; 4] =
 type Key = (usize, [u64; 3]);
 
 /// What the room makes of beams, and that of such as many systems send, as far as it was asked for.
-pub(in crate::study) struct UnitBeams {
+pub(crate) struct UnitBeams {
     landed: Landed,
     known: Mutex<HashMap<Key, Arc<UnitBeam>>>,
 }
 
 /// A beam of 1 lm.
-pub(in crate::study) struct UnitBeam {
+pub(crate) struct UnitBeam {
     /// Sensor by sensor: twice reflected or more, how far that hangs on where in a patch the beam lies, once reflected as
     /// sharp as it is; then what the two densities differ by. \[lx/lm\]
     numbers: Vec<f32>,
@@ -41,7 +41,7 @@ pub(in crate::study) struct UnitBeam {
 }
 
 /// Beams together, once the room has reflected them.
-pub(in crate::study) struct Together {
+pub(crate) struct Together {
     /// Twice or more.
     pub light: LandedLight,
     /// Once, as sharp as they are, sensor by sensor. \[lx\]

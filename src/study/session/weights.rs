@@ -8,7 +8,7 @@ use std::ops::Range;
 pub(super) const TOGETHER: usize = 32;
 
 /// Weights of one sensor, by fine patch.
-pub(in crate::study) struct Response {
+pub(crate) struct Response {
     /// Of all first illuminance. \[lx per lx\]
     pub value: Vec<f64>,
     /// The difference of the two densities, wall by wall.
@@ -16,7 +16,7 @@ pub(in crate::study) struct Response {
 }
 
 /// Sensor by sensor weights of the luminance of cells.
-pub(in crate::study) struct ByCells {
+pub(crate) struct ByCells {
     pub value: Vec<Vec<f64>>,
     /// Wall by wall; empty where not asked for.
     pub walls: Vec<Vec<Vec<f64>>>,
