@@ -1,6 +1,6 @@
 //! From a value to a colour and back to a legend that can be read: linear or logarithmic, with unit.
 
-use super::palette::Palette;
+use super::palette::{ColourMapExt as _, Palette};
 use crate::drawing::ticks;
 use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
@@ -10,14 +10,21 @@ pub const LEGEND_HEIGHT: f32 = 32.0;
 
 pub use crate::drawing::colours::ColourScale;
 
-impl ColourScale {
+/// Colours and legend of a scale in the window.
+pub trait ColourScaleExt {
     /// Colour of a value.
-    pub fn colour(&self, value: f64) -> Color32 {
+    fn colour(&self, value: f64) -> Color32;
+
+    /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): bar, ticks, unit, and a needle at `pointed`.
+    fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette);
+}
+
+impl ColourScaleExt for ColourScale {
+    fn colour(&self, value: f64) -> Color32 {
         self.map.at(self.fraction(value))
     }
 
-    /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): bar, ticks, unit, and a needle at `pointed`.
-    pub fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette) {
+    fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette) {
         let font = FontId::proportional(13.0);
         // In a narrow tile the spacing of the ticks alone says that the scale is logarithmic.
         let words = if self.log && rect.width() > 170.0 { say::logarithmic(unit) } else { unit.to_owned() };

@@ -1,6 +1,6 @@
 //! A map of hours in the window: a picture between axes, its legend under it, a mark that pointer and arrow keys set.
 
-use super::colour_scale::LEGEND_HEIGHT;
+use super::colour_scale::{ColourScaleExt as _, LEGEND_HEIGHT};
 use super::palette::Palette;
 use super::plot::{self, LEFT, Look};
 use super::tile;

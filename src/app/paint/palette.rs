@@ -5,9 +5,14 @@ use egui::{Color32, Visuals};
 
 pub use crate::drawing::colours::ColourMap;
 
-impl ColourMap {
+/// Colours of a map in the window.
+pub trait ColourMapExt {
     /// Colour of a fraction in the window; values outside 0 … 1 get the end colours, NaN the lower one.
-    pub fn at(self, fraction: f32) -> Color32 {
+    fn at(self, fraction: f32) -> Color32;
+}
+
+impl ColourMapExt for ColourMap {
+    fn at(self, fraction: f32) -> Color32 {
         let [r, g, b] = self.rgb(fraction);
         Color32::from_rgb(r, g, b)
     }

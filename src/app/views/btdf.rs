@@ -13,7 +13,7 @@ pub use input::{Action, FormInput, Input, SchemesInput};
 
 use super::Cache;
 use crate::app::incidence::Source;
-use crate::app::paint::colour_scale::ColourScale;
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::frozen::{Grain, frozen, grain};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};

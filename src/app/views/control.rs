@@ -7,7 +7,7 @@ pub use input::{Input, StatePoint, TracePoint};
 
 use super::Cache;
 use crate::app::paint::hemisphere::on_halo;
-use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::palette::{ColourMap, ColourMapExt as _, Palette};
 use crate::app::paint::plot::{self, LEFT, Look, Shown};
 use crate::app::paint::tile::{self, Words};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};

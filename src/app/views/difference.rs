@@ -1,7 +1,7 @@
 //! A difference with sign: over the sensors of a room, or over a hemisphere; zero in the middle of the colours.
 
 use super::Cache;
-use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, Projection, Side};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::tile::{self, Foot, Status, Words};

@@ -19,7 +19,7 @@ mod words;
 pub use input::{Action, CellValue, Input, Opening, Quantity};
 pub use words::{csv, error_words};
 
-use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{LEFT, RIGHT};
 use crate::app::paint::tile::{self, Foot, Words};

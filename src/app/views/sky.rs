@@ -2,7 +2,7 @@
 
 use super::Cache;
 use crate::app::moment::height_words;
-use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, Look};

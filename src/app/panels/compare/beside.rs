@@ -6,7 +6,7 @@ use crate::app::compare::{Act, Part};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::jobs::Lane;
 use crate::app::paint;
-use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::state::Tile;
 use crate::app::theme;

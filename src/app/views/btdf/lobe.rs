@@ -4,7 +4,7 @@ use super::place::Place;
 use super::words::{drawn, leaving_text};
 use crate::app::paint::body::Body;
 use crate::app::paint::camera::{Camera, View, words};
-use crate::app::paint::colour_scale::ColourScale;
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::tile::{self, Foot};
 use crate::app::views::Cache;

@@ -3,7 +3,7 @@
 use super::input::{Input, SchemesInput};
 use crate::app::data_looks::NoSchemes;
 use crate::app::paint::hemisphere::{Disk, Projection, Side};
-use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::palette::{ColourMap, ColourMapExt as _, Palette};
 use crate::app::paint::tile::Foot;
 use crate::compute::direction::Dir;
 use crate::compute::incidence::schemes::SunScheme;

@@ -3,7 +3,7 @@
 use super::scaling::{Scaling, towards};
 use crate::app::paint::body::Body;
 use crate::app::paint::camera::{Camera, words};
-use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::paint::palette::{ColourMap, ColourMapExt as _, Palette};
 use crate::app::paint::tile::{self, Foot};
 use crate::app::views::Cache;
 use crate::compute::direction::{Emergent, Surface};

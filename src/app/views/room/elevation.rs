@@ -3,7 +3,7 @@
 use super::input::{Frame, Input};
 use super::marks::scale_bar;
 use super::plan::{outline, things};
-use crate::app::paint::colour_scale::ColourScale;
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::Palette;
 use egui::{Rect, Stroke, StrokeKind, Ui, vec2};
 

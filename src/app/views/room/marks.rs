@@ -1,6 +1,6 @@
 //! What stands on the plan beside its colours: iso-lux levels with their names, and a scale.
 
-use crate::app::paint::colour_scale::ColourScale;
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::contrast;
 use crate::drawing::ticks::tick;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};

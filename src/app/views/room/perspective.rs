@@ -8,7 +8,7 @@ use super::input::Input;
 use super::lit::{self, Piece};
 use super::outside;
 use crate::app::paint::camera::{Camera, View, words};
-use crate::app::paint::colour_scale::{ColourScale, LEGEND_HEIGHT};
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Foot};
 use crate::app::views::Cache;

@@ -2,7 +2,7 @@
 
 use super::input::{Frame, Input};
 use super::marks::{label_line, scale_bar};
-use crate::app::paint::colour_scale::ColourScale;
+use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::contour::{ASKED_FOR, IsoLine, iso_levels, iso_lines};
 use crate::app::paint::palette::{Palette, contrast};
 use crate::app::views::Cache;
