@@ -16,7 +16,7 @@ use crate::formats::luminaire_index::{self, Row};
 use crate::formats::write_dataset;
 use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
-use crate::report::study::{Study, pages as study_pages};
+use crate::report::study_report::{Study, pages as study_pages};
 use crate::report::{Look as PictureLook, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
 use crate::study::inputs::inputs_of;

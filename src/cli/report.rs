@@ -9,7 +9,7 @@ use crate::formats::FileKind;
 use crate::formats::encoding::decode;
 use crate::report::comparison::Comparison;
 use crate::report::product::{Sheet, pages as sheet_pages};
-use crate::report::study::{Study, pages as study_pages};
+use crate::report::study_report::{Study, pages as study_pages};
 use crate::report::{TileKind, pdf, tender};
 use crate::study::example::scene_of;
 use crate::study::goniophotometer::LayerLibrary as _;

@@ -10,7 +10,7 @@ pub mod pdf;
 pub mod picture;
 pub mod product;
 pub mod size;
-pub mod study;
+pub mod study_report;
 pub mod table;
 pub mod tender;
 pub mod tiles;

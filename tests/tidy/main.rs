@@ -392,7 +392,7 @@ const NO_WORDS: [(&str, &str); 17] = [
     ("src/report/error.rs", "errors are in English, as those of the layers below"),
     ("src/report/pdf.rs", "errors"),
     ("src/report/size.rs", "errors"),
-    ("src/report/study.rs", "a reason that is looked for"),
+    ("src/report/study_report.rs", "a reason that is looked for"),
     ("src/report/tender.rs", "errors"),
     ("src/report/tiles/mod.rs", "tiles by their names in files, and an error"),
 ];
