@@ -1,10 +1,11 @@
 //! The descriptions of the built-in catalogue: every one reads, tells what it is, and names what is there.
 
+use crate::common::root;
 use cfs::compute::system::SystemKind;
 use cfs::compute::system::stack::LayerSource;
 use cfs::formats::system_toml::{self, EACH_STATE, SystemFile};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What products are in everyday words: the first tag of each.
 const EVERYDAY: [&str; 31] = [
@@ -92,7 +93,7 @@ const KEPT: [&str; 12] = [
 ];
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/systems")
+    root().join("assets/systems")
 }
 
 /// All descriptions by the keys that their files' names give.

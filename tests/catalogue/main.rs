@@ -2,7 +2,6 @@
 
 mod assets;
 mod builtin;
-mod catalogue;
 mod collections;
 #[path = "../common/mod.rs"]
 mod common;
@@ -14,3 +13,4 @@ mod history;
 mod keeping;
 mod packages;
 mod search;
+mod whole;

@@ -8,12 +8,17 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+/// The folder of the project, where the lock file is: tests of a layer are compiled for a package inside it, and run there.
+pub fn root() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().find(|folder| folder.join("Cargo.lock").is_file()).expect("a folder with a lock file")
+}
+
 /// A file or folder of the public data, which are in `$CFS_TEST_DATA` or `../shared`; noted when it is not there.
 #[track_caller]
 pub fn data(part: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("CFS_TEST_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"), PathBuf::from);
-    let path = root.join(part);
+    let folder = std::env::var_os("CFS_TEST_DATA").map_or_else(|| "../shared".into(), PathBuf::from);
+    let path = root().join(folder).join(part);
     if path.exists() {
         return Some(path);
     }

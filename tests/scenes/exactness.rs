@@ -3,7 +3,7 @@
 //! Rows of the tables have five columns: what is compared, with the folder of the cases in backquotes (and, behind a slash, a
 //! word that the names of its scenes contain); scenes; points; worst error; share of the points whose stated uncertainty holds.
 
-use crate::common::data;
+use crate::common::{data, root};
 use crate::reference_kit::{CASES, number, scenes};
 use crate::rooms::compute;
 use cfs::study::{Library, load_scene};
@@ -75,7 +75,7 @@ fn agrees(said: Row, found: Row) -> bool {
 
 #[test]
 fn readme_and_guide_state_the_errors_that_are_measured() {
-    let page = |name: &str| std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap();
+    let page = |name: &str| std::fs::read_to_string(root().join(name)).unwrap();
     let pages = ["README.md", "assets/guide/exactness.md"].map(|name| (name, rows(&page(name))));
     assert!(pages.iter().all(|(_, rows)| rows.len() > 5), "{pages:?}");
     let Some(cases) = data(CASES) else { return };

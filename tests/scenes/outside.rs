@@ -1,5 +1,6 @@
 //! What stands outside: which keys are refused, and what must hold without any reference.
 
+use crate::common::root;
 use cfs::compute::basis::RingBasis;
 use cfs::compute::direction::{Dir, Emergent};
 use cfs::compute::estimate::{Progress, Silent};
@@ -35,7 +36,7 @@ pub(crate) fn a_box(from: [f64; 3], to: [f64; 3], more: &str) -> String {
 
 pub(crate) fn resolve(text: &str) -> Result<Scene, String> {
     let file = SceneFile::parse(text).map_err(|error| error.to_string())?;
-    Scene::resolve(&file, Path::new("."), &Library::default()).map_err(|error| error.to_string())
+    Scene::resolve(&file, root(), &Library::default()).map_err(|error| error.to_string())
 }
 
 fn room(text: &str) -> RoomResult {
@@ -403,7 +404,7 @@ fn light_on_many_boxes_ends_when_it_is_not_wanted() {
 #[test]
 fn a_post_on_the_glass_hides_what_is_behind_it_whatever_the_system() {
     // On the glass nothing comes in under it; a millimetre off hardly more does.
-    let panel = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/systems/laser-cut-panel.system.toml");
+    let panel = root().join("assets/systems/laser-cut-panel.system.toml");
     let described = format!("system = {{ file = {panel:?} }}");
     let post = |gap: f64| a_box([3.3, -1.0, 0.0], [3.5, -gap, 3.0], "reflectance = 0.0");
     let low = |gap: f64| a_box([0.0, -0.5, 0.8], [4.0, -gap, 1.94], "reflectance = 0.0");
