@@ -29,7 +29,8 @@
 //!
 //! Imports go one way: ([`texts`], [`compute`]) ← [`drawing`] ← [`formats`] ← [`catalogue`] ← [`study`] ← [`report`] ←
 //! {[`cli`], [`app`]} ← `main`.
-//! `tests/tidy` enforces it.
+//! Each layer below [`cli`] and [`app`] is a crate, `cfs-NAME` in `src/NAME`, which is built without those above it; other
+//! crates call it by the name of its folder. What the compiler does not see, `tests/tidy` enforces.
 //!
 //! | module | owns | must not touch |
 //! | --- | --- | --- |
@@ -91,17 +92,18 @@
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 
 pub mod app;
-pub mod catalogue;
 pub mod cli;
-pub mod compute;
-pub mod drawing;
-pub mod formats;
 // Without code: pages that change need no new build.
 #[cfg(any(doc, doctest))]
 pub mod guide;
-pub mod report;
-pub mod study;
-pub mod texts;
+
+pub use cfs_catalogue as catalogue;
+pub use cfs_compute as compute;
+pub use cfs_drawing as drawing;
+pub use cfs_formats as formats;
+pub use cfs_report as report;
+pub use cfs_study as study;
+pub use cfs_texts as texts;
 
 /// README, whose example is a documentation test.
 #[cfg(doctest)]

@@ -41,15 +41,3 @@ impl LanguageChoice {
 pub fn of_desktop() -> Language {
     Language::of_locale(&sys_locale::get_locale().unwrap_or_default())
 }
-
-impl From<Text> for egui::RichText {
-    fn from(text: Text) -> Self {
-        text.get().into()
-    }
-}
-
-impl From<Text> for egui::WidgetText {
-    fn from(text: Text) -> Self {
-        text.get().into()
-    }
-}

@@ -107,7 +107,7 @@ fn profile(one: &[f64], other: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{FirstRule, Origin};
+    use crate::{FirstRule, Origin};
 
     fn row(tau: f64, ceiling: f64) -> ProductRow {
         ProductRow {

@@ -8,7 +8,7 @@ use include_dir::{Dir, File, include_dir};
 use std::sync::LazyLock;
 
 /// All files of the folder; a new one is taken in when this file is compiled anew.
-static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/assets/systems");
+static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/systems");
 /// Kinds in the order of the catalogue; others follow, stacks come last.
 const ORDER: [&str; 7] = ["pane", "diffuser", "woven", "laser-cut-panel", "venetian", "prismatic", "perforated"];
 /// The product that a new window shows comes before all.
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn all_files_of_the_folder_are_known_and_in_order() {
-        let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/systems")).unwrap();
+        let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets/systems")).unwrap();
         let mut there: Vec<String> = folder.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         there.retain(|name| is_system_file(name));
         there.sort();

@@ -189,7 +189,7 @@ impl Panel<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::plot::{Guide, Unit};
+    use crate::plot::{Guide, Unit};
 
     fn plot() -> Plot {
         let mut series = Series::line("a", [[0.01, 1e-4], [0.1, 1e-2], [f64::NAN, 1.0], [1.0, 1e9]]);

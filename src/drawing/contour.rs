@@ -122,7 +122,7 @@ pub const ASKED_FOR: [f64; 2] = [300.0, 500.0];
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::colours::ColourMap;
+    use crate::colours::ColourMap;
     use proptest::prelude::*;
     use std::f64::consts::PI;
 

@@ -1,5 +1,12 @@
 //! The catalogue's file, its exchange, and the products built in.
 
+// Layers as the whole program hands them on: `cfs::compute` and so on.
+extern crate self as cfs;
+use cfs_catalogue as catalogue;
+use cfs_compute as compute;
+use cfs_formats as formats;
+use cfs_study as study;
+
 mod assets;
 mod builtin;
 mod collections;

@@ -1,6 +1,13 @@
 //! Parts of the computation by themselves: skies, systems measured numerically, the compact form, ways between
 //! incident directions, the report's figures.
 
+// Layers as the whole program hands them on: `cfs::compute` and so on.
+extern crate self as cfs;
+use cfs_catalogue as catalogue;
+use cfs_compute as compute;
+use cfs_formats as formats;
+use cfs_study as study;
+
 mod beams;
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,5 +1,13 @@
 //! Whole scenes: closed forms, reference cases, what the plan leaves out, extreme input, years of control.
 
+// Layers as the whole program hands them on: `cfs::compute` and so on.
+extern crate self as cfs;
+use cfs_catalogue as catalogue;
+use cfs_compute as compute;
+use cfs_drawing as drawing;
+use cfs_formats as formats;
+use cfs_study as study;
+
 mod accuracy;
 mod beams_in_cells;
 mod coefficients;

@@ -9,9 +9,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Files under `src` with the files that they take names from, and the line of the first.
 pub type Arrows = BTreeMap<String, BTreeMap<String, usize>>;
 
-/// Words of the module that a file is: `compute/room/mod.rs` → compute, room.
+/// Words of the module that a file is: `compute/room/mod.rs` → compute, room. The crate of a layer counts as a module.
 fn module_of(file: &str) -> Vec<String> {
-    let stem = file.trim_end_matches(".rs").trim_end_matches("/mod");
+    let stem = file.trim_end_matches(".rs").trim_end_matches("/mod").trim_end_matches("/lib");
     if stem == "lib" { vec![] } else { stem.split('/').map(str::to_owned).collect() }
 }
 
@@ -28,13 +28,27 @@ impl House<'_> {
         let mut base = module.to_vec();
         let mut rest = words;
         match rest.first()?.as_str() {
-            "crate" => (base, rest) = (vec![], &rest[1..]),
+            "crate" => {
+                rest = &rest[1..];
+                base.truncate(1);
+                let is_crate = self.files.get(&base[..]).is_some_and(|file| file.ends_with("/lib.rs"));
+                // Another layer, by the name that it has in all crates.
+                let own = [&base[..], rest.get(..1).unwrap_or_default()].concat();
+                let is_layer = rest.first().is_some_and(|name| self.files.contains_key(std::slice::from_ref(name)));
+                if !is_crate || is_layer && !self.files.contains_key(&own) {
+                    base.clear();
+                }
+            }
             "self" => rest = &rest[1..],
             "super" => {
                 while rest.first().is_some_and(|word| word == "super") {
                     base.pop()?;
                     rest = &rest[1..];
                 }
+            }
+            layer if layer.starts_with("cfs_") => {
+                base = vec![layer["cfs_".len()..].to_owned()];
+                rest = &rest[1..];
             }
             child => {
                 let path = [module, &[child.to_owned()]].concat();

@@ -13,7 +13,7 @@ struct Layer {
 /// The machine.
 const DISK: &[&str] = &["std::fs", "std::net", "std::env", "std::time", "std::path", "std::process"];
 /// What draws.
-const WINDOW: &[&str] = &["egui", "eframe", "egui_plot"];
+const WINDOW: &[&str] = &["egui", "eframe", "egui_plot", "rfd"];
 /// Written forms.
 const TEXT: &[&str] = &["serde", "serde_json", "toml"];
 /// The command line.
@@ -63,7 +63,7 @@ const LAYERS: [Layer; 9] = [
     Layer {
         name: "cli",
         below: &["texts", "compute", "drawing", "formats", "catalogue", "study", "report"],
-        forbidden: &[WINDOW, &["rusqlite", "rfd", "roxmltree", "quick_xml"]],
+        forbidden: &[WINDOW, &["rusqlite", "roxmltree", "quick_xml"]],
         silent: false,
     },
     Layer {
@@ -74,18 +74,28 @@ const LAYERS: [Layer; 9] = [
     },
 ];
 
-/// The crate's folder that a path leads to, if it is seen to. `depth`: 1 for `src/x.rs` and `src/x/mod.rs`, and so on.
+/// Names of forbidden crates that single files may use, with the reason.
+const EXCEPT: [(&str, &str, &str); 1] =
+    [("texts/widgets.rs", "egui", "conversions, which the crate of one of the two types alone may have")];
+
+fn is_layer(name: &str) -> bool {
+    LAYERS.iter().any(|layer| layer.name == name)
+}
+
+/// The layer that a path leads to, if it is seen to. `depth`: how many modules up the root of the file's crate is.
 fn target(path: &UsedPath, depth: usize) -> Option<&str> {
     let word = |index: usize| path.words.get(index).map(String::as_str);
-    match word(0)? {
+    let named = match word(0)? {
         "crate" | "cfs" => word(1),
         "self" | "super" => {
             let ups = path.words.iter().filter(|word| *word == "super").count();
             let rest = path.words.iter().find(|word| !matches!(word.as_str(), "self" | "super"))?;
-            (ups >= depth && LAYERS.iter().any(|layer| layer.name == rest)).then_some(rest.as_str())
+            (ups >= depth).then_some(rest.as_str())
         }
-        _ => None,
-    }
+        first => first.strip_prefix("cfs_"),
+    };
+    // Layers go by their names in all crates; what else is at a root is the crate's own.
+    named.filter(|name| is_layer(name))
 }
 
 /// What is wrong with the arrows of one file, given by its path under `src`.
@@ -93,7 +103,10 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
     let Some(layer) = LAYERS.iter().find(|layer| file.starts_with(&format!("{}/", layer.name))) else {
         return vec![];
     };
-    let depth = file.trim_end_matches("/mod.rs").matches('/').count() + 1;
+    // The window and the command line are modules of a crate, the other layers are crates.
+    let root = usize::from(matches!(layer.name, "app" | "cli"));
+    let depth = file.trim_end_matches("/mod.rs").trim_end_matches("/lib.rs").matches('/').count() + root;
+    let excused = |name: &str| EXCEPT.iter().any(|(one, own, _)| *one == file && *own == name);
     let mut wrong = vec![];
     for path in paths(source) {
         let text = path.words.join("::");
@@ -103,8 +116,8 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
         {
             wrong.push(format!("src/{file}:{}: {} must not use {text}", path.line, layer.name));
         }
-        if layer.forbidden.iter().copied().flatten().any(|name| text == *name || text.starts_with(&format!("{name}::")))
-        {
+        let mut names = layer.forbidden.iter().copied().flatten().filter(|name| !excused(name));
+        if names.any(|name| text == *name || text.starts_with(&format!("{name}::"))) {
             wrong.push(format!("src/{file}:{}: {} must not use {text}", path.line, layer.name));
         }
     }
@@ -113,4 +126,17 @@ pub fn violations(file: &str, source: &str) -> Vec<String> {
         wrong.extend(spoken.map(|(line, _)| format!("src/{file}:{line}: {} must not print results", layer.name)));
     }
     wrong
+}
+
+/// What is wrong with the dependencies of a package, given by its folder and its manifest. Those of tests are free.
+pub fn wrong_dependencies(folder: &str, manifest: &toml::Table) -> Vec<String> {
+    let Some(layer) = LAYERS.iter().find(|layer| folder == format!("src/{}", layer.name)) else { return vec![] };
+    let forbidden = |name: &str| layer.forbidden.iter().copied().flatten().any(|one| *one == name.replace('-', "_"));
+    let optional = |what: &toml::Value| what.get("optional").and_then(toml::Value::as_bool) == Some(true);
+    let wrong = |name: &str, what: &toml::Value| match name.strip_prefix("cfs-") {
+        Some(other) => !layer.below.contains(&other),
+        None => forbidden(name) && !optional(what),
+    };
+    let list = manifest["dependencies"].as_table().into_iter().flatten().filter(|(name, what)| wrong(name, what));
+    list.map(|(name, _)| format!("{folder}/Cargo.toml: {} must not depend on {name}", layer.name)).collect()
 }

@@ -8,7 +8,7 @@ mod licences;
 mod scan;
 mod words;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -83,7 +83,7 @@ fn upward(arrows: &arrows::Arrows, order: &[&str]) -> Vec<String> {
             match (place(&from), place(&to)) {
                 (Some(own), Some(other)) if other < own => {}
                 (Some(_), Some(_)) => wrong.push(format!("src/{from} must not use src/{to} (line {line} of a file)")),
-                _ => wrong.push(format!("{from} or {to} is not in the list of src/compute/mod.rs")),
+                _ => wrong.push(format!("{from} or {to} is not in the list of src/compute/lib.rs")),
             }
         }
     }
@@ -93,7 +93,7 @@ fn upward(arrows: &arrows::Arrows, order: &[&str]) -> Vec<String> {
 #[test]
 fn rooms_of_compute_use_only_those_before_them() {
     let tree = tree();
-    let (_, head) = tree.iter().find(|(file, _)| file == "compute/mod.rs").unwrap();
+    let (_, head) = tree.iter().find(|(file, _)| file == "compute/lib.rs").unwrap();
     let order = rooms(head);
     assert!(order.len() > 10, "{order:?}");
     none(&upward(&arrows::arrows(&tree), &order));
@@ -207,6 +207,42 @@ fn no_file_names_a_machine() {
     none(&wrong);
 }
 
+/// Manifests of all packages by their folders, the root's first.
+fn packages() -> Vec<(String, toml::Table)> {
+    let below = files(&["src", "tests"]).into_iter();
+    let below = below.filter_map(|(name, _)| Some(name.strip_suffix("/Cargo.toml")?.to_owned()));
+    let read = |folder: &str| std::fs::read_to_string(root().join(folder).join("Cargo.toml")).unwrap();
+    std::iter::once(".".to_owned())
+        .chain(below)
+        .map(|folder| (folder.clone(), read(&folder).parse().unwrap()))
+        .collect()
+}
+
+#[test]
+fn every_package_is_built_tested_and_linted_unasked() {
+    let packages = packages();
+    let folders: BTreeSet<&str> = packages.iter().map(|(folder, _)| folder.as_str()).collect();
+    assert!(folders.len() > 7, "{folders:?}");
+    for list in ["members", "default-members"] {
+        let named = packages[0].1["workspace"][list].as_array().unwrap().iter().map(|one| one.as_str().unwrap());
+        assert_eq!(named.collect::<BTreeSet<_>>(), folders, "{list} of Cargo.toml");
+    }
+    let lints = "#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]";
+    for (folder, manifest) in &packages {
+        assert_eq!(manifest["lints"]["workspace"].as_bool(), Some(true), "lints of {folder}/Cargo.toml");
+        let Some(library) = manifest.get("lib") else { continue };
+        let text = std::fs::read_to_string(root().join(folder).join(library["path"].as_str().unwrap())).unwrap();
+        assert!(text.contains(lints), "the library of {folder} lacks `{lints}`");
+    }
+}
+
+#[test]
+fn packages_depend_on_those_below() {
+    let wrong = |manifest: &str| layers::wrong_dependencies("src/compute", &manifest.parse().unwrap()).len();
+    assert_eq!(wrong("[dependencies]\ncfs-study = {}\nserde = \"1\"\nglam = \"0\"\nrfd = { optional = true }"), 2);
+    none(&packages().iter().flat_map(|(folder, one)| layers::wrong_dependencies(folder, one)).collect::<Vec<_>>());
+}
+
 /// Names in a lock file with the number of versions of each.
 fn versions(lock: &str) -> BTreeMap<String, usize> {
     let lock: toml::Table = lock.parse().unwrap();
@@ -272,15 +308,19 @@ fn wrong_arrows_are_seen() {
     let wrong = |file: &str, source: &str| layers::violations(file, source).len();
     assert_eq!(wrong("compute/a.rs", "use crate::formats::Format;"), 1);
     assert_eq!(wrong("compute/a.rs", "use crate::{compute::b, study::{scene, plan}};"), 2);
-    assert_eq!(wrong("compute/a/b.rs", "fn f() { let x = super::super::super::app::run(); }"), 1);
-    assert_eq!(wrong("compute/a.rs", "use super::super::app;"), 1);
+    assert_eq!(wrong("compute/a.rs", "use cfs_formats::Format;"), 1);
+    assert_eq!(wrong("compute/lib.rs", "use cfs_study as study;"), 1);
+    assert_eq!(wrong("compute/a/b.rs", "fn f() { let x = super::super::app::run(); }"), 1);
+    assert_eq!(wrong("compute/a.rs", "use super::app;"), 1);
+    assert_eq!(wrong("cli/a/b.rs", "fn f() { let x = super::super::super::app::run(); }"), 1);
     assert_eq!(wrong("compute/a.rs", "use std::{fmt, fs};"), 1);
     assert_eq!(wrong("compute/a.rs", "fn f() { ::std::fs::read(\"x\"); println!(\"y\") }"), 2);
     assert_eq!(wrong("compute/a.rs", "use serde::Serialize;"), 1);
     assert_eq!(wrong("formats/a.rs", "#[derive(serde::Serialize)] struct A; use rusqlite::Connection;"), 1);
     assert_eq!(wrong("formats/a.rs", "use cfs::catalogue::Catalogue;"), 1);
     assert_eq!(wrong("catalogue/a.rs", "use crate::study::Scene;"), 1);
-    assert_eq!(wrong("study/mod.rs", "use crate::cli;"), 1);
+    assert_eq!(wrong("study/lib.rs", "use crate::cli;"), 1);
+    assert_eq!(wrong("texts/a.rs", "use super::Text; impl From<Text> for egui::RichText {}"), 1);
     assert_eq!(wrong("cli/a.rs", "use crate::app::App;"), 1);
     assert_eq!(wrong("app/a.rs", "use crate::cli::run; use rusqlite;"), 2);
 }
@@ -292,7 +332,10 @@ fn right_arrows_pass() {
         "compute/a.rs",
         "//! Not like [`crate::app`].\nuse super::angle; /* use std::fs; */ let s = \"crate::app::x\";",
     );
-    right("compute/a/b.rs", "let c = '\"'; let r = r#\"crate::app::x \"\"#; mod tests { use super::super::study::x; }");
+    right("compute/a/b.rs", "let c = '\"'; let r = r#\"crate::app::x \"\"#; mod tests { use super::super::c::x; }");
+    right("compute/a.rs", "use crate::angle; use crate::compute::btdf; use super::angle;");
+    right("drawing/lib.rs", "use cfs_compute as compute; use crate as drawing;");
+    right("texts/widgets.rs", "impl From<Text> for egui::RichText {}");
     right("compute/a.rs", "fn f<'a>(image: &'a [u8]) { image.len(); self.app::<u8>(); }");
     right("app/a.rs", "use crate::study::Session; use egui::Ui;");
     right("cli/a.rs", "println!(\"{}\", crate::formats::image::size());");
@@ -334,13 +377,19 @@ fn made(files: &[(&str, &str)]) -> Vec<(String, String)> {
 fn arrows_lead_to_who_defines_a_name() {
     let arrows = arrows::arrows(&made(&[
         ("lib.rs", "pub mod compute;"),
-        ("compute/mod.rs", "pub mod room; pub mod sky;"),
+        ("compute/lib.rs", "pub mod room; pub mod sky;"),
         ("compute/sky/mod.rs", "mod sun; pub use sun::Sun;"),
         ("compute/sky/sun.rs", "pub struct Sun; #[cfg(test)] mod tests { use crate::compute::room::Room; }"),
         ("compute/room.rs", "use crate::compute::sky::Sun; pub struct Room(Sun);"),
+        ("study/lib.rs", "use cfs_compute as compute; pub mod room;"),
+        ("study/room.rs", "use crate::compute::sky::Sun; use crate::facade::Facade;"),
+        ("study/facade.rs", "use cfs_compute::room::Room; pub struct Facade;"),
     ]));
     let to: Vec<&String> = arrows["compute/room.rs"].keys().collect();
     assert_eq!(to, ["compute/sky/sun.rs"], "re-exports are followed");
+    let to: Vec<&String> = arrows["study/room.rs"].keys().collect();
+    assert_eq!(to, ["compute/sky/sun.rs", "study/facade.rs"], "crates have modules and layers");
+    assert!(arrows["study/facade.rs"].contains_key("compute/room.rs"), "{arrows:?}");
     assert!(arrows["compute/sky/sun.rs"].is_empty() && arrows["compute/sky/mod.rs"].is_empty(), "{arrows:?}");
     assert_eq!(arrows::circles(&arrows), Vec::<Vec<String>>::new());
     assert_eq!(upward(&arrows, &["sky", "room"]), Vec::<String>::new());

@@ -41,4 +41,4 @@ pub use compact::{CompactError, CompactRows, MOST_CELLS, ORDERS, RowDecoder};
 pub use hierarchy::{CellPoint, Group, Hierarchy};
 pub use quantise::{Criterion, QuantisedRow};
 pub use report::CompactReport;
-pub use transform::{Order, Transform};
+pub use transform::{Block, Order, Transform};

@@ -49,6 +49,11 @@
 //!
 //! Equation numbers are those of the IEA SHC Task 31 report of 2005. Everything is SI; angles are radians inside.
 
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
+// Layers have these names in all crates.
+use crate as compute;
+
 pub mod angle;
 pub mod basis;
 pub mod btdf;

@@ -2,6 +2,16 @@
 //!
 //! [`scene_file`] is the text as typed, [`scene`] what it means, [`plan`] what it needs, [`session`] the answers.
 
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
+// Layers have these names in all crates.
+use crate as study;
+use cfs_catalogue as catalogue;
+use cfs_compute as compute;
+use cfs_drawing as drawing;
+use cfs_formats as formats;
+use cfs_texts as texts;
+
 pub mod accuracy;
 pub mod accuracy_plot;
 pub mod builtin;

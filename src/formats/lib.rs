@@ -3,6 +3,14 @@
 //! A new dataset format is a file here, an arm of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
 //! [`write_dataset`].
 
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
+// Layers have these names in all crates.
+use crate as formats;
+use cfs_compute as compute;
+use cfs_drawing as drawing;
+use cfs_texts as texts;
+
 pub mod archive;
 mod beams;
 pub mod bsdf_xml;

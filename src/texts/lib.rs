@@ -7,11 +7,15 @@
 //! What comes from data (names of products, paths) and units are no texts. Names of things are the field's own:
 //! CIE S 017 (ILV) and DIN 5034 for German.
 
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
 mod ascii;
 mod bidi;
 mod csv_cell;
 mod plain;
 mod spoken;
+#[cfg(feature = "egui")]
+mod widgets;
 
 pub use ascii::{ascii_letters, ascii_words, composed, folded, is_syllable};
 pub use bidi::{has_right_to_left, visual_parts};
@@ -23,7 +27,7 @@ pub use spoken::{Language, Speaking, Text, decimal, decimal_sign, fixed, languag
 /// come written, see [`fixed`]).
 macro_rules! texts {
     ($($kind:tt $name:ident $(($($arg:ident),+ $(,)?))? = $english:literal | $german:literal;)*) => {
-        $($crate::texts::text! { $kind $name $(($($arg),+))? = $english | $german })*
+        $($crate::text! { $kind $name $(($($arg),+))? = $english | $german })*
 
         /// Every text of this file in English and in German, with the names of what is filled in.
         pub(super) const PAIRS: &[(&str, &str)] = &[$(($english, $german)),*];
@@ -34,14 +38,14 @@ macro_rules! texts {
 macro_rules! text {
     (const $name:ident = $english:literal | $german:literal) => {
         #[doc = concat!("`", $english, "`")]
-        pub const $name: $crate::texts::Text = $crate::texts::Text::new($english, $german);
+        pub const $name: $crate::Text = $crate::Text::new($english, $german);
     };
     (fn $name:ident ($($arg:ident),+) = $english:literal | $german:literal) => {
         #[doc = concat!("`", $english, "`")]
         pub fn $name($($arg: impl std::fmt::Display),+) -> String {
-            match $crate::texts::language() {
-                $crate::texts::Language::English => format!($english),
-                $crate::texts::Language::German => format!($german),
+            match $crate::language() {
+                $crate::Language::English => format!($english),
+                $crate::Language::German => format!($german),
             }
         }
     };

@@ -1,16 +1,23 @@
 //! The catalogue of products: one SQLite file with full-text search, in which datasets lie in compact binary form.
 //!
 //! ```no_run
-//! use cfs::catalogue::{Catalogue, Query};
+//! use cfs_catalogue::{Catalogue, Query};
 //! let catalogue = Catalogue::open_default()?;
 //! for row in catalogue.search(&Query { text: "slat".into(), ..Query::default() })? {
 //!     println!("{} {}", row.key, row.name);
 //! }
-//! # Ok::<(), cfs::catalogue::CatalogueError>(())
+//! # Ok::<(), cfs_catalogue::CatalogueError>(())
 //! ```
 //!
 //! A [`Catalogue`] is one connection; several connections, threads and windows may work on one file at a time.
 //! Every change is one transaction: it happens as a whole or not at all.
+
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
+// Layers have these names in all crates.
+use cfs_compute as compute;
+use cfs_formats as formats;
+use cfs_texts as texts;
 
 mod builtin;
 mod collections;

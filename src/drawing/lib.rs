@@ -1,8 +1,14 @@
-//! Pictures that need no window: lines, areas and text, written as SVG, as PNG or (by [`crate::report`]) as PDF, and what
+//! Pictures that need no window: lines, areas and text, written as SVG, as PNG or (by `cfs-report`) as PDF, and what
 //! an ordinary plot shows, for these drawings ([`chart`]) as for the window. Pure: numbers in, shapes, text and bytes out.
 //!
 //! Coordinates are units of the drawing, x right, y down; files say how large a unit is. Text is set in DejaVu Sans
 //! ([`font`]), whose widths are known here, so that SVG, PNG and PDF agree.
+
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
+// Layers have these names in all crates.
+use cfs_compute as compute;
+use cfs_texts as texts;
 
 pub mod chart;
 pub mod colours;

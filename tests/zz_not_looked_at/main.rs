@@ -1,7 +1,7 @@
 //! Runs after all other tests and says in one line what they did not look at, for want of data or of a driver. The line
 //! goes to the file `$CFS_TEST_SUMMARY` too, if that is set.
 
-#[path = "common/mod.rs"]
+#[path = "../common/mod.rs"]
 mod common;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -3,6 +3,15 @@
 //! A tile's picture is a [`Drawing`](crate::drawing::Drawing) made of a [`Subject`](crate::study::subject::Subject), so that
 //! window and command line hand the same on, whatever the window's size and theme. A report is pages of such drawings.
 
+#![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
+
+// Layers have these names in all crates.
+use cfs_catalogue as catalogue;
+use cfs_compute as compute;
+use cfs_drawing as drawing;
+use cfs_study as study;
+use cfs_texts as texts;
+
 pub mod comparison;
 mod error;
 pub mod pages;
