@@ -88,7 +88,7 @@ impl<const N: usize> Piece<N> {
 }
 
 /// ∫ f over the range of `knots` (rising), and its error. The piece that is off by most gets more points, and is halved then,
-/// until the errors of the first quantity come to no more than `relative` of the whole, or `absolute`, see [`Piece::off`].
+/// until the errors of the first quantity come to no more than `relative` of the whole, or `absolute`, see `Piece::off`.
 pub fn sweep<const N: usize>(
     mut f: impl FnMut(f64) -> [f64; N],
     knots: &[f64],
