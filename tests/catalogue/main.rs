@@ -1,6 +1,6 @@
 //! The catalogue's file, its exchange, and the products built in.
 
-// Layers as the whole program hands them on: `cfs::compute` and so on.
+// Layers by the names that the whole program gives them: `cfs::compute` and so on.
 extern crate self as cfs;
 use cfs_catalogue as catalogue;
 use cfs_compute as compute;

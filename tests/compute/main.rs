@@ -1,7 +1,7 @@
 //! Parts of the computation by themselves: skies, systems measured numerically, the compact form, ways between
 //! incident directions, the report's figures.
 
-// Layers as the whole program hands them on: `cfs::compute` and so on.
+// Layers by the names that the whole program gives them: `cfs::compute` and so on.
 extern crate self as cfs;
 use cfs_catalogue as catalogue;
 use cfs_compute as compute;

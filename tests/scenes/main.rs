@@ -1,6 +1,6 @@
 //! Whole scenes: closed forms, reference cases, what the plan leaves out, extreme input, years of control.
 
-// Layers as the whole program hands them on: `cfs::compute` and so on.
+// Layers by the names that the whole program gives them: `cfs::compute` and so on.
 extern crate self as cfs;
 use cfs_catalogue as catalogue;
 use cfs_compute as compute;
