@@ -1,7 +1,7 @@
-//! Run time of a new sky and a new sun over a prepared scene, beside the error: 96 sensors with interreflection.
+//! Run time and error of a new sky and a new sun for a prepared scene: 96 sensors with interreflection.
 //!
-//! `RAYON_NUM_THREADS=1 cargo bench --bench coefficients`. Before the times every system's stated error and its
-//! deviation from the ordinary computation are printed.
+//! `RAYON_NUM_THREADS=1 cargo bench --bench coefficients`. Before the times, stated uncertainty and deviation
+//! from the default method are printed for every system.
 
 use cfs::compute::angle::Bearing;
 use cfs::compute::basis::RingBasis;
@@ -22,7 +22,7 @@ fn main() {
 
 const SYSTEMS: [&str; 4] = ["Lambert", "Klems blind", "indicatrices", "clear glass"];
 
-/// A narrow lobe about the direct direction and a haze, at 145 directions on cells of 2°.
+/// Creates a dataset with a narrow lobe about the through direction and a haze: 145 incident directions, cells of 2°.
 fn clear_lobe() -> Dataset {
     let incident: Vec<_> = RingBasis::tregenza().cells().map(|cell| Incident(cell.centre())).collect();
     let emergent = sub_patches(2_f64.to_radians());
@@ -75,7 +75,7 @@ fn sun(k: usize) -> Sun {
     Sun { direction: Dir::from_altitude_bearing(0.6, bearing), direct_normal: 60_000.0 }
 }
 
-/// Clear skies whose sun moves.
+/// Returns a clear sky for the sun of number `k`.
 fn outside(k: usize) -> Outside {
     let sky = Distribution::cie(12, sun(k).direction).expect("there is a type 12");
     let outside = Outside::new(sky, 15_000.0).and_then(|outside| outside.with_ground(0.2, 40_000.0));
@@ -111,7 +111,7 @@ fn errors() {
     }
 }
 
-/// A new sky over a prepared room.
+/// Measures a new sky for a prepared room, without its uncertainty.
 #[divan::bench(args = SYSTEMS)]
 fn new_sky(bencher: Bencher<'_, '_>, system: &str) {
     let coefficients = prepare(&Session::new(), &scene(system));
@@ -123,7 +123,7 @@ fn new_sky(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// The same with its error.
+/// Measures a new sky for a prepared room, with its uncertainty.
 #[divan::bench(args = SYSTEMS)]
 fn new_sky_with_error(bencher: Bencher<'_, '_>, system: &str) {
     let coefficients = prepare(&Session::new(), &scene(system));
@@ -135,7 +135,7 @@ fn new_sky_with_error(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// The sun moves.
+/// Measures a new position of the sun for a prepared room.
 #[divan::bench(args = SYSTEMS)]
 fn new_sun(bencher: Bencher<'_, '_>, system: &str) {
     let coefficients = prepare(&Session::new(), &scene(system));
@@ -146,7 +146,7 @@ fn new_sun(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// Everything from nothing.
+/// Measures the preparation of a scene in a new session.
 #[divan::bench(args = SYSTEMS, sample_count = 3, sample_size = 1)]
 fn preparation(bencher: Bencher<'_, '_>, system: &str) {
     let scene = scene(system);

@@ -1,6 +1,6 @@
-//! Run time of the compact form: one incidence from its bytes, the same from memory, a whole dataset compressed.
+//! Run time of the compact form: one incident direction read from bytes or from memory, and compression of a dataset.
 //!
-//! `cargo bench --bench compact`. Printed first: sizes and errors of the datasets that are timed.
+//! `cargo bench --bench compact`. Before the times, sizes and errors of the datasets are printed.
 
 #[path = "../tests/compute/compact/analytic.rs"]
 mod analytic;

@@ -1,4 +1,5 @@
-//! Run time of reading datasets: a maker's file where the test data are at hand (`CFS_TEST_DATA`), else one made here.
+//! Run time of reading and writing datasets: a maker's file if the test data are available (`CFS_TEST_DATA`), else one
+//! made here.
 //!
 //! `cargo bench --bench formats`. The error printed first is that of τ after writing and reading.
 
@@ -25,7 +26,7 @@ fn main() {
     divan::main();
 }
 
-/// A full Klems matrix without zeros.
+/// Creates a dataset with a full Klems matrix without zeros.
 fn made() -> Dataset {
     let basis = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
     let n = basis.len();
@@ -40,7 +41,7 @@ fn written(dataset: &Dataset) -> Vec<u8> {
     write_dataset(Format::BsdfXml, std::slice::from_ref(dataset)).expect("a Klems matrix can be written").bytes
 }
 
-/// The largest XML file of the test data that is read without error.
+/// Returns name and bytes of the largest XML file of the test data that is read without error.
 fn makers() -> Option<(String, Vec<u8>)> {
     let root = std::env::var_os("CFS_TEST_DATA")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared"), PathBuf::from)

@@ -1,7 +1,8 @@
-//! Run time of the room beside its error: one view of 96 sensors in a room of three reflectances, behind a blind of
-//! the built-in products. What the window does when the sky, the sun or the room changes.
+//! Run time and error of a room: 96 sensors in a room with three reflectances, behind a blind of the built-in products
+//! and other systems, as the window computes it when the sky, the sun or the room changes.
 //!
-//! `cargo bench --bench room`. Before the times each bench prints how far its result lies from a finer computation.
+//! `cargo bench --bench room`. Before the times, the deviations of the results from a finer computation are
+//! printed.
 
 use cfs::compute::estimate::Silent;
 use cfs::study::{Library, RoomResult, Scene, SceneFile, Session};
@@ -27,7 +28,7 @@ fn text(system: &str, sky: &str, compute: &str) -> String {
     )
 }
 
-/// A clear sky with the sun at a bearing.
+/// Returns the keys of a clear sky with the sun at a bearing. \[°\]
 fn sunny(bearing: f64) -> String {
     format!(
         "model = \"cie\"\ntype = 12\ndiffuse_horizontal = 15000.0\n\
@@ -39,13 +40,13 @@ fn overcast(illuminance: f64) -> String {
     format!("model = \"cie\"\ntype = 16\ndiffuse_horizontal = {illuminance:?}")
 }
 
-/// Resolves scenes with a catalogue that lives as long as the benches.
+/// Library whose catalogue exists as long as a bench, and its folder.
 struct Bench {
     library: Library,
     _folder: Folder,
 }
 
-/// A folder of its own, removed at the end.
+/// Temporary folder, removed at the end.
 struct Folder(std::path::PathBuf);
 
 impl Drop for Folder {
@@ -72,8 +73,8 @@ fn room(session: &Session, scene: &Scene) -> RoomResult {
     session.room(scene, &Silent).expect("nothing in these scenes is out of range")
 }
 
-/// Deviation of the ordinary result from one with an error target of 1e-5 (up to ten times the patches): the largest in
-/// shares of the mean, and how well the result's own statement covers it.
+/// Prints the largest deviation of the default method from a run with an error target of 1e-5 (up to ten times the
+/// patches), relative to the mean, and how well the stated uncertainty covers it.
 fn errors() {
     let bench = Bench::new();
     for (name, system, sky) in [
@@ -107,7 +108,7 @@ fn errors() {
     }
 }
 
-/// A new sky over a room that is already there.
+/// Measures a new sky for a room that the session already knows.
 #[divan::bench(args = [DIFFUSE, BLIND, OPEN])]
 fn sky_change(bencher: Bencher<'_, '_>, system: &str) {
     let bench = Bench::new();
@@ -121,7 +122,7 @@ fn sky_change(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// The sun moves.
+/// Measures a new position of the sun for a room that the session already knows.
 #[divan::bench(args = [BLIND, OPEN])]
 fn sun_change(bencher: Bencher<'_, '_>, system: &str) {
     let bench = Bench::new();
@@ -135,7 +136,7 @@ fn sun_change(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// The first answer for a room under an overcast sky.
+/// Measures the first result for a room under an overcast sky.
 #[divan::bench(args = [DIFFUSE, BLIND, OPEN], sample_count = 10)]
 fn cold_overcast(bencher: Bencher<'_, '_>, system: &str) {
     let bench = Bench::new();
@@ -143,7 +144,7 @@ fn cold_overcast(bencher: Bencher<'_, '_>, system: &str) {
     bencher.bench_local(|| room(&Session::new(), &scene));
 }
 
-/// The first answer for a room: meshing, exchange, factorisation, near field of all sensors and patches.
+/// Measures the first result for a room: meshing, exchange, factorisation, near field of all sensors and patches.
 #[divan::bench(args = [BLIND, OPEN], sample_count = 10)]
 fn cold(bencher: Bencher<'_, '_>, system: &str) {
     let bench = Bench::new();
@@ -151,7 +152,7 @@ fn cold(bencher: Bencher<'_, '_>, system: &str) {
     bencher.bench_local(|| room(&Session::new(), &scene));
 }
 
-/// The aperture's light alone: sky integrals over the incident cells and the matrix.
+/// Measures the light of the aperture alone: sky integrals over the incident cells and the matrix.
 #[divan::bench(args = [BLIND, OPEN])]
 fn emission(bencher: Bencher<'_, '_>, system: &str) {
     let bench = Bench::new();

@@ -1,6 +1,7 @@
-//! Run time of a year of weather: read, suns placed, skies scaled. A year that comes with the program, written as EPW.
+//! Run time of a year of weather: reading, positions of the sun, skies. The year is a built-in one, written as EPW.
 //!
-//! `cargo bench --bench weather`. Printed first: how far the fast path of the sun is from the algorithm it is drawn from.
+//! `cargo bench --bench weather`. Before the times, the largest deviation of the fast solar position from the
+//! algorithm that it is derived from is printed.
 
 use cfs::compute::direction::Dir;
 use cfs::compute::weather::{Reading, Station, SunPath, Weather};
@@ -20,7 +21,7 @@ fn renton() -> Weather {
     load(Path::new("builtin:renton"), Path::new("")).expect("comes with the program")
 }
 
-/// The same figures with the fields that an EPW file has.
+/// Returns the built-in year as an EPW file.
 fn epw() -> Vec<u8> {
     let weather = renton();
     let station = &weather.station;

@@ -1,8 +1,8 @@
-//! Run time of a year and of a ranking beside their errors: 96 sensors, a year of weather, one system in a session that
-//! knows the room; and all products of a search.
+//! Run time and error of an annual simulation: 96 sensors, a year of weather, one system in a session that knows the
+//! room or in a new one; and run time of new weights for a ranking of a hundred products.
 //!
-//! `cargo bench --bench year`. Before the times the largest deviation of hours from the ordinary computation of their
-//! moments is printed, with what was stated.
+//! `cargo bench --bench year`. Before the times, the deviations of hours from the default method at the same moments
+//! are printed, with the stated uncertainty.
 
 use cfs::compute::estimate::{Estimate, Silent};
 use cfs::compute::rank::{Better, Objective};
@@ -19,7 +19,7 @@ fn main() {
     divan::main();
 }
 
-/// By name: what stands in the aperture.
+/// Name of each system, and its keys in the scene.
 const SYSTEMS: [(&str, &str); 4] = [
     ("Lambert", "{ ideal = \"diffuse\", transmittance = 0.6 }"),
     ("clear glass", "{ catalogue = \"clear-double\" }"),
@@ -52,7 +52,7 @@ static WEATHER: LazyLock<Climate> =
     LazyLock::new(|| climate(&file("Lambert"), Path::new(".")).expect("built-in weather can be read"));
 static SESSION: Session = Session::new();
 
-/// The hours of one day in ten.
+/// Prints for every system the deviations of every 487th hour from the default method at the same moment.
 fn errors() {
     for (system, _) in SYSTEMS {
         let file = file(system);
@@ -87,7 +87,7 @@ fn errors() {
     }
 }
 
-/// A year of a system in a room and a climate that are known.
+/// Measures a year of a system in a room and a climate that the session already knows.
 #[divan::bench(args = SYSTEMS.map(|(name, _)| name), sample_count = 5, sample_size = 1)]
 fn warm(bencher: Bencher<'_, '_>, system: &str) {
     let file = file(system);
@@ -97,7 +97,7 @@ fn warm(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// The same with nothing known but the weather's file.
+/// Measures a year of a system in a new session, including the reading of the weather file.
 #[divan::bench(args = SYSTEMS.map(|(name, _)| name), sample_count = 3, sample_size = 1)]
 fn cold(bencher: Bencher<'_, '_>, system: &str) {
     let file = file(system);
@@ -109,8 +109,8 @@ fn cold(bencher: Bencher<'_, '_>, system: &str) {
     });
 }
 
-/// The hours alone, 96 sensors by data on Klems' cells: a scene and skies that are known, the sun of every hour anew; what a
-/// matrix method's `dctimestep` does.
+/// Measures the hours alone, at 96 sensors with data on the Klems basis: scene and skies are known, the sun is computed
+/// for every hour. This is what `dctimestep` does in a matrix method.
 #[divan::bench(sample_count = 5, sample_size = 1)]
 fn hours(bencher: Bencher<'_, '_>) {
     let text = format!("{}[compute]\ninterpolation = \"patch\"\n", text("slats"));
@@ -129,7 +129,8 @@ fn hours(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Other weights for a hundred products of three figures, to the list that a window shows: nothing of the years is computed.
+/// Measures new weights for a hundred products of three figures, up to the list that the window shows. No year is
+/// computed.
 #[divan::bench]
 fn weights(bencher: Bencher<'_, '_>) {
     let objective = |worst, best| Objective { better: Better::More, worst, best, weight: 1.0 };

@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Pixels along a side of the picture, 0.15° each.
+/// Number of pixels along a side of the picture, 0.15° each.
 const SIDE: usize = 1200;
 const BLIND: &str = "name = \"Blind\"\nkind = \"venetian\"\n[venetian]\nwidth = 0.08\nspacing = 0.072\nangles = [30.0]\n\
     upper = { reflectance = 0.6 }\nlower = { reflectance = 0.6 }\n";

@@ -104,11 +104,11 @@ fn made() -> Vec<Good> {
 
 /// Fault to plant in a good dataset.
 enum Fault {
-    /// A repair, which damages good data.
+    /// Repair, which damages good data.
     Done(&'static str),
-    /// One block of data under the name of another.
+    /// Copy of one block of data under the name of another.
     Copied(Component, Component),
-    /// A block of zeros.
+    /// Block of zeros.
     Zeroed(Component),
 }
 
@@ -255,17 +255,17 @@ fn change(before: &Dataset, after: &Dataset) -> f64 {
 /// Outcome of the data check for one planted fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
-    /// Repaired automatically, and correctly.
+    /// Automatic repair that is correct.
     Mended,
-    /// The correct repair is among those offered.
+    /// Correct repair among those offered.
     Asked,
-    /// The correct repair is offered by the finding that every file with a preferred direction gets.
+    /// Correct repair, offered by the finding that every file with a preferred direction gets.
     General,
-    /// There is a new finding, without the correct repair.
+    /// New finding, without the correct repair.
     Told,
-    /// There is no new finding.
+    /// No new finding.
     Missed,
-    /// An automatic repair is wrong.
+    /// Automatic repair that is wrong.
     Worse,
 }
 

@@ -1,4 +1,4 @@
-//! `cfs`: without a subcommand the window, with one the command line.
+//! Program `cfs`: opens the window, or runs a subcommand of the command line.
 
 use cfs::study::fault;
 use clap::Parser as _;
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = cfs::cli::Arguments::parse();
-    // A command says itself, in one sentence, that it came to nothing.
+    // A command reports its own panics, in one sentence.
     fault::watch(arguments.command.is_none());
     let result = cfs::cli::guarded(fault::folder().as_deref(), || match &arguments.command {
         Some(command) => arguments.no_files().and_then(|()| cfs::cli::run(command, arguments.catalogue.as_deref())),

@@ -40,7 +40,7 @@ impl Line {
     }
 }
 
-/// Axes with lines.
+/// Panel of a figure: axes with lines.
 pub struct Panel {
     pub title: String,
     /// Names of the axes.
@@ -148,11 +148,11 @@ pub struct Disc {
     pub values: Vec<f64>,
 }
 
-/// Pixels across a disc.
+/// Number of pixels across a disc.
 const DISC: usize = 200;
 
 impl Disc {
-    /// Samples a function of the through direction.
+    /// Creates a disc from the values of a function of the through direction.
     pub fn new(title: impl Into<String>, value: impl Fn(Dir<Facade>) -> f64) -> Self {
         let at = |k: usize| {
             let [x, y] = [k % DISC, k / DISC].map(|i| 2.0 * (i as f64 + 0.5) / DISC as f64 - 1.0);

@@ -24,17 +24,17 @@ pub struct Characteristic {
     pub section: Option<SlatRow>,
 }
 
-/// Section of flat slats, 80 mm every 72 mm.
+/// Returns the section of flat slats, 80 mm every 72 mm.
 pub fn flat() -> Option<SlatRow> {
     SlatRow::new(SlatProfile::Flat { width: 0.080 }, 0.072)
 }
 
-/// Section of slats on an arc, chord 80 mm, pitch 72 mm, crown 16 mm over the chord.
+/// Returns the section of slats on an arc, chord 80 mm, pitch 72 mm, crown 16 mm over the chord.
 pub fn curved() -> Option<SlatRow> {
     SlatRow::new(SlatProfile::Arc { width: 0.080, rise: 0.016 }, 0.072)
 }
 
-/// Profile angles of the picture. \[°\]
+/// Returns the profile angles of the picture. \[°\]
 fn angles() -> impl Iterator<Item = f64> {
     (1..=179).map(|k| 0.5 * f64::from(k))
 }

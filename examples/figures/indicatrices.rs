@@ -193,7 +193,7 @@ pub const CRITERIA: [(&str, Criterion); 8] = [
     ("misplaced flux 1.5 %", Criterion::Misplaced(0.015)),
 ];
 
-/// Data of Figure 11: 9 incident directions on 9216 cells, with the noise of a measurement (2 % of every value).
+/// Returns the data of Figure 11: 9 incident directions on 9216 cells, with measurement noise (2 % of every value).
 pub fn compressed_systems() -> [(&'static str, Indicatrices); 2] {
     let (lattice, emergent) = (incidences(), RingBasis::equal_area(48));
     [("light-redirecting glass", redirecting as Law), ("diffuser", systems::opal as Law)].map(|(name, law)| {

@@ -11,7 +11,7 @@ use cfs::compute::incidence::grid::Grid;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// All figures, in the order of the report.
+/// Functions that make the figures, in the order of the report.
 pub const ALL: [fn() -> Result<Figure>; 12] = [
     figure_7, figure_8, figure_9, figure_11, figure_12, figure_14, figure_19, figure_20, figure_21, figure_23,
     figure_24, figure_25,

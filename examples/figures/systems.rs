@@ -29,28 +29,28 @@ pub struct Lobe {
 /// Law of scattering: returns the lobes for an incident direction, and the share that is scattered uniformly.
 pub type Law = fn(Dir<Facade>) -> (Vec<Lobe>, f64);
 
-/// Open aperture as measured by an instrument with a beam of 1° (standard deviation).
+/// Returns the light of an open aperture as measured by an instrument with a beam of 1° (standard deviation).
 pub fn clear(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 1_f64.to_radians() }], 0.0)
 }
 
-/// Open aperture as measured by an instrument with a beam of 2° (standard deviation).
+/// Returns the light of an open aperture as measured by an instrument with a beam of 2° (standard deviation).
 pub fn clear_2(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 1.0, centre: d.vector(), sigma: 2_f64.to_radians() }], 0.0)
 }
 
-/// Pane that scatters around the undeviated direction with a standard deviation of 10°.
+/// Returns the light of a pane that scatters around the undeviated direction with a standard deviation of 10°.
 pub fn scattering(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (vec![Lobe { flux: 0.9, centre: d.vector(), sigma: 10_f64.to_radians() }], 0.0)
 }
 
-/// Diffuser without a preferred direction.
+/// Returns the light of a diffuser without a preferred direction.
 pub fn opal(_: Dir<Facade>) -> (Vec<Lobe>, f64) {
     (Vec::new(), 0.5)
 }
 
-/// Light-redirecting glass: of light from above, a share after Edmonds is redirected upwards and spread, the rest is
-/// undeviated; a tenth of all light is haze.
+/// Returns the light of a light-redirecting glass: of light from above, a share after Edmonds is redirected upwards and
+/// spread, the rest is undeviated; a tenth of all light is haze.
 pub fn redirecting(d: Dir<Facade>) -> (Vec<Lobe>, f64) {
     let v = d.vector();
     let inner = (1.0 - v.truncate().length_squared() / 2.25).sqrt();
@@ -255,8 +255,8 @@ impl Place {
         Ok(SESSION.room(&self.scene(system)?, &Silent)?)
     }
 
-    /// Computes the luminous intensity distribution of the first aperture. Data on cells show what cells can: regular
-    /// light is not recognised in them.
+    /// Computes the luminous intensity distribution of the first aperture. Patch-averaged data are used as given:
+    /// regular transmission is not recognised in them.
     pub fn lid(&self, system: &Arc<Dataset>) -> Result<(Scene, LidResult)> {
         let scattered = system.visible.transmission_front.as_ref().and_then(|btdf| btdf.scattered.as_ref());
         let compute = match scattered {

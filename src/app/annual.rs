@@ -1,4 +1,4 @@
-//! The year at work: what was asked is done, its job started, the weather read.
+//! Annual simulation in the window: acts on commands, starts the job, reads the weather file.
 
 use super::command::Command;
 use super::engine::Question;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl App {
-    /// Does what was asked about a year.
+    /// Acts on a command about the annual simulation.
     pub(super) fn year_act(&mut self, act: YearAct) {
         match act {
             YearAct::Compute => self.compute_year(),
@@ -44,7 +44,7 @@ impl App {
         }
     }
 
-    /// The weather becomes the scene's: its sky at the present moment is that of the weather, and its year too.
+    /// Makes `name` the weather of the scene: of its sky, at the scene's current moment, and of its year.
     fn take_weather(&mut self, name: PathBuf) {
         let scene = &mut self.state.document.scene;
         if let Some(year) = &mut scene.year {
@@ -72,7 +72,7 @@ impl App {
         self.start(Lane::Annual, move |job| Outcome::Annual(engine.year(&question, job).map(Box::new)));
     }
 
-    /// Reads the weather that hours are picked from, when it is another one.
+    /// Starts reading the weather file that hours are picked from, if the scene names another one than before.
     pub(super) fn ask_weather(&mut self) {
         let scene = &self.state.document.scene;
         let key = weather_of(scene).map(|name| {
@@ -95,7 +95,7 @@ impl App {
         }
     }
 
-    /// A weather file that was opened or dropped.
+    /// Makes a weather file that was opened or dropped the weather of the scene.
     pub(super) fn take_weather_file(&mut self, path: &Path) {
         let base = self.state.base();
         // Beside the scene it is found wherever both go.
@@ -104,7 +104,7 @@ impl App {
         self.apply(Command::Year(YearAct::Weather(name)));
     }
 
-    /// The year that is shown, where it is that of the present scene.
+    /// Returns the result of the annual simulation, if it belongs to the current scene.
     pub(super) fn present_year(&self) -> Option<Arc<Annual>> {
         self.results.annual.value.clone().filter(|annual| annual.is_of(&self.state.document.scene))
     }

@@ -1,4 +1,4 @@
-//! Acting on commands: the only place where what the window knows changes by the user's will.
+//! Acting on commands: the only place where the window's state changes by the user's actions.
 
 use super::command::Command;
 use super::first_choice::first_choice;
@@ -17,8 +17,8 @@ use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::texts::shell;
 
 impl App {
-    /// Does what a command says. What it changes in the document is a step of its own, however soon it follows on the one
-    /// before it; only what is dragged or stepped through is one step when it has come to rest.
+    /// Acts on a command. Its change of the document is one undo step of its own, even directly after another step;
+    /// changes by dragging or by repeated keys are merged into one step when they have come to rest.
     pub fn apply(&mut self, command: Command) {
         self.steps.keep(&command);
         let step = command.is_step();
@@ -156,7 +156,7 @@ impl App {
             Command::Select(product) => self.select_product(product),
             Command::SelectState(key) => {
                 let product = state.document.selection.product.clone();
-                // With one aperture in hand the click means that aperture: the others go on by their rules.
+                // With one aperture selected the click means that aperture: the others continue by their rules.
                 if state.control_of.is_some() && state.document.selection.state == CONTROLLED {
                     self.set_control(ControlKeys { state: Some(key), ..ControlKeys::of(ControlMode::Fixed) });
                 } else {
@@ -245,7 +245,7 @@ impl App {
         }
     }
 
-    /// Chooses a product by its key; one that the list does not hold is looked up first.
+    /// Selects a product by its key; a product that the list does not hold is looked up first.
     pub(super) fn select_product(&mut self, product: String) {
         let state = &self.state;
         // Chosen already, but the room is lit through something else: it is meant to come there.
@@ -258,14 +258,14 @@ impl App {
         }
     }
 
-    /// Chooses a product that was looked up.
+    /// Selects a product that was looked up.
     pub(super) fn choose_product(&mut self, product: &Product) {
         let (rule, place) = product.representative();
         let state = product.states.get(place).filter(|_| product.states.len() > 1);
         self.choose(product.key.clone(), rule, state.map(|state| state.key.as_str()));
     }
 
-    /// Chooses a product, moved by its own rule or in the state that stands for it: one step.
+    /// Selects a product, with its own control rule or in its representative state, as one undo step.
     fn choose(&mut self, product: String, rule: FirstRule, state: Option<&str>) {
         end_step(&mut self.undoer, &self.state.document);
         first_choice(&mut self.state.document, product, rule, state);
@@ -283,13 +283,13 @@ impl App {
         }
     }
 
-    /// Gives the state to a rule, or takes it back into the hand where it is.
+    /// Lets a control rule pick the state, or fixes the state that is shown.
     fn control(&mut self, mode: ControlMode) {
         let product = self.state.document.selection.product.clone();
         let of = self.state.control_of;
         if mode == ControlMode::Fixed {
             match of {
-                // The other apertures go on by their own rules.
+                // The other apertures continue by their own rules.
                 Some(_) if self.state.document.selection.state == CONTROLLED => {
                     let state = Some(self.state.shown_state.clone()).filter(|key| !key.is_empty());
                     self.set_control(ControlKeys { state, ..ControlKeys::of(mode) });
@@ -307,8 +307,8 @@ impl App {
         self.set_control(keys);
     }
 
-    /// A rule with its keys, of the scene or of the aperture that is edited. Refused with a sentence where the product
-    /// cannot follow it.
+    /// Sets a control rule with its keys, for the scene or for the aperture that is edited. Shows a message instead if
+    /// the product cannot follow the rule.
     fn set_control(&mut self, keys: ControlKeys) {
         if let Some(known) = self.state.product.as_deref() {
             let problem = if known.states.len() < 2 {
@@ -359,7 +359,7 @@ impl App {
         }
     }
 
-    /// Back or forth; additions to the catalogue follow.
+    /// Undoes one step, or redoes one if `forth`; additions to the catalogue follow.
     fn step_history(&mut self, forth: bool) {
         let document = &self.state.document;
         let other = if forth { self.undoer.redo(document) } else { self.undoer.undo(document) };

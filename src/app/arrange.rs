@@ -1,25 +1,25 @@
-//! What can be asked of the arrangement of the tiles.
+//! Commands that arrange the tiles.
 
 use crate::texts::{Text, tiles as say};
 
-/// A ready arrangement.
+/// Predefined arrangement of the tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Preset {
     /// All tiles side by side, as at a first start.
     All,
-    /// For who plans a room.
+    /// Tiles for planning a room.
     Designer,
-    /// For who makes a system.
+    /// Tiles for developing a system.
     Maker,
-    /// For who compares methods and data.
+    /// Tiles for comparing methods and data.
     Science,
 }
 
 impl Preset {
-    /// All, in the order of the menu.
+    /// All arrangements, in the order of the menu.
     pub const ALL: [Self; 4] = [Self::All, Self::Designer, Self::Maker, Self::Science];
 
-    /// As menu and palette call it.
+    /// Returns the label in menu and palette.
     pub const fn word(self) -> Text {
         match self {
             Self::All => say::LAYOUT_ALL,
@@ -29,7 +29,7 @@ impl Preset {
         }
     }
 
-    /// One sentence.
+    /// Returns the tooltip, one sentence.
     pub const fn tip(self) -> Text {
         match self {
             Self::All => say::LAYOUT_ALL_TIP,
@@ -40,24 +40,24 @@ impl Preset {
     }
 }
 
-/// A side of a tile.
+/// Side of a tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// To the left.
+    /// Left side.
     Left,
-    /// To the right.
+    /// Right side.
     Right,
-    /// Upwards.
+    /// Upper side.
     Up,
-    /// Downwards.
+    /// Lower side.
     Down,
 }
 
 impl Way {
-    /// All.
+    /// All sides.
     pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Up, Self::Down];
 
-    /// In words: "left".
+    /// Returns the name of the side, e.g. "left".
     pub const fn word(self) -> Text {
         match self {
             Self::Left => say::LEFT,
@@ -68,25 +68,25 @@ impl Way {
     }
 }
 
-/// A change of the arrangement; most are of the tile that was in hand last.
+/// Change of the arrangement; most concern the tile that was active last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arrange {
-    /// A ready one.
+    /// Apply a predefined arrangement.
     Preset(Preset),
-    /// The keyboard goes to the next (+1) or previous (−1) tile in sight.
+    /// Move the keyboard focus to the next (+1) or previous (−1) visible tile.
     Focus(i32),
-    /// The keyboard goes to the tile on this side.
+    /// Move the keyboard focus to the tile on this side.
     FocusOn(Way),
-    /// The next (+1) or previous (−1) tab comes to the front.
+    /// Bring the next (+1) or previous (−1) tab to the front.
     Tab(i32),
-    /// Changes places with the tile on this side.
+    /// Swap the active tile with the tile on this side.
     Move(Way),
-    /// Becomes a tab of the next tile.
+    /// Make the active tile a tab of the next tile.
     Join,
-    /// Leaves its tabs and stands beside them.
+    /// Take the active tile out of its tabs and put it beside them.
     Split,
-    /// Wider or higher (true), narrower or lower.
+    /// Make the active tile wider (`true`) or narrower.
     Width(bool),
-    /// The same of the height.
+    /// Make the active tile higher (`true`) or lower.
     Height(bool),
 }

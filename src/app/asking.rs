@@ -1,5 +1,5 @@
-//! Asks for what is to be computed as soon as it is in sight: a tile behind a tab, or behind one that fills the bench,
-//! asks for nothing.
+//! Starts computations as soon as their results are visible: a tile behind a tab, or behind a tile that fills the tile
+//! area, asks for nothing.
 
 use super::due::Geometry;
 use super::engine::{Question, RoomFigures};
@@ -11,15 +11,15 @@ use super::work::Outcome;
 use crate::study::scene_file::SceneFile;
 use crate::texts::language;
 
-/// A plane of more sensors than this is computed with half as many along both sides while room, openings or sensors are
-/// being dragged.
+/// Number of sensor points above which a grid is computed with half as many along both sides while room, apertures or
+/// sensor points are being dragged.
 const AT_ONCE: usize = 96;
 
-/// Relative error that such a picture, and a preview, may have: what the coarsest mesh reaches.
+/// Relative error allowed in results while dragging and in previews: what the coarsest mesh reaches.
 const DRAGGED: f64 = 0.1;
 
 impl App {
-    /// After a change of the document: what is under way for the old one is withdrawn, and all is to be computed anew.
+    /// Cancels the jobs for the old document after a change and marks all results as due.
     pub(super) fn owe_results(&mut self) {
         for lane in [Lane::Lid, Lane::Room, Lane::Surfaces] {
             // While something is dragged a coarse picture comes to its end: else none ever would.
@@ -32,7 +32,7 @@ impl App {
         self.ask_due();
     }
 
-    /// Is nothing being computed that is in sight, and nothing still to be asked for?
+    /// Whether all visible results are complete: nothing is being computed for them and nothing is still to be started.
     pub(super) fn standing(&self) -> bool {
         const LANES: [Lane; 8] = [
             Lane::Scene,
@@ -55,7 +55,7 @@ impl App {
         self.ctx.input(|input| input.pointer.any_down())
     }
 
-    /// Starts what is to be computed and in sight.
+    /// Starts the computations that are due and visible.
     pub(super) fn ask_due(&mut self) {
         if self.due.coarse && !self.held() {
             self.due.coarse = false;
@@ -71,7 +71,8 @@ impl App {
         }
     }
 
-    /// Files may hold what no tile in sight shows: where one is about to be written all is wanted.
+    /// Whether the result of a lane is needed. Files may hold results that no visible tile shows: while a file is about
+    /// to be written, all lanes but the surfaces are needed.
     fn is_wanted(&self, lane: Lane) -> bool {
         let to_file = matches!(self.state.sheet, Some(Sheet::Path(_))) && lane != Lane::Surfaces;
         let lid_to_file = self.lid_to.is_some() && lane == Lane::Lid;
@@ -102,7 +103,7 @@ impl App {
         }
     }
 
-    /// While geometry is dragged, fewer sensors on a coarser mesh; true if so.
+    /// Reduces the scene to fewer sensor points on a coarser mesh while geometry is dragged; returns whether it did.
     fn coarsen(&mut self, scene: &mut SceneFile) -> bool {
         let geometry = Geometry::of(scene);
         let moved = self.due.geometry.as_ref().is_some_and(|old| *old != geometry);
@@ -119,7 +120,7 @@ impl App {
         false
     }
 
-    /// Behind obstructions, which take longer, a room of a larger error first; true if so.
+    /// Raises the allowed error for a first result behind obstructions, which take longer; returns whether it did.
     fn preview(&self, scene: &mut SceneFile) -> bool {
         let exact = scene.compute.error_target.is_none_or(|target| target < DRAGGED);
         let first = scene.has_outside() && exact && !self.due.previewed;
@@ -129,7 +130,7 @@ impl App {
         first
     }
 
-    /// Takes a room; after a preview the room itself is asked for.
+    /// Stores a result for the room; after a preview the full result becomes due.
     pub(super) fn take_room(&mut self, result: Result<RoomFigures, AppError>) {
         let preview = result.as_ref().is_ok_and(|room| room.coarse) && !self.due.coarse;
         self.results.room.take(result);

@@ -1,4 +1,4 @@
-//! One computation for all who wait for the same thing.
+//! Shared computation: several threads that wait for the same state compute it once.
 
 use super::error::AppError;
 use crate::catalogue::StateKey;
@@ -8,17 +8,17 @@ use std::collections::HashSet;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// How often who waits looks whether it is still wanted.
+/// Interval at which a waiting thread checks whether its result is still wanted.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// The states that are being computed at this moment.
+/// States that are currently being computed.
 #[derive(Default)]
 pub struct AtWork {
     states: Mutex<HashSet<StateKey>>,
     fewer: Condvar,
 }
 
-/// Takes its state out when it goes, however the computation ends.
+/// Guard that removes its state from the set when it is dropped, however the computation ends.
 struct Turn<'a> {
     at_work: &'a AtWork,
     state: &'a StateKey,
@@ -32,11 +32,11 @@ impl Drop for Turn<'_> {
 }
 
 impl AtWork {
-    /// Computes a state unless it is there. Where another thread is at it, waits for that; where that one gave up, takes
-    /// over.
+    /// Computes a state unless it is there already. Waits if another thread is computing it; if that thread gives up,
+    /// takes over.
     ///
     /// # Errors
-    /// Of `is_there` and `compute`; cancelled while waiting.
+    /// Returns the errors of `is_there` and `compute`, or an error if cancelled while waiting.
     pub fn once(
         &self,
         state: &StateKey,

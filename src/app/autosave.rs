@@ -1,8 +1,8 @@
-//! Keeps a window's session on disk: written within a second of every change, beside the window's own thread.
+//! Session of a window, kept on disk: written within a second of every change, on a separate thread.
 //!
-//! Every window has a file of its own in the folder of sessions, and holds a lock on a file beside it for as long as it
-//! lives; the system takes the lock away however the program ends. A session without a lock is one whose window did not
-//! close: the next window that starts takes it up. A window that closes leaves its session as `last.json`.
+//! Every window has its own file in the sessions folder, and holds a lock on a file beside it for as long as it lives;
+//! the system releases the lock however the program ends. A session without a lock is one whose window did not close:
+//! the next window that starts restores it. A window that closes leaves its session as `last.json`.
 
 use super::clock;
 use super::disk::{ends_in, read_bytes};
@@ -16,56 +16,57 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime};
 
-/// The session of the window that was closed last.
+/// File name of the session of the window that was closed last.
 const LAST: &str = "last.json";
-/// How the name of a session begins that was closed after one that was lost, and waits until that one is closed.
+/// Prefix of the file name of a session that was closed after a lost one and waits until that one is closed.
 const CLOSED: &str = "session-closed-";
-/// Between two writings at least; longer than a fast disk needs and far below a second.
+/// Minimum time between two writes; longer than a fast disk needs and far below a second.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// How long is waited for what must be written now. A disk that does not answer must not hold the window for ever.
+/// Maximum waiting time for what must be written at once. A disk that does not answer must not block the window for
+/// ever.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// A fault so soon after the start may come from what was taken up.
+/// Time after the start within which a fault may come from the restored session.
 const SOON: Duration = Duration::from_secs(60);
-/// After so many such faults in a row a session is set aside: the program must start.
+/// Number of such faults in a row after which a session is set aside, because the program must start.
 const MOST_FAULTS: u32 = 2;
 
-/// Leftovers of killed programs are taken away after this time.
+/// Age after which leftovers of killed programs are removed.
 const OLD: Duration = Duration::from_secs(3600);
 
-/// What was there at the start.
+/// Sessions that were present at the start.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// A session to take up.
+    /// Session to restore.
     pub kept: Option<Kept>,
-    /// Its window did not close.
+    /// Whether the window of the session did not close.
     pub lost: bool,
-    /// What could not be read.
+    /// Sessions that could not be read.
     pub problems: Vec<SessionError>,
 }
 
 enum Order {
     Write(Box<Snapshot>),
-    /// Says when all that was ordered before is written.
+    /// Request for a reply when everything ordered before is written.
     Tell(Sender<()>),
-    /// What is open, as the program ends at a fault.
+    /// Session to write as the program ends at a fault.
     Fault(Box<Snapshot>, KeptFault),
     Close,
 }
 
-/// The keeper of one window's session.
+/// Writer of one window's session.
 pub struct Autosave {
     folder: PathBuf,
     file: PathBuf,
     lock_file: PathBuf,
-    /// Held as long as the window lives.
+    /// Lock that is held as long as the window lives.
     lock: Option<File>,
     orders: Sender<Order>,
     problems: Receiver<SessionError>,
     writer: Option<JoinHandle<()>>,
     last: Option<Snapshot>,
     begun: Instant,
-    /// Times in a row that the program ended at a fault soon after it had taken this session up.
+    /// Number of times in a row that the program ended at a fault soon after it had restored this session.
     faults: u32,
 }
 
@@ -86,12 +87,12 @@ fn is_closed(session: &Path) -> bool {
     session.file_name().is_some_and(|name| name.to_string_lossy().starts_with(CLOSED))
 }
 
-/// When a file was written last; `None` where there is none.
+/// Returns the time of the last write to a file; `None` if there is no file.
 fn changed(file: &Path) -> Option<SystemTime> {
     std::fs::metadata(file).and_then(|meta| meta.modified()).ok()
 }
 
-/// Sessions in the folder, the newest first.
+/// Returns the sessions in the folder, newest first.
 fn sessions(folder: &Path) -> Vec<PathBuf> {
     let Ok(entries) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut list: Vec<(SystemTime, PathBuf)> = entries
@@ -107,11 +108,11 @@ fn sessions(folder: &Path) -> Vec<PathBuf> {
 }
 
 impl Autosave {
-    /// Begins to keep a session in a folder. `take_up`: a session whose window did not close is taken up, the newest one;
-    /// else that of the window that was closed last is where the new one starts.
+    /// Starts to keep a session in a folder. With `take_up` the newest session whose window did not close is restored;
+    /// otherwise the new one starts from the session of the window that was closed last.
     ///
     /// # Errors
-    /// The folder cannot be made or written to.
+    /// Returns an error if the folder cannot be created or written to.
     pub fn begin(folder: &Path, take_up: bool) -> std::io::Result<(Self, Found)> {
         std::fs::create_dir_all(folder)?;
         tidy(folder);
@@ -150,7 +151,8 @@ impl Autosave {
         };
         let last = folder.join(LAST);
         if found.lost && changed(&last) > changed(&file) {
-            // Another window was closed since. This one will leave its own session there; the next start takes up that one.
+            // Another window was closed since. This one will leave its own session there; the next start restores that
+            // one.
             std::fs::rename(&last, folder.join(format!("{CLOSED}{:016x}.json", random())))?;
         }
         if found.kept.is_none() && last.exists() {
@@ -191,7 +193,7 @@ impl Autosave {
         }
     }
 
-    /// Keeps the window as it is, if it has changed. Never waits.
+    /// Queues the window's state for writing, if it has changed. Never waits.
     pub fn keep(&mut self, state: &super::state::State) {
         if self.last.as_ref().is_some_and(|last| last.is_of(state)) {
             return;
@@ -202,16 +204,16 @@ impl Autosave {
         drop(self.orders.send(Order::Write(Box::new(snapshot))));
     }
 
-    /// Returns when what was kept is written, or cannot be.
+    /// Waits until the state kept last is written, or cannot be written.
     pub fn write_now(&self) {
         let (told, written) = channel();
         if self.orders.send(Order::Tell(told)).is_ok() {
-            // Past patience it is written later, or told as what cannot be.
+            // After the timeout it is written later, or reported as an error.
             let _ = written.recv_timeout(PATIENCE);
         }
     }
 
-    /// The program ends at a fault: what was kept last is what the next start takes up, with the report on the fault.
+    /// Writes the session with the report as the program ends at a fault: the next start restores what was kept last.
     pub fn end_at_fault(self, report: Option<PathBuf>) {
         let times = if self.begun.elapsed() < SOON { self.faults + 1 } else { 1 };
         if let Some(last) = &self.last {
@@ -220,12 +222,12 @@ impl Autosave {
         }
     }
 
-    /// What could not be written, once.
+    /// Returns the next write error that was not reported yet.
     pub fn problem(&self) -> Option<SessionError> {
         self.problems.try_recv().ok()
     }
 
-    /// The window closes: what it showed is where the next one starts.
+    /// Closes the session as the window closes: the next window starts from it.
     pub fn close(&mut self) {
         drop(self.orders.send(Order::Close));
         if let Some(writer) = self.writer.take() {
@@ -240,8 +242,8 @@ impl Autosave {
     }
 }
 
-/// Takes away what killed programs leave beside their sessions: half of a file that has not taken its name, locks of
-/// windows that ended before they wrote anything. Only what is old: another window may be about to use it.
+/// Removes what killed programs leave beside their sessions: partly written files, and locks of windows that ended
+/// before they wrote anything. Only what is old: another window may be about to use it.
 fn tidy(folder: &Path) {
     let old = |path: &Path| changed(path).and_then(|at| at.elapsed().ok()).is_some_and(|age| age > OLD);
     let Ok(entries) = std::fs::read_dir(folder) else { return };
@@ -258,13 +260,13 @@ fn read(file: &Path) -> Result<Kept, SessionError> {
     Kept::read(&bytes).map_err(|problem| SessionError::Unreadable(file.to_owned(), Box::new(problem)))
 }
 
-/// Away with a file that nobody needs; one that is gone already is as good.
+/// Removes a file that is no longer needed; ignores one that is already gone.
 fn remove(file: &Path) {
     drop(std::fs::remove_file(file));
 }
 
-/// Writes what it is told until told to close; of several changes at once the last. What is written is safe from the end
-/// of the program at once; a second thread waits for the disk, which takes seconds when it is busy.
+/// Writes the ordered sessions until the order to close; of several at once only the last. What is written is safe from
+/// the end of the program at once; a second thread waits for the disk, which takes seconds when it is busy.
 fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<SessionError>) {
     let (written, waiting) = channel::<File>();
     std::thread::scope(|scope| {
@@ -308,7 +310,7 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
                     drop(written.send(file));
                     failing = false;
                 }
-                // Told once; nobody may listen any more.
+                // Reported once; the receiver may be gone.
                 Err(error) if !failing => {
                     drop(told.send(SessionError::NotKept(error)));
                     failing = true;
@@ -343,7 +345,7 @@ mod tests {
         state.document.scene.site.azimuth
     }
 
-    /// As a killed program does: the lock goes, the files stay.
+    /// Acts like a killed program: releases the lock and leaves the files.
     fn kill(mut keeper: Autosave) {
         keeper.lock = None;
         drop(keeper);

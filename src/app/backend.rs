@@ -1,4 +1,4 @@
-//! The window's services as they are in earnest: the catalogue's file, the study, luminaire files.
+//! Services of the window in production: catalogue file, study, luminaire files.
 
 use super::at_work::AtWork;
 use super::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures, subject};
@@ -33,15 +33,15 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
-/// The catalogue's file, one request at a time.
+/// Catalogue file, accessed by one request at a time.
 struct CatalogueShelf {
     catalogue: Mutex<Catalogue>,
-    /// A connection of its own for what is filled in behind everything else, if that is to be done: packing and writing it
-    /// keeps nobody from reading.
+    /// Separate connection for data that are computed in the background, if they are: packing and writing them does not
+    /// block readers.
     filler: Option<Mutex<Catalogue>>,
-    /// States that are being computed because somebody waits for them.
+    /// States that are being computed because a request waits for them.
     at_work: AtWork,
-    /// States that cannot be computed: tried once.
+    /// States that cannot be computed; each was tried once.
     failing: Mutex<Vec<StateKey>>,
 }
 
@@ -51,19 +51,19 @@ impl CatalogueShelf {
     }
 }
 
-/// Opens a catalogue's file, or the user's own.
+/// Opens a catalogue file, or the user's default catalogue if `path` is `None`.
 pub fn open_shelf(path: Option<&Path>) -> Result<Arc<dyn Shelf>, AppError> {
     let path = path.map_or_else(default_path, |path| Ok(path.to_owned()))?;
     let open = || Catalogue::open(&path).map(Mutex::new);
     Ok(Arc::new(CatalogueShelf::new(open()?, Some(open()?))))
 }
 
-/// A new catalogue in memory with the built-in products.
+/// Creates a catalogue in memory with the built-in products.
 pub fn memory_shelf() -> Result<Arc<dyn Shelf>, AppError> {
     Ok(Arc::new(CatalogueShelf::new(Mutex::new(Catalogue::in_memory()?), None)))
 }
 
-/// A catalogue in memory with nothing but the two ideal systems that every comparison starts from.
+/// Creates a catalogue in memory with only the two ideal systems that every comparison starts from.
 pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
     let shelf = CatalogueShelf::new(Mutex::new(Catalogue::empty_in_memory()?), None);
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
@@ -83,7 +83,7 @@ impl CatalogueShelf {
         lock(&self.catalogue)
     }
 
-    /// The state that is meant where none is named: the one that stands for the product.
+    /// Returns the given state, or the representative state of the product if none is given.
     fn state_or_own(&self, product: &str, state: Option<&str>) -> Result<String, AppError> {
         if let Some(state) = state {
             return Ok(state.to_owned());
@@ -275,10 +275,10 @@ impl Shelf for CatalogueShelf {
     }
 }
 
-/// The study with its caches.
+/// Study with its caches.
 pub struct StudyEngine {
     session: Session,
-    /// For rankings, which go from product to product: the scene's own light stays as it is.
+    /// Session for rankings, which run through many products; the cached light of the scene stays in `session`.
     ranking: Session,
     files: Arc<Library>,
 }
@@ -290,7 +290,7 @@ impl Default for StudyEngine {
 }
 
 impl StudyEngine {
-    /// Files that systems name, and the catalogue that their layers name, are of this library.
+    /// Creates an engine that takes the files named by systems, and the catalogue named by their layers, from `files`.
     pub fn new(files: Arc<Library>) -> Self {
         Self { session: Session::new(), ranking: Session::passing(), files }
     }

@@ -1,4 +1,4 @@
-//! Changes to products of the catalogue, as undo and redo know them, and the sheet in which they are made.
+//! Undoable changes to products of the catalogue, and the sheet in which they are made.
 
 use super::error::AppError;
 use super::import::{ImportFields, StateWords};
@@ -7,78 +7,78 @@ use crate::catalogue::{Event, Product, Replacement, Snapshot, StateName, Words};
 use crate::texts::catalogue as text;
 use std::sync::Arc;
 
-/// A change to a product of the catalogue: kept so that undo can take it back and redo make it again.
+/// Change to a product of the catalogue, kept so that undo can revert it and redo make it again.
 #[derive(Debug, Clone)]
 pub enum Change {
-    /// Out of sight.
+    /// Product deleted; it can be restored.
     Deleted {
         /// Key of the product.
         key: String,
-        /// Its name.
+        /// Name of the product.
         name: String,
     },
-    /// Its star was set or taken.
+    /// Star of a product set or removed.
     Starred {
         /// Key of the product.
         key: String,
-        /// Set, not taken.
+        /// Whether the star was set.
         on: bool,
     },
-    /// Products were put into a collection, or taken out.
+    /// Products added to a collection, or removed from it.
     Collected {
         /// Name of the collection.
         name: String,
-        /// Keys of the products, none of which was there before.
+        /// Keys of the products; none was in the collection before.
         products: Vec<String>,
-        /// In, not out.
+        /// Whether the products were added.
         put: bool,
     },
-    /// A folder of packages is subscribed to, or no more.
+    /// Subscription to a folder of packages started or ended.
     Subscribed {
-        /// The folder.
+        /// Path of the folder.
         folder: String,
-        /// Subscribed, not ended.
+        /// Whether the subscription was started.
         on: bool,
     },
-    /// Other words.
+    /// Descriptive texts of a product changed.
     Described {
         /// Key of the product.
         key: String,
-        /// Words before.
+        /// Texts before the change.
         before: Words,
-        /// Words after.
+        /// Texts after the change.
         after: Words,
     },
-    /// Other names and angles of its states.
+    /// Names and angles of the states of a product changed.
     Named {
         /// Key of the product.
         key: String,
-        /// Before, in the order of the states.
+        /// Names before the change, in the order of the states.
         before: Vec<StateName>,
-        /// After.
+        /// Names after the change, in the order of the states.
         after: Vec<StateName>,
     },
-    /// Other data of some states.
+    /// Data of some states of a product replaced.
     Replaced {
         /// Key of the product.
         key: String,
-        /// All of it before.
+        /// Whole product before the change.
         before: Arc<Snapshot>,
-        /// What takes whose place.
+        /// Replaced states with their new data.
         list: Arc<Vec<Replacement>>,
     },
 }
 
 impl Change {
-    /// Does any figure hang on it?
+    /// Whether the change affects no figure: stars, collections, subscriptions.
     pub const fn is_mark(&self) -> bool {
         matches!(self, Self::Starred { .. } | Self::Collected { .. } | Self::Subscribed { .. })
     }
 
-    /// Makes the change, or takes it back.
+    /// Makes the change if `forth`, or reverts it.
     ///
     /// # Errors
-    /// Of the catalogue.
+    /// Returns the errors of the catalogue.
     pub fn make(&self, shelf: &dyn Shelf, forth: bool) -> Result<(), AppError> {
         match (self, forth) {
             (Self::Deleted { key, .. }, true) => shelf.delete(key),
@@ -97,47 +97,47 @@ impl Change {
     }
 }
 
-/// Everything that the sheet of a product shows.
+/// Contents of the sheet of a product.
 #[derive(Debug, Clone)]
 pub struct Looked {
-    /// The product.
+    /// Product as stored.
     pub product: Arc<Product>,
-    /// What happened to it, the last first.
+    /// Events of the product, newest first.
     pub history: Vec<Event>,
-    /// Paths of the files that it was read from.
+    /// Paths of the files that the product was read from.
     pub paths: Vec<String>,
-    /// The folder of packages that it comes from; `None` for others.
+    /// Folder of packages that the product comes from; `None` for other products.
     pub subscribed: Option<String>,
 }
 
-/// What reading the files of a product again gave.
+/// Result of reading the files of a product again.
 #[derive(Debug, Clone)]
 pub struct Reread {
-    /// What is not as it was, a line a state.
+    /// Differences from the stored product, one line per state.
     pub told: Vec<String>,
-    /// The change that takes it; `None` where all is as it was.
+    /// Change that applies the differences; `None` if there are none.
     pub change: Option<Change>,
 }
 
-/// The sheet for a product.
+/// Sheet for editing a product.
 #[derive(Debug, Clone)]
 pub struct Editing {
     /// Key of the product.
     pub key: String,
-    /// What is known about it.
+    /// Stored product and its history.
     pub looked: Looked,
-    /// As stored.
+    /// Texts as stored.
     pub before: Words,
-    /// As typed.
+    /// Texts as typed.
     pub fields: ImportFields,
-    /// Its states as typed.
+    /// States as typed.
     pub states: Vec<StateWords>,
-    /// What reading its files again gave.
+    /// Result of reading the product's files again.
     pub reread: Option<Reread>,
 }
 
 impl Editing {
-    /// Of a product as it is stored.
+    /// Creates the sheet for a product as it is stored.
     pub fn of(looked: Looked) -> Self {
         let product = &looked.product;
         let before = Words {
@@ -163,12 +163,12 @@ impl Editing {
         Self { key: product.key.clone(), before, fields, states, reread: None, looked }
     }
 
-    /// Does nobody change it here: built in, or of a folder that is subscribed to?
+    /// Whether the product cannot be changed here, because it is built in or comes from a subscribed folder.
     pub fn fixed(&self) -> bool {
         self.looked.product.builtin || self.looked.subscribed.is_some()
     }
 
-    /// The words as typed.
+    /// Returns the texts as typed, trimmed.
     pub fn words(&self) -> Words {
         Words {
             name: self.fields.name.trim().to_owned(),
@@ -179,7 +179,7 @@ impl Editing {
         }
     }
 
-    /// What is wrong with what was typed, in a sentence.
+    /// Returns the first error in what was typed, as a sentence.
     pub fn problem(&self) -> Option<String> {
         if self.fields.name.trim().is_empty() {
             return Some(text::NEEDS_A_NAME.into());
@@ -189,7 +189,7 @@ impl Editing {
         Some(text::no_angle(wrong.angle.trim()))
     }
 
-    /// The changes that what was typed asks for.
+    /// Returns the changes from the stored product to what was typed.
     pub fn changes(&self) -> Vec<Change> {
         let mut list = Vec::new();
         let (key, after) = (self.key.clone(), self.words());
@@ -206,7 +206,7 @@ impl Editing {
     }
 }
 
-/// What the states of a product are called; a label that only says the key is none.
+/// Returns the names of the states of a product; a label that only repeats the key counts as empty.
 fn names(product: &Product) -> Vec<StateName> {
     let label =
         |state: &crate::catalogue::State| if state.label == state.key { String::new() } else { state.label.clone() };

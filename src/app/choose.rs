@@ -1,5 +1,4 @@
-//! Which system for this façade, as the window asks it: the question, what is known of the products, and how far the work
-//! is.
+//! Ranking of products for a façade in the window: input, results per product, and progress.
 
 use super::shelf::Query;
 use super::year::usual_year;
@@ -17,56 +16,57 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What can be done about it.
+/// Command about the ranking.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ChooseAct {
-    /// Rank the products; those that are known are not computed again.
+    /// Rank the products; results that are already known are not computed again.
     Rank,
-    /// Look at something else of the ranking.
+    /// Change the display settings of the ranking.
     Look(Box<Look>),
-    /// Other objectives; `true`: one more or one less, which is a step for undo.
+    /// Set the objectives; `true` if one was added or removed, which is an undo step.
     Objectives(Vec<ObjectiveKeys>, bool),
-    /// A product by its key into the room, as it was ranked.
+    /// Put the product with this key into the room as it was ranked.
     IntoRoom(String),
 }
 
 impl ChooseAct {
-    /// Is what it changes in the document a step of its own for undo? Not every place of a slider.
+    /// Whether the change of the document is an undo step of its own. Positions of a slider while it is dragged are
+    /// not.
     pub const fn is_step(&self) -> bool {
         matches!(self, Self::Rank | Self::Objectives(_, true) | Self::IntoRoom(_))
     }
 }
 
-/// What the figures of a ranking hang on, beside the products' own data.
+/// Input that the figures of a ranking depend on, beside the products' own data.
 #[derive(Debug, Clone)]
 pub struct Asked {
-    /// The scene without its moment, the ranked apertures open.
+    /// Scene without its moment, with the ranked apertures left open.
     pub scene: SceneFile,
-    /// What its relative paths start from.
+    /// Folder that relative paths of the scene start from.
     pub base: PathBuf,
-    /// By whose rule products move.
+    /// Source of the control rule by which products are moved.
     pub control: RankControlKey,
-    /// Which products.
+    /// Search that selects the products.
     pub query: Query,
-    /// Additions and changes of this session that hold.
+    /// Additions and changes of this session that are in effect.
     catalogue: (Vec<usize>, Vec<usize>),
 }
 
-/// Among which products a ranking chooses.
+/// Products among which a ranking chooses.
 #[derive(Debug, Clone, Copy)]
 pub struct Asking<'a> {
-    /// How the ranking is looked at.
+    /// Display settings of the ranking.
     pub look: &'a Look,
-    /// The catalogue's search.
+    /// Search of the catalogue.
     pub query: &'a Query,
-    /// Products that were shown last.
+    /// Keys of products that were shown last.
     pub recent: &'a [String],
-    /// Additions and changes of this session that hold.
+    /// Additions and changes of this session that are in effect.
     pub catalogue: [&'a [usize]; 2],
 }
 
-/// Apertures that products go into: the chosen one; else those that a scene leaves open, those that are filled from the
-/// catalogue, or the first.
+/// Returns the apertures that products are put into: the chosen one; else those that a scene leaves open, those that
+/// are filled from the catalogue, or the first.
 pub fn ranked_apertures(scene: &SceneFile, chosen: Option<usize>) -> Vec<usize> {
     let all = |fits: fn(&SystemKeys) -> bool| -> Vec<usize> {
         (0..scene.aperture.len()).filter(|&place| fits(&scene.aperture[place].system)).collect()
@@ -83,8 +83,8 @@ pub fn ranked_apertures(scene: &SceneFile, chosen: Option<usize>) -> Vec<usize> 
     }
 }
 
-/// The scene with the apertures open. Where it has not been written for a ranking, the rule of what is in the room is no rule
-/// of other products.
+/// Returns the scene with the apertures open. If the scene was not written for a ranking, the control rule of the
+/// product in the room is not applied to other products.
 fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> SceneFile {
     let written = scene.aperture.iter().any(|one| one.system == SystemKeys::Ranked);
     let mut open = SceneFile { rank: None, ..question(scene) };
@@ -106,7 +106,7 @@ fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> Scene
 }
 
 impl PartialEq for Asked {
-    /// A scene without files asks the same wherever it is saved.
+    /// Compares two inputs; without files in the scene, the folder does not matter.
     fn eq(&self, other: &Self) -> bool {
         self.scene == other.scene
             && self.query == other.query
@@ -117,7 +117,7 @@ impl PartialEq for Asked {
 }
 
 impl Asked {
-    /// Of a scene, with what its relative paths start from; `None` for a room without an aperture.
+    /// Creates the input from a scene and the folder of its relative paths; `None` for a room without an aperture.
     pub fn of(scene: &SceneFile, base: PathBuf, asking: &Asking<'_>) -> Option<Self> {
         let look = asking.look;
         let places = ranked_apertures(scene, look.aperture);
@@ -139,7 +139,7 @@ impl Asked {
         (!places.is_empty()).then_some(Self { scene: open, base, control, query, catalogue })
     }
 
-    /// The one list that it asks for; the weights are not its business.
+    /// Returns the one group of the ranking; weights of the objectives have no effect on it.
     pub fn group(&self, figures: &[ObjectiveKeys], products: Arc<[Product]>) -> Result<Group, StudyError> {
         let keys = RankKeys { objective: figures.to_vec(), ..RankKeys::default() };
         let climate = self.scene.year.as_ref().map(|year| year.weather.display().to_string());
@@ -157,7 +157,7 @@ impl Asked {
     }
 }
 
-/// What counts in a scene: its own objectives, else the usual ones.
+/// Returns the objectives of a scene, or the default ones if it has none.
 pub fn objectives_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     match &scene.rank {
         Some(rank) if !rank.objective.is_empty() => rank.objective.clone(),
@@ -165,7 +165,7 @@ pub fn objectives_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     }
 }
 
-/// What is computed of every product: what counts, and what costs next to nothing beside it.
+/// Returns the figures that are computed of every product: the objectives, and those that add almost no computing time.
 pub fn figures_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     let mut list = objectives_of(scene);
     for one in offered(scene.year.as_ref().unwrap_or(&usual_year(scene))) {
@@ -176,21 +176,21 @@ pub fn figures_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     list
 }
 
-/// What is known of the products of a question.
+/// Results of a ranking, as far as they are known.
 #[derive(Debug, Clone)]
 pub struct Figures {
-    /// The question.
+    /// Input of the ranking.
     pub asked: Asked,
-    /// The list without rows.
+    /// List without rows.
     head: List,
-    /// All that were found.
+    /// All products that were found.
     pub products: Arc<[Product]>,
-    /// What is known of them, by their keys.
+    /// Results by product key.
     pub known: BTreeMap<String, Arc<Known>>,
 }
 
 impl Figures {
-    /// Before anything is known.
+    /// Creates results with no product known yet.
     pub fn of(asked: Asked, group: &Group) -> Self {
         let head = List {
             number: 0,
@@ -204,20 +204,20 @@ impl Figures {
         Self { asked, head, products: Arc::clone(&group.products), known: BTreeMap::new() }
     }
 
-    /// Products whose figures are coarse, or not known.
+    /// Returns the number of products whose figures are preliminary or not known.
     pub fn unfinished(&self) -> usize {
         self.products.len() - self.known.values().filter(|one| one.stage == Stage::Full).count()
     }
 
-    /// Is a figure known of all that anything is known of?
+    /// Whether a figure is known for all products that have results.
     pub fn knows(&self, figure: &String) -> bool {
         self.known.values().all(|one| one.has(std::slice::from_ref(figure)))
     }
 
-    /// The products in order by objectives, under a name of the scene.
+    /// Returns the products ranked by objectives, under a name of the scene.
     ///
     /// # Errors
-    /// An objective that is none.
+    /// Returns an error if an objective is not valid.
     pub fn shortlist(&self, scene: &str, objectives: &[ObjectiveKeys]) -> Result<Shortlist, StudyError> {
         let keys = RankKeys { objective: objectives.to_vec(), ..RankKeys::default() };
         let figures: Vec<String> = objectives.iter().map(|one| one.figure.clone()).collect();
@@ -231,30 +231,31 @@ impl Figures {
     }
 }
 
-/// How far a ranking is.
+/// Progress of a ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
-    /// Of what.
+    /// Stage that the counts are for.
     pub stage: Stage,
-    /// Products that are done.
+    /// Number of products that are done.
     pub done: usize,
-    /// Of so many.
+    /// Number of products of the stage.
     pub all: usize,
-    /// Since the stage began.
+    /// Start of the stage.
     since: Instant,
-    /// What it took until the last one. It is not asked of the clock in every frame: what it says stands still between.
+    /// Time from the start of the stage to the last finished product. Not read from the clock in every frame, so that
+    /// the displayed time does not change between products.
     spent: Duration,
 }
 
 impl Pace {
-    /// Time that the rest of the stage will take, as the first products did. \[s\]
+    /// Returns the estimated time left in the stage, from the mean time per finished product. \[s\]
     pub fn left(&self) -> Option<f64> {
         let each = self.spent.as_secs_f64() / self.done.max(1) as f64;
         (self.done >= 3 && self.stage == Stage::Full).then(|| each * (self.all - self.done) as f64)
     }
 }
 
-/// Where a ranking that is under way puts what it finds, and where the window looks.
+/// Shared results of a running ranking, written by the job and read by the window.
 #[derive(Debug, Default)]
 pub struct Board(Mutex<(u64, Option<Figures>, Option<Pace>)>);
 
@@ -264,14 +265,14 @@ impl Board {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is known before anything is computed, and how many are to be.
+    /// Stores the results that are known at the start, and the number of products to compute.
     pub fn begin(&self, figures: Figures, all: usize) {
         let mut board = self.lock();
         let pace = Pace { stage: Stage::Coarse, done: 0, all, since: Instant::now(), spent: Duration::ZERO };
         *board = (board.0 + 1, Some(figures), (all > 0).then_some(pace));
     }
 
-    /// One more is known.
+    /// Adds the result of one product.
     pub fn put(&self, known: Arc<Known>) {
         let mut board = self.lock();
         let (number, figures, pace) = &mut *board;
@@ -288,14 +289,14 @@ impl Board {
         }
     }
 
-    /// What is there, where it is more than at a number; with its own number.
+    /// Returns the results with their number, if that is not `than`.
     pub fn newer(&self, than: u64) -> Option<(u64, Figures)> {
         let board = self.lock();
         let figures = board.1.as_ref().filter(|_| board.0 != than)?;
         Some((board.0, figures.clone()))
     }
 
-    /// How far it is.
+    /// Returns the progress of the ranking.
     pub fn pace(&self) -> Option<Pace> {
         self.lock().2
     }

@@ -1,4 +1,5 @@
-//! Choosing at work: products are ranked in a job, what it finds is shown as it comes, the chosen one goes into the room.
+//! Ranking in the window: products are ranked in a job, results are shown as they come, the chosen product is put into
+//! the room.
 
 use super::choose::{Asked, Asking, Board, ChooseAct, Figures, figures_of, objectives_of, ranked_apertures};
 use super::engine::Engine;
@@ -22,10 +23,10 @@ use crate::study::scene_file::SystemKeys;
 use crate::texts::{choose as say, shell, year as of_year};
 use std::sync::Arc;
 
-/// Rankings that are kept to go back to.
+/// Number of earlier rankings that are kept.
 const KEPT: usize = 8;
 
-/// What the window as it is asks; `None` for a room without an aperture.
+/// Returns the ranking input of the window as it is; `None` for a room without an aperture.
 fn asked_by(state: &State) -> Option<Asked> {
     let (document, settings) = (&state.document, &state.settings);
     let asking = Asking {
@@ -38,7 +39,7 @@ fn asked_by(state: &State) -> Option<Asked> {
 }
 
 impl App {
-    /// Does what was asked about choosing.
+    /// Acts on a command about the ranking.
     pub(super) fn choose_act(&mut self, act: ChooseAct) {
         match act {
             ChooseAct::Rank => self.rank(),
@@ -81,7 +82,7 @@ impl App {
         });
     }
 
-    /// Takes in what a ranking has found since the last frame, and shows what is known of the present question.
+    /// Reads the results of a ranking since the last frame, and shows those of the current input.
     pub(super) fn follow_ranking(&mut self) {
         if let Some((board, seen)) = &mut self.choosing.board {
             self.results.rank_pace = board.pace().filter(|_| self.jobs.busy(Lane::Rank));
@@ -105,7 +106,7 @@ impl App {
         }
     }
 
-    /// A ranking has come to its end.
+    /// Ends a ranking: reads its last results and shows its error, if there is one.
     pub(super) fn take_ranked(&mut self, result: Result<(), AppError>) {
         self.follow_ranking();
         self.results.rank_pace = None;
@@ -115,7 +116,7 @@ impl App {
         self.keep_ranking();
     }
 
-    /// Keeps what is known, to go back to it.
+    /// Keeps the current results, so that they can be shown again.
     pub(super) fn keep_ranking(&mut self) {
         let Some(figures) = self.results.rank.value.clone() else { return };
         let kept = &mut self.choosing.kept;
@@ -126,14 +127,14 @@ impl App {
         }
     }
 
-    /// The products in order, where they are of the present scene.
+    /// Returns the ranked products, if they belong to the current scene.
     pub(super) fn present_ranking(&self) -> Option<Arc<Shortlist>> {
         let figures = self.results.rank.value.as_ref().filter(|_| !self.results.rank.stale)?;
         let list = figures.shortlist(&tiles::scene_name(&self.state), &objectives_of(&self.state.document.scene));
         list.ok().map(Arc::new)
     }
 
-    /// A product goes into the room as it was ranked: by its own rule or the scene's, into the same apertures.
+    /// Puts a product into the room as it was ranked: by its own control rule or the scene's, into the same apertures.
     fn ranked_into_room(&mut self, key: &str) {
         let Some(figures) = self.results.rank.value.clone() else { return };
         let Some(product) = figures.products.iter().find(|one| one.key == key) else { return };
@@ -174,7 +175,7 @@ impl App {
     }
 }
 
-/// Finds the products of a question and computes those that are not known.
+/// Finds the products of an input and computes those without results.
 fn ranked(
     asked: Asked,
     figures: &[ObjectiveKeys],

@@ -1,11 +1,11 @@
-//! The time of day where the user is.
+//! Time of day in the user's time zone, and dates as text.
 
 use crate::study::clock::now as zoned;
 use crate::texts::{Text, scene as texts};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
-/// Months: by name in English, by number in German, as short dates are written.
+/// Names of the months: short names in English, numbers in German, as short dates are written.
 const MONTHS: [Text; 12] = [
     texts::JANUARY,
     texts::FEBRUARY,
@@ -21,33 +21,34 @@ const MONTHS: [Text; 12] = [
     texts::DECEMBER,
 ];
 
-/// Short name of the month of a day.
+/// Returns the short name of the month of a day.
 fn month(day: Date) -> Text {
     // Months count from 1.
     MONTHS[usize::from(day.month().unsigned_abs()) - 1]
 }
 
-/// A day: `21 Mar 2026`.
+/// Returns a date as text, e.g. `21 Mar 2026`.
 pub fn date(day: Date) -> String {
     texts::day_month_year(day.day(), month(day), day.year())
 }
 
-/// A day of any year: `21 Mar`.
+/// Returns a day of any year as text, e.g. `21 Mar`.
 pub fn day_of_year(day: Date) -> String {
     texts::day_and_month(day.day(), month(day))
 }
 
-/// Hours and minutes now, e.g. `14:03`.
+/// Returns the current time in hours and minutes, e.g. `14:03`.
 pub fn now() -> String {
     zoned().strftime("%H:%M").to_string()
 }
 
-/// Now as UTC, e.g. `2026-03-21T13:03:59.123456Z`.
+/// Returns the current time in UTC, e.g. `2026-03-21T13:03:59.123456Z`.
 pub fn stamp() -> String {
     zoned().timestamp().to_string()
 }
 
-/// A stamp in words of the user's own time: the clock time of today, else with its date. As it is where it is none.
+/// Returns a time stamp as text in the user's time zone: the clock time if it is of today, else with its date. Returns
+/// the text unchanged if it is not a time stamp.
 pub fn words(stamp: &str) -> String {
     let Ok(time) = stamp.parse::<Timestamp>() else { return stamp.to_owned() };
     let now = zoned();

@@ -1,5 +1,5 @@
-//! The list of products beside searching: recent ones, stars, collections, folders of packages. Undo goes over all that is
-//! stored.
+//! Product list beside searching: recent products, stars, collections, folders of packages. Undo covers everything that
+//! is stored.
 
 use super::changes::Change;
 use super::error::AppError;
@@ -13,11 +13,11 @@ use crate::study::subscriptions::folder_of;
 use crate::texts::catalogue as words;
 use std::path::PathBuf;
 
-/// How many products that were shown are known.
+/// Maximum number of recently shown products that are remembered.
 const RECENT: usize = 20;
 
 impl App {
-    /// Does one thing with the list.
+    /// Acts on a command about the product list.
     pub(super) fn shelve(&mut self, what: Shelving) {
         match what {
             Shelving::Gallery => self.state.settings.gallery ^= true,
@@ -47,7 +47,7 @@ impl App {
                 if put {
                     self.state.collection.clear();
                 }
-                // What is so already is no step.
+                // An unchanged collection makes no step.
                 if inside != put {
                     self.mark(Change::Collected { name, products: vec![key], put });
                 }
@@ -68,7 +68,7 @@ impl App {
         }
     }
 
-    /// Chooses the first product of the list once the list is that of what was typed.
+    /// Selects the first product of the list once the list is that of the typed search.
     pub(super) fn choose_first(&mut self) {
         if self.jobs.busy(Lane::Catalogue) || !std::mem::take(&mut self.state.first_due) {
             return;
@@ -78,17 +78,17 @@ impl App {
                 self.state.focus_list = true;
                 self.select_product(first);
             }
-            // Who typed goes on typing.
+            // The user continues typing.
             None => self.state.focus_search = true,
         }
     }
 
-    /// Sets or takes a star.
+    /// Sets or removes the star of a product.
     pub(super) fn star(&mut self, key: String, on: bool) {
         self.mark(Change::Starred { key, on });
     }
 
-    /// A change that no figure hangs on, as a step of its own.
+    /// Makes a change that affects no figure, as an undo step of its own.
     fn mark(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
@@ -98,7 +98,7 @@ impl App {
         self.make_change(number, true);
     }
 
-    /// Notes the selected product as the one shown last.
+    /// Records the selected product as the one shown last.
     pub(super) fn note_shown(&mut self) {
         let key = &self.state.document.selection.product;
         let recent = &mut self.state.settings.recent;
@@ -110,7 +110,7 @@ impl App {
         recent.truncate(RECENT);
     }
 
-    /// Asks for a folder to subscribe to: the path field at once, the desktop's dialog beside it.
+    /// Asks for a folder to subscribe to: in the path field at once, with the desktop's dialog beside it.
     fn ask_subscription(&mut self) {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Subscribe));
@@ -123,7 +123,7 @@ impl App {
         });
     }
 
-    /// Subscribes to a folder once it is found to be one.
+    /// Subscribes to a folder after checking that it is one.
     fn subscribe(&mut self, path: PathBuf) {
         self.remember_folder(&path);
         self.queue(move |_| Outcome::Folder(folder_of(&path)));

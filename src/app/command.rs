@@ -1,5 +1,5 @@
-//! Everything that the window can do: one enum. Drawing returns it, [`super::apply`] is the only place that acts on it,
-//! and [`super::offer`] says which of it menu, palette and keys offer.
+//! All commands of the window in one enum. Drawing returns them, [`super::apply`] is the only place that acts on them,
+//! and [`super::offer`] lists those that menu, palette and keys offer.
 
 use super::arrange::Arrange;
 use super::choose::ChooseAct;
@@ -29,195 +29,196 @@ use std::path::PathBuf;
 /// Name of the field in which a system file is typed.
 pub const SYSTEM_EDITOR: &str = "system file";
 
-/// One thing to do.
+/// Command of the window.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Command {
     /// Ask for files to open.
     Open,
     /// Ask where to save the scene.
     SaveScene,
-    /// Hand the LID on.
+    /// Export the LID.
     ExportLid,
-    /// Hand a tile on, as a picture or as numbers.
+    /// Export a tile, as a picture or as numbers.
     ExportTile(Tile),
-    /// What is handed on, and in which form.
+    /// Set the choices of the export: content, format and options.
     HandOn(Box<Choices>),
-    /// Ask for folder and name of what is handed on.
+    /// Ask for folder and name of the export.
     BrowseHandOn,
-    /// A tile's numbers into the clipboard.
+    /// Copy a tile's numbers to the clipboard.
     CopyTile(Tile),
-    /// A tile as a picture into the clipboard.
+    /// Copy a tile as a picture to the clipboard.
     CopyPicture(Tile),
-    /// What the line under the tile says that the pointer was on last, into the clipboard.
+    /// Copy the line under the tile that the pointer was on last to the clipboard.
     CopyValue,
-    /// The incidence that tiles draw for; the sun's while `None`.
+    /// Set the incident direction that tiles draw for; `None`: that of the sun.
     Incidence(Option<Incident>),
-    /// In which form the BTDF tile shows the data.
+    /// Set the form in which the BTDF tile shows the data.
     DataForm(DataForm),
-    /// Shows or hides how light is interpolated between the directions of the data.
+    /// Show or hide the map of interpolation schemes between the directions of the data.
     SchemeMap,
-    /// The rule that picks the state.
+    /// Set the control rule that picks the state.
     Control(ControlMode),
-    /// The rule with all its keys.
+    /// Set the control rule with all its keys.
     ControlKeys(Box<ControlKeys>),
-    /// Whose rule is shown and edited: one aperture's (from 0), or the scene's.
+    /// Show and edit the control rule of one aperture (from 0), or of the scene if `None`.
     ControlOf(Option<usize>),
     /// Close the window.
     Quit,
-    /// Back one step.
+    /// Undo one step.
     Undo,
-    /// Forth one step.
+    /// Redo one step.
     Redo,
     /// Put the cursor into the search field.
     Search,
-    /// The field of the sheet that was opened has the keyboard.
+    /// Note that the field of the opened sheet has the keyboard.
     KeyboardTaken,
     /// Open or close the command palette.
     Palette,
-    /// Fill the bench with a tile, or show all.
+    /// Fill the tile area with a tile, or show all.
     Maximise(Option<Tile>),
     /// Arrange the tiles.
     Arrange(Arrange),
-    /// How the room is drawn.
+    /// Set how the room is drawn.
     RoomLook(RoomLook),
-    /// From where the room is looked at.
+    /// Set the view of the room.
     RoomView(RoomView),
     /// Move the scene's clock. \[h\]
     Hour(i32),
     /// Move the scene's date. \[d\]
     Day(i32),
-    /// To the next (+1) or previous (−1) state.
+    /// Select the next (+1) or previous (−1) state.
     NextState(i32),
-    /// Fold the left panel in or out.
+    /// Show or hide the left panel.
     ToggleCatalogue,
-    /// Fold the right panel in or out.
+    /// Show or hide the right panel.
     ToggleScene,
-    /// Light, dark, or as the desktop.
+    /// Set the theme: light, dark, or that of the desktop.
     Theme(ThemeChoice),
-    /// Larger or smaller text.
+    /// Set larger or smaller text.
     TextSize(TextSize),
-    /// Begin or leave the tour.
+    /// Start or leave the tour.
     Tour(TourAct),
-    /// Sets the language.
+    /// Set the language.
     Language(LanguageChoice),
-    /// Back to the scene of a first start.
+    /// Reset the scene to that of a first start.
     ResetScene,
     /// Open or close a sheet.
     Sheet(Option<Sheet>),
-    /// Withdraw a job.
+    /// Cancel the job of a lane.
     Cancel(Lane),
-    /// Choose a product: moved by its own rule, or in the state that stands for it.
+    /// Select a product, with its own control rule or in its representative state.
     Select(String),
-    /// Choose a state.
+    /// Select a state.
     SelectState(String),
-    /// Move the keyboard's row in the list, and choose it.
+    /// Move the keyboard's row in the list, and select its product.
     Row(i32),
-    /// Change the scene.
+    /// Replace the scene.
     Scene(Box<SceneFile>),
-    /// Something about the year, or about the weather.
+    /// Act on the annual simulation or the weather.
     Year(YearAct),
-    /// Something about which system to choose.
+    /// Act on the ranking.
     Choose(ChooseAct),
-    /// Put a box outside, double one, or take one away.
+    /// Add, duplicate or remove an obstruction.
     Outside(outside::Act),
-    /// Find the effect of every obstruction on the apertures' illuminance.
+    /// Compute the effect of every obstruction on the apertures' illuminance.
     WeighObstructions,
-    /// Search for something else.
+    /// Search the catalogue.
     Find(Query),
-    /// Set or take a star.
+    /// Set or remove a star.
     Favourite(String, bool),
-    /// Read these files.
+    /// Read files.
     OpenPaths(Vec<PathBuf>),
-    /// Write something to a path, whatever is there.
+    /// Write to a path, and overwrite an existing file.
     Write(PathUse, PathBuf),
-    /// Write something to a path; where a file is there already, ask first.
+    /// Write to a path, but ask first if the file exists.
     WriteNew(PathUse, PathBuf),
-    /// Another name than that of the file that exists.
+    /// Keep the existing file, so that another name can be typed.
     KeepFile,
-    /// Type a path.
+    /// Edit the path that is being typed.
     EditPath(String),
-    /// Words of the palette.
+    /// Edit the text of the palette.
     EditPalette(String),
-    /// The row of the palette that Enter takes.
+    /// Select the row of the palette that Enter activates.
     PaletteRow(usize),
     /// Fill in what a product of an import lacks (its number from 0).
     EditImport(usize, Box<ImportFields>),
-    /// Take the files that were read for other products.
+    /// Group the imported files into products in another way.
     GroupImport(Grouping),
     /// Store a product of an import although it is in the catalogue, or not.
     AddAnyway(usize, bool),
-    /// Try a repair on a product that was read.
+    /// Try a repair on an imported product.
     Repair(usize, Repair),
-    /// Take the last repair of a product back.
+    /// Undo the last repair of an imported product.
     UndoRepair(usize),
-    /// Store what was read.
+    /// Store the imported products.
     AddImport,
-    /// Forget what was read.
+    /// Discard the import.
     DiscardImport,
-    /// Forget a draft of an import.
+    /// Discard a draft of an import.
     DiscardDraft(usize),
-    /// Go on with a draft of an import.
+    /// Continue a draft of an import.
     OpenDraft(usize),
-    /// Leave what was read as a draft.
+    /// Keep the import as a draft.
     PutAside,
-    /// Do something in the table of what was read.
+    /// Act on the table of the import.
     Import(Step),
-    /// Run the present scene with rising effort by every method.
+    /// Run the current scene with rising effort by every method.
     MeasureAccuracy,
     /// Fill the goniophotometer's sheet with an example.
     SystemExample(usize),
-    /// Type a system file.
+    /// Edit the text of the system file.
     EditSystem(String),
-    /// On which cells the goniophotometer measures, and how exactly.
+    /// Set the bases and the accuracy of the virtual goniophotometer.
     SystemSetup(Setup),
     /// Draw this state of the described system.
     DrawState(usize),
-    /// Compute all states of the described system; a stopped run goes on.
+    /// Compute all states of the described system; a stopped run resumes.
     MeasureSystem,
-    /// Store what was computed.
+    /// Store the computed states.
     AddMeasured,
-    /// Ask where to write what was computed.
+    /// Ask where to write the computed states.
     ExportMeasured,
-    /// Open the catalogue once more after a failure.
+    /// Open the catalogue again after a failure.
     RetryCatalogue,
-    /// Edit the words about a product of this key; of the selected one where it is `None`.
+    /// Edit the texts of the product with this key; of the selected one if `None`.
     EditProduct(Option<String>),
-    /// Words about a product, as typed.
+    /// Set the texts of a product, as typed.
     EditWords(Box<ImportFields>),
-    /// What a state of the product (its number from 0) is called, as typed.
+    /// Set name and angle of a state of the product (its number from 0), as typed.
     EditState(usize, StateWords),
-    /// Store what was typed about the product.
+    /// Store the texts that were typed for the product.
     SaveWords,
-    /// Ask for a file in place of that of a state of the product.
+    /// Ask for a file that replaces the data of a state of the product.
     ReplaceState(String),
     /// Read the files of the product again, and show what changed.
     Reread,
-    /// Take what was read again.
+    /// Apply the changes found by reading the files again.
     TakeChanges,
     /// Read the folders of packages that are subscribed to.
     SyncSubscribed,
     /// Ask for a folder to open.
     OpenFolder,
-    /// Take a product of this key out of sight; the selected one where it is `None`.
+    /// Delete the product with this key, restorable; the selected one if `None`.
     DeleteProduct(Option<String>),
-    /// Bring a product back into sight.
+    /// Restore a deleted product.
     RestoreProduct(String),
-    /// Take a message from the window; all where it is `None`.
+    /// Hide a message; all if `None`.
     Dismiss(Option<u64>),
-    /// Forget all messages.
+    /// Remove all messages.
     ForgetMessages,
-    /// The report on a fault into the clipboard.
+    /// Copy the report on a fault to the clipboard.
     CopyReport(PathBuf),
-    /// Something with the list of products.
+    /// Act on the product list.
     Shelve(Shelving),
-    /// Something about what is compared.
+    /// Act on the comparison.
     Compare(Act),
-    /// List products like this one by what they do to light; like the selected one where it is `None`.
+    /// List products that are optically similar to this one; to the selected one if `None`.
     Like(Option<String>),
 }
 
 impl Command {
-    /// Is what this changes in the document a step of its own for undo? Not what is dragged, or repeated by a key that is held.
+    /// Whether the change of the document is an undo step of its own. Changes by dragging, or by a key that is held,
+    /// are not.
     pub const fn is_step(&self) -> bool {
         match self {
             Self::Year(act) => act.is_step(),

@@ -1,70 +1,70 @@
-//! Comparing, as the window knows it: what can be done with the tray, and how the comparison is looked at. The tray itself
-//! is part of the scene ([`CompareKeys`](crate::study::scene_file::CompareKeys)).
+//! Comparison in the window: its commands, and how it is shown. The list of candidates is part of the scene
+//! ([`CompareKeys`](crate::study::scene_file::CompareKeys)).
 
 use crate::texts::compare as texts;
 
-/// One thing to do about what is compared. Numbers are places in the tray, from 0.
+/// Command about the comparison. Numbers are places in the list of candidates, from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Act {
-    /// Add what is shown: product and state, or rule. The rest goes with the scene.
+    /// Add what is shown: product and state, or control rule. Everything else follows the scene.
     Add,
-    /// The same of a product by its key, as it is first shown.
+    /// Add a product by its key, in the state or with the control rule that it is first shown with.
     AddProduct(String),
-    /// Add what is shown, under the sky and sun of this moment for good.
+    /// Add what is shown, with the current sky and sun fixed.
     AddMoment,
-    /// Add what is shown with everything: room, apertures, sensors, place, sky.
+    /// Add what is shown with everything: room, apertures, sensor points, place, sky.
     AddScene,
-    /// Make one the scene, with what it has of its own.
+    /// Make a candidate the scene, with everything that the candidate fixes.
     Take(usize),
-    /// Take one out.
+    /// Remove a candidate.
     Remove(usize),
-    /// Move one to another place.
+    /// Move a candidate by this number of places.
     Move(usize, isize),
-    /// Type the name of one; `None`: as it was.
+    /// Edit the name of a candidate; `None`: leave it unchanged.
     EditName(Option<(usize, String)>),
-    /// Give one another name.
+    /// Rename a candidate.
     Rename(usize, String),
-    /// Empty the tray.
+    /// Remove all candidates.
     Clear,
-    /// Compare in the bench's place, or go back to the tiles.
+    /// Show the comparison in place of the tile area, or return to the tiles.
     Show,
-    /// How it is compared.
+    /// Set how the candidates are compared.
     Look(Look),
-    /// Which tile, by its title.
+    /// Set the compared tile, by its title.
     Tile(&'static str),
-    /// Logarithmic scales in all tiles, or linear ones.
+    /// Set logarithmic or linear scales in all tiles.
     Log(bool),
-    /// From which one the differences are taken.
+    /// Set the reference candidate that differences are taken from.
     Base(usize),
-    /// Show the other one in the tiles, or go back.
+    /// Show the other candidate in the tiles, or return to the scene.
     Swap,
-    /// Show this one in the tiles.
+    /// Show this candidate in the tiles.
     SwapWith(usize),
-    /// The table of figures into the clipboard.
+    /// Copy the table of figures to the clipboard.
     Copy,
-    /// Go on computing after a stop.
+    /// Continue computing after a stop.
     Resume,
 }
 
-/// How candidates are compared.
+/// Form of the comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Look {
-    /// The same tile for each, on one scale.
+    /// One tile per candidate, all on one scale.
     #[default]
     Beside,
-    /// Each less a base, with sign.
+    /// Difference of each candidate minus the reference, with sign.
     Difference,
-    /// Curves in one plot.
+    /// Curves of all candidates in one plot.
     Curves,
-    /// Figures with errors.
+    /// Table of figures with uncertainties.
     Figures,
 }
 
 impl Look {
-    /// All, in the order of the bar.
+    /// All forms, in the order of the bar.
     pub const ALL: [Self; 4] = [Self::Beside, Self::Difference, Self::Curves, Self::Figures];
 
-    /// In words.
+    /// Returns the label.
     pub fn words(self) -> &'static str {
         match self {
             Self::Beside => texts::BESIDE,
@@ -75,7 +75,7 @@ impl Look {
         .get()
     }
 
-    /// One sentence.
+    /// Returns the tooltip, one sentence.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Beside => texts::BESIDE_TIP,
@@ -87,41 +87,41 @@ impl Look {
     }
 }
 
-/// How the comparison is looked at.
+/// Display settings of the comparison.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct View {
-    /// In the bench's place.
+    /// Whether the comparison is shown in place of the tile area.
     pub open: bool,
-    /// How.
+    /// Form of the comparison.
     pub look: Look,
-    /// Title of the tile; empty: the room's.
+    /// Title of the compared tile; empty: that of the room.
     pub tile: &'static str,
-    /// Logarithmic scales in all tiles side by side; `None`: as each begins.
+    /// Whether all tiles side by side have logarithmic scales; `None`: each tile's default.
     pub log: Option<bool>,
-    /// The base of differences.
+    /// Place of the reference candidate of differences.
     pub base: usize,
-    /// Shown in the tiles instead of the scene's own.
+    /// Candidate that is shown in the tiles instead of the scene.
     pub swapped: Option<usize>,
-    /// The one that was chosen to swap with.
+    /// Candidate that was chosen to swap with.
     pub other: Option<usize>,
-    /// The name that is being typed.
+    /// Candidate whose name is being typed, and the text.
     pub naming: Option<(usize, String)>,
 }
 
-/// A part of what is known of a candidate.
+/// Part of the results of a candidate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// Product, state, dataset, sky and sun.
     Shelf,
-    /// The light of the first aperture.
+    /// LID of the first aperture.
     Lid,
-    /// Its largest intensities.
+    /// Largest intensities of the LID.
     Peaks,
-    /// The room.
+    /// Illuminances in the room.
     Room,
-    /// The year of control.
+    /// Year of shading control.
     Year,
-    /// The room's surfaces, where the perspective shows them.
+    /// Illuminances of the room's surfaces, if the perspective shows them.
     Surfaces,
     /// Figures of the dataset.
     Data,

@@ -1,5 +1,5 @@
-//! What was computed of the candidates: each is a small window of its own, with state and results, so that every tile can
-//! draw it. Kept while the candidate's scene stays; nothing is asked for that is not shown.
+//! Results of the candidates. Each candidate is a small window with its own state and results, so that every tile can
+//! draw it. Results are kept while the candidate's scene stays; only what is shown is computed.
 
 use super::compare::Part;
 use super::control::YearKey;
@@ -21,34 +21,34 @@ use crate::study::scene_file::{CompareKeys, SceneFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// A candidate with what is known of it.
+/// Candidate with its results.
 pub struct Column {
-    /// Which one, whatever its place.
+    /// Identity of the candidate, independent of its place.
     pub id: u64,
-    /// As the tray has it.
+    /// Entry of the comparison in the scene.
     pub keys: CompareKeys,
-    /// What it is called.
+    /// Name of the candidate.
     pub name: String,
-    /// As a window of its own would know it.
+    /// State, as a window of the candidate would have it.
     pub state: State,
-    /// What was computed.
+    /// Results of the candidate.
     pub results: Results,
-    /// Its tiles.
+    /// Tiles of the candidate.
     pub bench: Bench,
-    /// The picture of its difference from the base.
+    /// Picture of the difference from the reference.
     pub difference: difference::State,
-    /// Figures of its dataset; the flag says that they were asked for.
+    /// Figures of the dataset; the flag says that they were asked for.
     data: (bool, Option<DataFacts>),
 }
 
-/// Takes a result over that is not older than this one.
+/// Copies a result that is up to date over an outdated one.
 fn adopt<T>(own: &mut Shown<T>, from: &Shown<T>) {
     if own.stale && !from.stale {
         *own = Shown { value: from.value.clone(), stale: false, error: None, revision: from.revision };
     }
 }
 
-/// Is it to be asked for? What failed is not, until something changes.
+/// Whether a result is to be computed. A failed one is not, until something changes.
 fn due<T>(shown: &Shown<T>) -> bool {
     shown.stale && shown.error.is_none()
 }
@@ -75,12 +75,12 @@ impl Column {
         }
     }
 
-    /// The scene of the candidate.
+    /// Returns the scene of the candidate.
     pub fn scene(&self) -> &SceneFile {
         &self.state.document.scene
     }
 
-    /// Is it what a document shows?
+    /// Whether a document shows the candidate.
     pub fn shows(&self, document: &Document) -> bool {
         same_question(self.scene(), &document.scene) && self.state.document.selection == document.selection
     }
@@ -97,13 +97,13 @@ impl Column {
         self.data.0 = false;
     }
 
-    /// What the year of its product hangs on.
+    /// Returns the key that the control year of the candidate's product depends on.
     pub fn year_key(&self) -> Option<YearKey> {
         let product = self.state.product.as_ref().filter(|product| product.states.len() > 1)?;
         YearKey::new(self.scene(), &product.key, self.state.control_keys(), 0, self.state.base())
     }
 
-    /// Is a part to be asked for?
+    /// Whether a part is to be computed.
     pub fn lacks(&self, part: Part) -> bool {
         match part {
             Part::Shelf => due(&self.state.dataset) || due(&self.state.daylight),
@@ -116,24 +116,24 @@ impl Column {
         }
     }
 
-    /// Revisions of dataset, daylight, LID and room: other ones are other results.
+    /// Returns the revisions of dataset, daylight, LID and room; they change with the results.
     pub fn revisions(&self) -> [u64; 4] {
         let (state, results) = (&self.state, &self.results);
         [state.dataset.revision, state.daylight.revision, results.lid.revision, results.room.revision]
     }
 
-    /// The incidence that its tiles draw for.
+    /// Returns the incident direction that the candidate's tiles draw for.
     pub fn incident(&self) -> Incident {
         Incidence::shown(self.state.incident, self.scene(), &self.state.base()).direction
     }
 
-    /// Why something of it is missing.
+    /// Returns the reason why a result is missing.
     pub fn error(&self) -> Option<&str> {
         let errors = [&self.state.dataset.error, &self.results.lid.error, &self.results.room.error];
         errors.into_iter().flatten().next().map(String::as_str)
     }
 
-    /// What its figures are made of, as far as it is known and not outdated.
+    /// Returns the values that the figures are computed from, as far as they are known and not outdated.
     pub fn facts(&self) -> Facts {
         let lid = self.results.lid.value.as_ref().filter(|_| !self.results.lid.stale);
         let room = self.results.room.value.as_ref().filter(|_| !self.results.room.stale);
@@ -171,7 +171,7 @@ impl Column {
         self.state.daylight.take(daylight);
     }
 
-    /// Takes in what a job brought.
+    /// Stores the result of a job.
     pub fn take(&mut self, what: Compared) {
         match what {
             Compared::Shelf(shelved, daylight) => self.take_shelf(shelved, daylight.map_err(|error| error.to_string())),
@@ -201,32 +201,32 @@ impl Column {
     }
 }
 
-/// What a common scale hangs on: the tile, which results, and the incidences.
+/// Key of a common scale: the tile, the revisions of the results, and the incident directions.
 pub type ScaleKey = (&'static str, Vec<[u64; 4]>, Vec<Option<[u64; 3]>>);
-/// What a picture of all hangs on: the tile, the base, and the names besides.
+/// Key of a picture of all candidates: the key of the scale, the reference, and the names.
 pub type PictureKey = (ScaleKey, usize, Vec<String>);
 
-/// All candidates of the tray.
+/// All candidates of the comparison.
 #[derive(Default)]
 pub struct Columns {
-    /// In the order of the tray.
+    /// Candidates in the order of the comparison.
     pub list: Vec<Column>,
-    /// What is being computed, and of which.
+    /// Candidate and part that are being computed.
     pub running: Option<(u64, Part)>,
-    /// Stopped by hand, until something changes.
+    /// Whether computing was stopped by the user, until something changes.
     pub stopped: bool,
-    /// The scale of all, for what it was found.
+    /// Common scale, with the key that it was found for.
     pub scale: Cache<ScaleKey, Option<[f64; 2]>>,
-    /// Differences from the base, for what they were found.
+    /// Differences from the reference, with the key that they were computed for.
     pub differences: Cache<PictureKey, Vec<Option<Picture>>>,
-    /// Plots, for what they were made.
+    /// Plots, with the key that they were made for.
     pub plots: Cache<PictureKey, Vec<Plot>>,
     next: u64,
     seen: Option<(SceneFile, PathBuf)>,
 }
 
 impl Columns {
-    /// Brings the candidates in line with the scene; true where what is being computed is no longer wanted.
+    /// Updates the candidates from the scene; returns whether what is being computed is no longer wanted.
     pub fn follow(&mut self, state: &State, results: &Results) -> bool {
         let scene = &state.document.scene;
         let path = state.scene_path.clone().unwrap_or_default();
@@ -281,7 +281,7 @@ impl Columns {
         }
     }
 
-    /// What a picture of all candidates hangs on.
+    /// Returns the key of a picture of all candidates.
     pub fn key(&self, tile: &'static str) -> ScaleKey {
         let bits = |column: &Column| {
             (tile == TileKind::Btdf.title()).then(|| column.incident().0.vector().to_array().map(f64::to_bits))
@@ -289,24 +289,24 @@ impl Columns {
         (tile, self.list.iter().map(Column::revisions).collect(), self.list.iter().map(bits).collect())
     }
 
-    /// The first part of those in sight that is missing, candidate by candidate.
+    /// Returns the first missing part of the visible candidates, candidate by candidate.
     pub fn next(&self, columns: impl Iterator<Item = usize>, parts: &[Part]) -> Option<(&Column, Part)> {
         let columns: Vec<&Column> = columns.filter_map(|place| self.list.get(place)).collect();
         // Part by part: all have their first picture before one has its last figure.
         parts.iter().find_map(|part| columns.iter().find(|column| column.lacks(*part)).map(|column| (*column, *part)))
     }
 
-    /// The names, each with its place so that no two are the same.
+    /// Returns the names, each with its place so that no two are equal.
     pub fn names(&self) -> Vec<String> {
         self.list.iter().enumerate().map(|(at, column)| format!("{} {}", at + 1, column.name)).collect()
     }
 
-    /// The scale of the tiles side by side, as they were drawn last.
+    /// Returns the scale of the tiles side by side, as drawn last.
     pub fn common_scale(&self) -> Option<[f64; 2]> {
         self.scale.last().copied().flatten()
     }
 
-    /// Takes in what a job brought of a candidate.
+    /// Stores the result of a job for a candidate.
     pub fn take(&mut self, id: u64, what: Compared) {
         self.running = None;
         if let Some(column) = self.list.iter_mut().find(|column| column.id == id) {
@@ -314,19 +314,19 @@ impl Columns {
         }
     }
 
-    /// The job under way ended in a fault of the program.
+    /// Records that the running job ended in an internal error.
     pub fn fail(&mut self, error: String) {
         if let Some((id, part)) = self.running.take() {
             self.take(id, Compared::Failed(part, error));
         }
     }
 
-    /// Nothing more is asked for until something changes.
+    /// Stops computing until something changes.
     pub fn stop(&mut self) {
         (self.stopped, self.running) = (true, None);
     }
 
-    /// What the tiles show: the candidate in the scene's place, or the scene's own.
+    /// Returns what the tiles show: the candidate in the scene's place, or the scene itself.
     pub fn shown<'a>(&'a self, state: &'a State, results: &'a Results) -> (&'a State, &'a Results) {
         let swapped = state.compare.swapped.and_then(|place| self.list.get(place));
         swapped.map_or((state, results), |column| (&column.state, &column.results))
@@ -334,7 +334,7 @@ impl Columns {
 }
 
 impl Column {
-    /// What the window itself has computed of the same scene need not be computed again.
+    /// Copies results that the window itself has computed for the same scene.
     fn adopt(&mut self, state: &State, results: &Results) {
         if self.state.dataset.stale && !state.dataset.stale {
             self.state.product.clone_from(&state.product);

@@ -1,4 +1,4 @@
-//! Comparing: what is put into the tray, what is computed of it, and what the tiles of a candidate may change.
+//! Acting on the comparison: its list, the computation of candidates, and what the tiles of a candidate may change.
 
 use super::command::Command;
 use super::compare::{Act, Look, Part};
@@ -26,7 +26,7 @@ use crate::study::{Library, Scene, SystemLibrary as _};
 use crate::texts::{Language, compare as texts, language};
 use std::sync::Arc;
 
-/// The candidate that a document shows, under a name.
+/// Returns the candidate that a document shows, with a name.
 fn keys_of(document: &Document, name: String) -> CompareKeys {
     let selection = &document.selection;
     let controlled = selection.state == CONTROLLED;
@@ -41,14 +41,14 @@ fn keys_of(document: &Document, name: String) -> CompareKeys {
     CompareKeys { name, system, control, ..CompareKeys::default() }
 }
 
-/// A rule within a name.
+/// Returns the name of a control rule as part of a longer name.
 fn rule_words(mode: ControlMode) -> String {
     let short = control::words(mode).short;
     // German nouns keep their capital.
     if language() == Language::English { short.to_lowercase() } else { short.to_owned() }
 }
 
-/// What is shown, in words: the rule instead of the state that it picks now.
+/// Returns the name of what is shown, with the control rule instead of the state that it currently picks.
 fn shown_words(state: &State) -> String {
     if state.document.selection.state == CONTROLLED && own_system(&state.document.scene).is_none() {
         return format!("{}, {}", title::product(state), rule_words(state.control_mode()));
@@ -56,7 +56,7 @@ fn shown_words(state: &State) -> String {
     title::in_room(state)
 }
 
-/// The parts that a tile draws.
+/// Returns the parts that a tile draws.
 pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
     use TileKind::{Btdf, Choose, Control, Lid, Room, Sky, Transmittance, Year};
     match (look, tile) {
@@ -73,11 +73,11 @@ pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
     }
 }
 
-/// All that the tiles draw.
+/// All parts that tiles draw.
 const ALL: &[Part] = &[Part::Shelf, Part::Room, Part::Surfaces, Part::Lid, Part::Peaks, Part::Year];
 
 impl App {
-    /// Does what was asked about the tray.
+    /// Acts on a command about the comparison.
     pub(super) fn act(&mut self, act: Act) {
         self.compare.stopped = false;
         let tray = self.state.document.scene.compare.len();
@@ -142,7 +142,7 @@ impl App {
         }
     }
 
-    /// A candidate becomes the scene: one step.
+    /// Makes a candidate the scene, as one undo step.
     fn take_candidate(&mut self, place: usize) {
         end_step(&mut self.undoer, &self.state.document);
         let document = &mut self.state.document;
@@ -169,7 +169,7 @@ impl App {
         self.state.compare.swapped = None;
     }
 
-    /// Changes the tray: one step.
+    /// Changes the list of candidates, as one undo step.
     fn edit_tray(&mut self, change: impl FnOnce(&mut Vec<CompareKeys>)) {
         end_step(&mut self.undoer, &self.state.document);
         change(&mut self.state.document.scene.compare);
@@ -209,7 +209,7 @@ impl App {
         self.add_candidate(keys_of(&document, format!("{}{how}", entry.name)));
     }
 
-    /// The tiles show another one of the tray, or the scene's own again.
+    /// Shows another candidate in the tiles, or the scene again.
     fn swap(&mut self) {
         let view = &mut self.state.compare;
         if view.swapped.take().is_some() {
@@ -226,9 +226,9 @@ impl App {
         }
     }
 
-    /// Asks for the next part of what is shown of the candidates.
+    /// Starts the computation of the next missing part of the candidates that are shown.
     pub(super) fn ask_compared(&mut self) {
-        // The tray may have changed by undo, or by a scene that was opened.
+        // The list may have changed by undo, or by a scene that was opened.
         let tray = self.state.document.scene.compare.len();
         let view = &mut self.state.compare;
         view.swapped = view.swapped.filter(|place| *place < tray);
@@ -277,14 +277,14 @@ impl App {
         });
     }
 
-    /// The table of figures of the tray.
+    /// Returns the table of figures of the candidates.
     pub fn rows(&self) -> Vec<Row> {
         let facts: Vec<Facts> = self.compare.list.iter().map(Column::facts).collect();
         compare(FIGURES, &facts.iter().collect::<Vec<_>>())
     }
 
-    /// What the tiles of a candidate ask for, as far as it is something of the scene that the candidate shares; `from`: the
-    /// first of these commands in the list.
+    /// Applies commands from the tiles of a candidate to the scene, as far as the candidate shares what they change;
+    /// `from`: the index of the first of these commands in the list.
     pub(super) fn retarget(&self, place: usize, from: usize, commands: &mut Vec<Command>) {
         let Some(column) = self.compare.list.get(place) else { return };
         let document = &self.state.document;
@@ -304,7 +304,7 @@ impl App {
         }));
     }
 
-    /// Lists products like another one.
+    /// Lists products that are similar to another one.
     pub(super) fn find_like(&mut self, key: Option<String>) {
         let key = key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
         let Some(key) = key else {
@@ -318,14 +318,14 @@ impl App {
 }
 
 impl super::compare::View {
-    /// The tile that is compared.
+    /// Returns the title of the compared tile.
     pub fn tile(&self) -> &'static str {
         let known = tiles::compared().map(|tile| tile.title);
         known.clone().find(|title| *title == self.tile).unwrap_or(TileKind::Room.title())
     }
 }
 
-/// The scene with what was changed in a candidate's, but for what the candidate has of its own.
+/// Returns the scene with the changes made in a candidate's scene, except for what the candidate fixes itself.
 fn shared(scene: &SceneFile, keys: &CompareKeys, changed: SceneFile) -> SceneFile {
     let mut scene = scene.clone();
     if keys.sky.is_none() {
@@ -343,7 +343,7 @@ fn shared(scene: &SceneFile, keys: &CompareKeys, changed: SceneFile) -> SceneFil
     scene
 }
 
-/// State and dataset of a scene whose first aperture no product fills, but a file or a closed form.
+/// Returns state and dataset of a scene whose first aperture is filled by a file or a closed form, not by a product.
 fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Result<(String, Arc<Dataset>), AppError> {
     let Question { scene, base, shelf } = question;
     let library = WindowLibrary { files, shelf: &**shelf, progress };
@@ -359,7 +359,7 @@ fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Re
     Ok((state, library.load(&keys, base, Need::Everything)?.dataset.clone()))
 }
 
-/// Product, state and dataset of a candidate, computed where the catalogue does not hold them yet; sky and sun.
+/// Computes product, state and dataset of a candidate, if the catalogue does not hold them yet, with sky and sun.
 fn shelf_part(question: &Question, files: &Library, progress: &dyn Progress) -> Compared {
     let Question { scene, base, shelf } = question;
     let daylight = daylight(scene, base, progress);

@@ -1,3 +1,3 @@
-//! What control does with a moving product: the study's, as the window uses it.
+//! Shading control of a product with several states: the study's module, as the window uses it.
 
 pub use crate::study::product_control::*;

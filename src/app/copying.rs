@@ -1,4 +1,5 @@
-//! Tiles into the clipboard: as pictures, and the value under the cursor. Their numbers go by way of [`super::export`].
+//! Copies tiles to the clipboard: as pictures, and the value under the pointer. Their numbers are copied by
+//! [`super::export`].
 
 use super::error::AppError;
 use super::hand_on::{Choices, What};
@@ -12,11 +13,11 @@ use crate::drawing::missing_characters;
 use crate::report::{Size, TileKind};
 use crate::texts::tiles as say;
 
-/// Longest sentence that is said of what was copied. \[letters\]
+/// Maximum length of the copied text that is repeated in a message. \[characters\]
 const SAID: usize = 80;
 
 impl App {
-    /// Draws a tile as it is handed on, for the clipboard.
+    /// Draws a tile as it is exported, for the clipboard.
     pub(super) fn copy_picture(&mut self, tile: Tile) {
         let Some(kind) = TileKind::titled(tile.title) else { return };
         let Some(order) = self.order() else { return self.tell(&AppError::NoProduct) };
@@ -42,7 +43,7 @@ impl App {
         }
     }
 
-    /// Copies what the line under the tile says that the pointer was on last.
+    /// Copies the line under the tile that the pointer was on last.
     pub(super) fn copy_value(&mut self) {
         let Some(text) = pointed_foot(&self.ctx).filter(|text| !text.is_empty()) else {
             return self.toasts.info(say::NO_VALUE);

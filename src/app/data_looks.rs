@@ -1,5 +1,5 @@
-//! How the BTDF tile looks at the data: their form, and the map of what is done between their directions. Made in jobs,
-//! only while it is looked at.
+//! Views of the BTDF tile on the data: their form, and the map of interpolation schemes between their directions.
+//! Computed in jobs, only while visible.
 
 use crate::compute::btdf::Btdf;
 use crate::compute::direction::Incident;
@@ -8,67 +8,68 @@ use crate::compute::incidence::ways::Triangle;
 use crate::study::data_form::{DataForm, Formed, NoForm, row_of};
 use crate::study::scene_file::Interpolation;
 
-/// What is looked at.
+/// View of the BTDF tile on the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DataLook {
-    /// The form of what leaves.
+    /// Form of the emergent light.
     pub form: DataForm,
-    /// The map of schemes, over the incident side.
+    /// Whether the map of schemes over the incident side is shown.
     pub schemes: bool,
 }
 
-/// What a form of the data hangs on: dataset, which of its indicatrices, form, and filter.
+/// Key that a form of the data depends on: dataset, indicatrix, form, and filter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FormKey {
     /// Revision of the dataset.
     pub dataset: u64,
-    /// Number of the indicatrix.
+    /// Index of the indicatrix.
     pub row: Option<usize>,
-    /// Which form.
+    /// Form of the data.
     pub form: DataForm,
-    /// The scene's scheme of diffuse light.
+    /// Scheme of diffuse light in the scene.
     pub diffuse: DiffuseScheme,
 }
 
 impl FormKey {
-    /// Of the data of an incidence.
+    /// Creates the key for the data of an incident direction.
     pub fn of(btdf: &Btdf, dataset: u64, incident: Incident, (form, diffuse): (DataForm, DiffuseScheme)) -> Self {
-        // Only the filter hangs on the scene.
+        // Only the filter depends on the scene.
         let diffuse = if form == DataForm::Filtered { diffuse } else { DiffuseScheme::Auto };
         Self { dataset, row: row_of(btdf, incident), form, diffuse }
     }
 }
 
-/// Data in a form, or why they have none; and of what.
+/// Data in a form, or the reason why there are none, with their key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormResult {
-    /// Of what.
+    /// Key that the data were made for.
     pub key: FormKey,
-    /// The data.
+    /// Data in the form.
     pub made: Result<Formed, NoForm>,
 }
 
-/// What a map of schemes is of: dataset, the scene's scheme for the sun, and its way between directions.
+/// Key of a map of schemes: revision of the dataset, the scene's scheme for the sun, and its interpolation between
+/// directions.
 pub type SchemesKey = (u64, SunScheme, Interpolation);
 
-/// Why there is no map of schemes.
+/// Reason why there is no map of schemes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoSchemes {
-    /// The data are means over cells: nothing is interpolated.
+    /// Patch-averaged data: nothing is interpolated.
     NoDirections,
-    /// Nothing is scattered, or by a closed form.
+    /// Nothing is scattered, or only by a closed form.
     ClosedForm,
-    /// The scene takes the data at their word.
+    /// The scene uses the data as given.
     Patches,
-    /// The directions have no triangles between them.
+    /// Directions that have no triangles between them.
     NoTriangles,
 }
 
-/// The map of schemes, or why there is none; and of what.
+/// Map of schemes, or the reason why there is none, with its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SchemesResult {
-    /// Of what.
+    /// Key that the map was made for.
     pub key: SchemesKey,
-    /// The triangles.
+    /// Triangles of the map.
     pub made: Result<Vec<Triangle>, NoSchemes>,
 }

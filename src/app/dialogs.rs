@@ -6,19 +6,19 @@ use crate::texts::{Text, shell};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
-/// Asks the user for paths.
+/// Dialogs that ask the user for paths.
 pub trait FileDialogs: Send + Sync {
-    /// Files to open; empty when the user changed their mind. `Err`: no dialog can be shown here.
+    /// Asks for files to open; returns an empty list if the user cancels, and an error if no dialog can be shown.
     fn open(&self) -> Result<Vec<PathBuf>, AppError>;
-    /// Folders to open; empty when the user changed their mind. `title`: what for.
+    /// Asks for folders to open; returns an empty list if the user cancels. `title` says what they are for.
     fn open_folder(&self, _title: Text) -> Result<Vec<PathBuf>, AppError> {
         Err(AppError::NoDialog)
     }
-    /// Where to write; folder and name to start from. The dialog itself asks before a file is replaced.
+    /// Asks for a path to write to, starting from a folder and name. The dialog itself asks before a file is replaced.
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError>;
 }
 
-/// The desktop's own dialogs.
+/// Dialogs of the desktop.
 pub struct NativeDialogs(());
 
 thread_local! {
@@ -26,8 +26,8 @@ thread_local! {
     static REFUSED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Receiver of the dialog library's log: only there it says that neither the desktop's portal nor zenity answers; what it
-/// returns is the same as from a dialog that was closed.
+/// Receiver of the dialog library's log: only there the library reports that neither the desktop's portal nor zenity
+/// answers; its return value is then that of a dialog that was closed.
 struct DialogLog;
 
 impl log::Log for DialogLog {
@@ -45,7 +45,7 @@ impl log::Log for DialogLog {
 }
 
 impl NativeDialogs {
-    /// Returns the dialogs, and listens from now on to what their library says.
+    /// Returns the dialogs, and starts to receive the log of their library.
     pub fn listening() -> Self {
         // Where somebody else listens already, a dialog that cannot be shown looks closed.
         if log::set_logger(&DialogLog).is_ok() {
@@ -54,7 +54,7 @@ impl NativeDialogs {
         Self(())
     }
 
-    /// Shows a dialog and returns what was chosen, or that it could not be shown.
+    /// Shows a dialog and returns what was chosen, or an error if it could not be shown.
     fn shown<T>(dialog: impl FnOnce() -> Option<T>) -> Result<Option<T>, AppError> {
         REFUSED.set(false);
         let chosen = dialog();
@@ -102,7 +102,7 @@ impl FileDialogs for NativeDialogs {
     }
 }
 
-/// Nothing to ask: the path field takes over.
+/// Dialogs that are never shown: the path field is used instead.
 pub struct NoDialogs;
 
 impl FileDialogs for NoDialogs {

@@ -4,13 +4,13 @@ use super::error::AppError;
 use crate::study::files::{self, Output, Replace};
 use std::path::{Path, PathBuf};
 
-/// Reads a file that is not larger than anything the program knows.
+/// Reads a file that is not larger than the program's size limit.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, AppError> {
     Ok(files::read(path)?)
 }
 
-/// Writes a file whole or not at all, in the place of whatever is there – somebody was asked –, except what it is made
-/// from; its path comes back.
+/// Writes a file whole or not at all, over an existing one (the user has been asked) except one of `made_from`, and
+/// returns its path.
 pub fn write_whole(path: &Path, bytes: &[u8], made_from: &[PathBuf]) -> Result<PathBuf, AppError> {
     files::write(path, bytes, Replace::But(made_from))?;
     Ok(path.to_owned())
@@ -23,12 +23,12 @@ pub fn write_several(list: &[(PathBuf, Vec<u8>)], made_from: &[PathBuf]) -> Resu
     Ok(files::write_all(&outputs)?)
 }
 
-/// Creates a folder where there is none.
+/// Creates a folder if it does not exist.
 pub fn create_folder(path: &Path) -> Result<(), AppError> {
     std::fs::create_dir_all(path).map_err(|error| AppError::from(files::cannot_write(path, &error)))
 }
 
-/// Does a path end so? Case does not matter.
+/// Whether a path has this extension, ignoring case.
 pub fn ends_in(path: &Path, extension: &str) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(extension))
 }

@@ -1,4 +1,4 @@
-//! Arranging the tiles: what menus, palette and keys ask for.
+//! Arranging the tiles by menus, palette and keys.
 
 use super::arrange::{Arrange, Way};
 use super::state::Tile;
@@ -7,7 +7,7 @@ use super::window::App;
 use crate::texts::tiles as say;
 use egui::{Pos2, Rect};
 
-/// The nearest of some rectangles on one side of another: the one across from its middle first.
+/// Returns the tile nearest to another one on one side of it; the one across from its middle first.
 fn beside(places: &[(Tile, Rect)], from: Tile, way: Way) -> Option<Tile> {
     let own = places.iter().find(|(tile, _)| *tile == from)?.1;
     let gap = |rect: &Rect| match way {
@@ -30,12 +30,12 @@ fn beside(places: &[(Tile, Rect)], from: Tile, way: Way) -> Option<Tile> {
 }
 
 impl App {
-    /// How long each tile in sight took to be drawn in the last frame, for measurements.
+    /// Returns the time that each visible tile took to be drawn in the last frame, for performance measurements.
     pub fn tile_times(&self) -> &[(Tile, std::time::Duration)] {
         &self.bench.times
     }
 
-    /// Arranges the tiles.
+    /// Acts on a command about the arrangement of the tiles.
     pub(super) fn arrange(&mut self, what: Arrange) {
         let state = &mut self.state;
         if let Arrange::Preset(ready) = what {
@@ -102,12 +102,12 @@ impl App {
         }
     }
 
-    /// Remembers where the tiles stand; the bench follows with the next frame.
+    /// Stores the arrangement of the tiles; the tile area follows in the next frame.
     fn keep_layout(&mut self, layout: &Layout) {
         self.state.settings.layout = Some(layout.text());
     }
 
-    /// Brings a tile into sight: a hidden one is not drawn and so knows nothing.
+    /// Makes a tile visible: a hidden one is not drawn and so has no numbers.
     pub(super) fn bring_up(&mut self, tile: Tile) {
         if self.state.maximised.is_some_and(|shown| shown != tile) {
             self.state.maximised = Some(tile);

@@ -1,10 +1,10 @@
-//! What is to be computed as soon as it is in sight.
+//! Computations that are due as soon as their results are visible.
 
 use super::jobs::Lane;
 use crate::study::scene_file::{BoxKeys, RoomKeys, SceneFile, SensorKeys, SurfaceKey};
 use std::collections::BTreeSet;
 
-/// What the sensors' weights hang on: another sky, sun or system costs next to nothing.
+/// Part of the scene that the sensor weights depend on. A new sky, sun or system does not change them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
     room: RoomKeys,
@@ -14,7 +14,7 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Of a scene.
+    /// Creates the geometry of a scene.
     pub fn of(scene: &SceneFile) -> Self {
         let openings = scene.aperture.iter().map(|one| (one.surface, one.origin, one.size)).collect();
         let outside = scene.outside.iter().map(|one| one.solid).collect();
@@ -22,26 +22,26 @@ impl Geometry {
     }
 }
 
-/// What is to be computed.
+/// Computations that are due.
 #[derive(Debug, Default)]
 pub struct Due {
-    /// By lane.
+    /// Lanes that are due.
     pub lanes: BTreeSet<Lane>,
-    /// Of what room the sensors were last computed in full.
+    /// Geometry for which all sensor points were last computed.
     pub geometry: Option<Geometry>,
-    /// Of fewer sensors, in a job or already shown: all of them follow.
+    /// Whether the result that is shown or being computed has fewer sensor points; all of them follow.
     pub coarse: bool,
-    /// Has a preview of the room been shown? Behind obstructions one comes first.
+    /// Whether a preview of the room has been shown. Behind obstructions a preview comes first.
     pub previewed: bool,
 }
 
 impl Due {
-    /// Something is to be computed anew.
+    /// Marks a lane as due.
     pub fn owe(&mut self, lane: Lane) {
         self.lanes.insert(lane);
     }
 
-    /// Is it still to be asked for?
+    /// Whether a lane is still due.
     pub fn owes(&self, lane: Lane) -> bool {
         self.lanes.contains(&lane)
     }

@@ -1,5 +1,5 @@
-//! Products after they are stored, state by state: other names and angles, a file in place of another, the same files read
-//! again. Undo goes over all of it.
+//! Editing stored products state by state: names and angles, replaced data, the same files read again. Undo covers all
+//! of it.
 
 use super::changes::{Change, Editing, Looked, Reread};
 use super::disk::read_bytes;
@@ -17,7 +17,7 @@ use crate::texts::{catalogue as text, fixed};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Everything that the sheet of a product shows.
+/// Reads the contents of the sheet of a product.
 pub(super) fn look(shelf: &dyn Shelf, key: &str) -> Result<Looked, AppError> {
     let product = shelf.product(key)?;
     let found = shelf.subscribed_folder(key)?;
@@ -30,7 +30,7 @@ fn read(read: ReadDataset, path: &Path) -> Result<SourceFile, AppError> {
     read(&name, &bytes).map_err(|error| AppError::from(error).about(path.display()))
 }
 
-/// Data of a file for a state, with the repairs that its product was given.
+/// Returns the data of a file for a state, with the repairs of its product applied.
 fn replacement(product: &Snapshot, state: &str, file: &SourceFile, dataset: &Dataset) -> Result<Replacement, AppError> {
     let (_, repairs) = recorded(&product.product().provenance.method);
     Ok(Replacement {
@@ -41,7 +41,7 @@ fn replacement(product: &Snapshot, state: &str, file: &SourceFile, dataset: &Dat
     })
 }
 
-/// One file for one state.
+/// Creates the change that replaces one state by the data of one file.
 fn from_file(shelf: &dyn Shelf, key: &str, state: &str, path: &Path, reader: ReadDataset) -> Result<Change, AppError> {
     let file = read(reader, path)?;
     let [dataset] = file.datasets.as_slice() else {
@@ -52,7 +52,7 @@ fn from_file(shelf: &dyn Shelf, key: &str, state: &str, path: &Path, reader: Rea
     Ok(Change::Replaced { key: key.to_owned(), before: Arc::new(before), list: Arc::new(list) })
 }
 
-/// Reads the files of a product again: what is not as it was read then.
+/// Reads the files of a product again and returns the differences.
 fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, AppError> {
     let before = shelf.snapshot(key)?;
     let paths = shelf.source_paths(key)?;
@@ -85,14 +85,14 @@ fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, A
 }
 
 impl App {
-    /// What a state of the sheet's product is called, as typed.
+    /// Sets name and angle of a state of the sheet's product, as typed.
     pub(super) fn edit_state(&mut self, place: usize, words: StateWords) {
         if let Some(state) = self.state.editing.as_mut().and_then(|editing| editing.states.get_mut(place)) {
             *state = words;
         }
     }
 
-    /// Asks for the file that is to take the place of a state's.
+    /// Asks for the file that replaces the data of a state.
     pub(super) fn ask_replacement(&mut self, state: String) {
         let Some(editing) = &self.state.editing else { return };
         self.state.replacing = Some((editing.key.clone(), state));
@@ -105,7 +105,7 @@ impl App {
         });
     }
 
-    /// Reads the file that takes the place of a state's.
+    /// Reads the file that replaces the data of a state.
     pub(super) fn replace_state(&mut self, path: PathBuf) {
         let Some((key, state)) = self.state.replacing.take() else { return };
         let reader = self.services.read;
@@ -122,7 +122,7 @@ impl App {
         }
     }
 
-    /// Reads the files of the sheet's product again; what changed is shown, and taken when that is wanted.
+    /// Reads the files of the sheet's product again; changes are shown, and applied on request.
     pub(super) fn reread(&mut self) {
         let Some(editing) = &self.state.editing else { return };
         let (key, reader) = (editing.key.clone(), self.services.read);
@@ -137,7 +137,7 @@ impl App {
         }
     }
 
-    /// Takes what was read again.
+    /// Applies the changes found by reading the files again.
     pub(super) fn take_changes(&mut self) {
         let editing: Option<&mut Editing> = self.state.editing.as_mut();
         if let Some(change) = editing.and_then(|editing| editing.reread.take()).and_then(|reread| reread.change) {

@@ -1,4 +1,4 @@
-//! What the window asks of the study. A trait, so that tests can put a slow or failing one in its place.
+//! Interface from the window to the study. A trait, so that tests can use a slow or failing implementation.
 
 use super::error::AppError;
 use super::shelf::Shelf;
@@ -21,87 +21,87 @@ use std::sync::Arc;
 /// Illuminances in the room.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RoomFigures {
-    /// Positions of the sensors. \[m\]
+    /// Positions of the sensor points. \[m\]
     pub positions: Vec<[f64; 3]>,
-    /// Straight from the apertures. \[lx\]
+    /// Direct component from the apertures. \[lx\]
     pub direct: Vec<Estimate>,
-    /// From the room's surfaces. \[lx\]
+    /// Interreflected component. \[lx\]
     pub interreflected: Vec<Estimate>,
-    /// The part of `direct` that is the sun's beams; as long as the sensors are many, or empty without any. \[lx\]
+    /// Part of `direct` that is due to beams of direct sun, one value per sensor point; empty if there is none. \[lx\]
     pub beam: Vec<f64>,
-    /// What the data leave open besides the errors of the computation; likewise. \[lx\]
+    /// Uncertainty due to the data, beside the numerical one; one value per sensor point, or empty. \[lx\]
     pub data_error: Vec<f64>,
-    /// How the apertures saw what stands outside; empty where nothing does.
+    /// Obstructions as seen by the apertures; empty if there are none.
     pub outside: Vec<OutsideSeen>,
-    /// Columns and rows when the sensors are a grid.
+    /// Columns and rows, if the sensor points form a grid.
     pub grid: Option<[usize; 2]>,
-    /// Of fewer sensors than the scene has, for a picture at once; all of them follow.
+    /// Whether there are fewer sensor points than in the scene, for a fast first result; all of them follow.
     pub coarse: bool,
-    /// Wall-clock time that it took. \[s\]
+    /// Wall-clock time of the computation. \[s\]
     pub seconds: f64,
 }
 
 /// Illuminances of the room's surfaces.
 #[derive(Debug, Clone)]
 pub struct SurfaceFigures {
-    /// Patch by patch.
+    /// Illuminances by patch.
     pub light: SurfaceLight,
-    /// Wall-clock time that it took. \[s\]
+    /// Wall-clock time of the computation. \[s\]
     pub seconds: f64,
 }
 
 impl RoomFigures {
-    /// Illuminance at a sensor. \[lx\]
+    /// Returns the illuminance at a sensor point, with its uncertainty. \[lx\]
     pub fn total(&self, sensor: usize) -> Estimate {
         self.direct[sensor] + self.interreflected[sensor] + Estimate::new(0.0, part(&self.data_error, sensor))
     }
 
-    /// Illuminances at all sensors. \[lx\]
+    /// Returns the illuminances at all sensor points. \[lx\]
     pub fn totals(&self) -> impl Iterator<Item = Estimate> + Clone + '_ {
         (0..self.positions.len()).map(|sensor| self.total(sensor))
     }
 }
 
-/// A value of a list that may be left out.
+/// Returns the value of a sensor point from a list that may be empty, else 0.
 pub fn part(list: &[f64], sensor: usize) -> f64 {
     list.get(sensor).copied().unwrap_or(0.0)
 }
 
-/// The light of the first aperture as a luminaire.
+/// Luminous intensity distribution of the first aperture.
 #[derive(Debug, Clone)]
 pub struct LidFigures {
-    /// The distribution.
+    /// Luminous intensity distribution.
     pub lid: Lid,
-    /// All its flux. \[lm\]
+    /// Luminous flux. \[lm\]
     pub flux: Estimate,
-    /// Illuminance of the aperture's outside face, sun included. \[lx\]
+    /// Illuminance of the aperture's outside, including direct sun. \[lx\]
     pub incident: Option<f64>,
     /// Header of a luminaire file.
     pub description: Description,
-    /// Wall-clock time that it took. \[s\]
+    /// Wall-clock time of the computation. \[s\]
     pub seconds: f64,
 }
 
-/// A scene on its way into a job.
+/// Input of a job: a scene and its catalogue.
 #[derive(Clone)]
 pub struct Question {
-    /// As typed.
+    /// Scene as typed.
     pub scene: SceneFile,
-    /// What relative paths start from.
+    /// Folder that relative paths start from.
     pub base: PathBuf,
-    /// Where products come from.
+    /// Source of the products.
     pub shelf: Arc<dyn Shelf>,
 }
 
-/// Computes.
+/// Computations of the study.
 pub trait Engine: Send + Sync {
-    /// Illuminances in the room.
+    /// Computes the illuminances in the room.
     fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError>;
-    /// Illuminances of the room's surfaces.
+    /// Computes the illuminances of the room's surfaces.
     fn surfaces(&self, question: &Question, progress: &dyn Progress) -> Result<SurfaceFigures, AppError>;
-    /// The light of the first aperture.
+    /// Computes the LID of the first aperture.
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError>;
-    /// All that pictures and reports show; without caches of one's own everything is computed anew.
+    /// Computes everything that pictures and reports show; an implementation without caches computes it from scratch.
     fn subject(
         &self,
         question: &Question,
@@ -111,16 +111,16 @@ pub trait Engine: Send + Sync {
     ) -> Result<Subject, AppError> {
         subject(question, incident, wanted, (&Session::new(), &Library::default()), progress)
     }
-    /// What interpolation between the directions of data needs.
+    /// Returns the interpolator between the directions of the data.
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         Arc::new(Interpolator::new(Arc::clone(data)))
     }
-    /// The year of a scene that has one. Engines that compute no light have none.
+    /// Computes the year of a scene that has one. Engines that compute no light return an error.
     fn year(&self, _: &Question, _: &dyn Progress) -> Result<Annual, AppError> {
         Err(AppError::NoNumbers)
     }
-    /// Years of the products of lists, coarse ones first; `told` hears of every result when it is there, from any thread.
-    /// Engines that compute no light have none.
+    /// Computes years of the products of lists, preliminary ones first; the callback gets every result as soon as it is
+    /// available, from any thread. Engines that compute no light return an error.
     fn rank(
         &self,
         _groups: &[Group],
@@ -131,21 +131,21 @@ pub trait Engine: Send + Sync {
     ) -> Result<(), AppError> {
         Err(AppError::NoNumbers)
     }
-    /// Error against run time of every method.
+    /// Computes error against run time of every method.
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;
-    /// The bytes of a luminaire file, its format by the path's extension.
+    /// Returns the bytes of a luminaire file; the path's extension gives its format.
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError>;
-    /// The first aperture as the luminaire files that are wished for; `path`: of the one file, from which tiles have their
-    /// names. Engines that compute no light have none.
+    /// Computes the requested luminaire files of the first aperture; `path`: that of the single file, from which the
+    /// files of a grid get their names. Engines that compute no light return an error.
     fn luminaires(&self, _: &Question, _: &Wish, _: &Path, _: &dyn Progress) -> Result<LuminaireSet, AppError> {
         Err(AppError::NoLid)
     }
 }
 
-/// All that pictures and reports show of a question.
+/// Computes everything that pictures and reports show of a scene.
 ///
 /// # Errors
-/// What the scene or its systems lack.
+/// Returns an error if the scene or one of its systems is incomplete.
 pub fn subject(
     question: &Question,
     incident: Option<Incident>,

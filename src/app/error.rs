@@ -1,5 +1,4 @@
-//! Why the window could not do what it was asked. Only where an error is shown does it become the sentence that it
-//! stands for.
+//! Errors of the window. An error becomes a sentence only where it is shown.
 
 use crate::catalogue::CatalogueError;
 use crate::compute::doctor::RepairError;
@@ -14,18 +13,18 @@ use crate::study::luminaire_set::SetError;
 use crate::texts::shell;
 use std::fmt::Display;
 
-/// Why a job ended without a result.
+/// Reason why a job ended without a result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JobError {
-    /// It panicked; what is known of it.
+    /// Panic of the job, with its details.
     #[error("{}", shell::panicked(.0))]
     Panic(Box<Fault>),
-    /// It was never started; what the system says.
+    /// Thread that could not be started, with the message of the system.
     #[error("{}", shell::no_thread(.0))]
     NoThread(String),
 }
 
-/// Says why bytes are not the text of `what`.
+/// Returns the message why bytes are not the text of `what`.
 fn not_text(error: &NotText, what: &str) -> String {
     match error.encoding {
         Encoding::WebPage => shell::web_page(what),
@@ -33,105 +32,105 @@ fn not_text(error: &NotText, what: &str) -> String {
     }
 }
 
-/// Why the window could not do what it was asked.
+/// Error of an action of the window.
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
-    /// The study cannot be made.
+    /// Error of the study.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// A job came to nothing.
+    /// Job that ended without a result.
     #[error(transparent)]
     Job(#[from] JobError),
-    /// The catalogue refuses.
+    /// Error of the catalogue.
     #[error(transparent)]
     Catalogue(#[from] CatalogueError),
     /// Data that cannot be read or written in a format.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// No control curve.
+    /// Invalid control curve.
     #[error("{}", shell::curve_error(.0))]
     Curve(#[from] CurveError),
-    /// No luminaire file can be made.
+    /// Error in making a luminaire file.
     #[error(transparent)]
     Luminaire(#[from] LuminaireFileError),
-    /// No luminaire files can be made.
+    /// Error in making a set of luminaire files.
     #[error(transparent)]
     Luminaires(#[from] SetError),
-    /// A repair that does not fit the data.
+    /// Repair that does not fit the data.
     #[error(transparent)]
     Repair(#[from] RepairError),
     /// Threads that cannot be started.
     #[error(transparent)]
     Threads(#[from] rayon::ThreadPoolBuildError),
-    /// The scene has no text.
+    /// Scene that cannot be written as text.
     #[error("{}", shell::scene_text(.0))]
     SceneText(#[from] toml::ser::Error),
-    /// Nothing can be handed on.
+    /// Error in making a report.
     #[error(transparent)]
     Report(#[from] ReportError),
-    /// A tile has not been drawn since it was asked for its numbers.
+    /// Tile that has not been drawn since its numbers were requested.
     #[error("{}", shell::NO_NUMBERS)]
     NoNumbers,
-    /// Something is asked of a product that is not there.
+    /// Missing product.
     #[error("{}", shell::PRODUCT_NOT_THERE)]
     NoProduct,
-    /// A series without moments.
+    /// Series without moments.
     #[error("{}", shell::NO_MOMENTS)]
     NoMoments,
-    /// A series of too many files: how many, and how many at most.
+    /// Series of too many files: their number, and the maximum.
     #[error("{}", shell::many_files(.0, .1))]
     ManyFiles(usize, usize),
-    /// A name with another ending than what it is.
+    /// File name with a wrong extension, and the right one.
     #[error("{}", shell::wrong_ending(.0))]
     HandOnEnding(&'static str),
-    /// A tile's picture has no file.
+    /// Picture of a tile that cannot be encoded.
     #[error("{}", shell::no_picture(.0))]
     Picture(#[from] png::EncodingError),
-    /// An error that is about a file of this name or path.
+    /// Error about the file with this name or path.
     #[error("{0}: {1}")]
     About(String, Box<Self>),
-    /// Bytes where text is expected: what they are, and what is expected, e.g. `a scene`.
+    /// Bytes where text is expected: their encoding, and what is expected, e.g. `a scene`.
     #[error("{}", not_text(.0, .1))]
     NotText(NotText, &'static str),
-    /// An ending other than that of a tile's numbers.
+    /// Wrong extension for a tile's numbers.
     #[error("{}", shell::tile_ending(.0))]
     TileEnding(String),
-    /// A path for computed data whose ending names no format.
+    /// Path for computed data whose extension names no format.
     #[error("{}", shell::MEASURED_ENDING)]
     MeasuredEnding,
-    /// No file dialog can be shown here.
+    /// Missing file dialog of the desktop.
     #[error("{}", shell::NO_DIALOG)]
     NoDialog,
-    /// A product without states.
+    /// Product without states.
     #[error("{}", shell::no_state(.0))]
     NoState(String),
-    /// A described system without states.
+    /// Described system without states.
     #[error("{}", shell::NO_STATES)]
     NoStates,
-    /// A file for one state that holds another number of them.
+    /// File for one state that holds this number of states instead.
     #[error("{}", shell::not_one_state(.0))]
     NotOneState(usize),
-    /// A product whose files cannot be read again one by one.
+    /// Product whose files cannot be read again one per state.
     #[error("{}", shell::not_a_file_each(files, states))]
     NotAFileEach {
-        /// Files.
+        /// Number of files.
         files: usize,
-        /// States.
+        /// Number of states.
         states: usize,
     },
-    /// Control has no sky and sun to go by.
+    /// Missing sky and sun for shading control.
     #[error("{}", shell::NO_DAYLIGHT)]
     NoDaylight,
-    /// A scene without an aperture.
+    /// Scene without an aperture.
     #[error("{}", shell::NO_APERTURE)]
     NoAperture,
-    /// The LID is asked for before it is there.
+    /// LID that is not computed yet.
     #[error("{}", shell::NO_LID)]
     NoLid,
 }
 
 impl AppError {
-    /// The same, about a file.
+    /// Returns the error with the name or path of the file that it concerns.
     pub fn about(self, place: impl Display) -> Self {
         Self::About(place.to_string(), Box::new(self))
     }

@@ -1,4 +1,4 @@
-//! What the checks say about datasets, kept by content.
+//! Findings of the data check, cached by content.
 
 use crate::catalogue::content_of;
 use crate::compute::btdf::Dataset;
@@ -6,18 +6,18 @@ use crate::compute::doctor::{Diagnosis, examine};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Most datasets of which it is kept.
+/// Maximum number of datasets whose findings are cached.
 const MOST: usize = 64;
 
-/// What was said about data of one content each.
+/// Findings by content of the data.
 type Kept = VecDeque<(String, Arc<Vec<Diagnosis>>)>;
 
-/// What was said last about datasets of a content, newest at the end; every clone is the same.
+/// Cache of the latest findings by content, newest at the end; clones share it.
 #[derive(Debug, Clone, Default)]
 pub struct Examined(Arc<Mutex<Kept>>);
 
 impl Examined {
-    /// What the checks say about a dataset; asked once a content. Takes its time the first time.
+    /// Returns the findings about a dataset, checked once per content. Slow the first time.
     pub fn of(&self, dataset: &Dataset) -> Arc<Vec<Diagnosis>> {
         // What readers found counts too.
         let key = format!("{}{:?}", content_of(dataset), dataset.findings);

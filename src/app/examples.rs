@@ -1,16 +1,16 @@
-//! System files to start from.
+//! Example system files.
 
 use crate::texts::{Text, goniophotometer as texts};
 
-/// A named text.
+/// Named example.
 pub struct Example {
-    /// What its button says.
+    /// Label of its button.
     pub name: Text,
-    /// The system file.
+    /// Text of the system file.
     pub text: &'static str,
 }
 
-/// One of every kind that the goniophotometer knows.
+/// Examples, one of every kind of system that the goniophotometer supports.
 pub const EXAMPLES: [Example; 12] = [
     Example {
         name: texts::VENETIAN,

@@ -1,18 +1,17 @@
-//! Tiles as files: the numbers a tile shows (.csv). The tile has to be drawn once more: its numbers are known to its drawing
-//! alone.
+//! Export of tiles as numbers (.csv). The tile has to be drawn again, because only its drawing knows its numbers.
 
 use super::error::AppError;
 use super::state::Tile;
 use std::path::PathBuf;
 
-/// Where a tile's numbers go.
+/// Destination of a tile's numbers.
 enum Target {
     Clipboard,
     HandOn,
     File(PathBuf),
 }
 
-/// What is asked of tiles, and what they gave.
+/// Requests for numbers of tiles, and their results.
 #[derive(Default)]
 pub struct Exports {
     numbers: Option<(Tile, Target)>,
@@ -21,17 +20,17 @@ pub struct Exports {
 }
 
 impl Exports {
-    /// Asks a tile for its numbers, for the clipboard.
+    /// Requests a tile's numbers for the clipboard.
     pub fn ask_copy(&mut self, tile: Tile) {
         self.numbers = Some((tile, Target::Clipboard));
     }
 
-    /// Asks a tile for its numbers, to be handed on.
+    /// Requests a tile's numbers for the export dialog.
     pub fn ask_hand_on(&mut self, tile: Tile) {
         self.numbers = Some((tile, Target::HandOn));
     }
 
-    /// Asks a tile for its numbers (.csv).
+    /// Requests a tile's numbers for a file (.csv).
     pub fn ask(&mut self, tile: Tile, path: PathBuf) -> Result<(), AppError> {
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         if ending != "csv" {
@@ -41,17 +40,17 @@ impl Exports {
         Ok(())
     }
 
-    /// True when this tile's numbers are asked for.
+    /// Whether the numbers of this tile are requested.
     pub fn wants_numbers(&self, tile: Tile) -> bool {
         self.numbers.as_ref().is_some_and(|(wanted, _)| *wanted == tile)
     }
 
-    /// The tile that was asked has none.
+    /// Drops the request: the tile has no numbers.
     pub fn refuse(&mut self) {
         self.numbers = None;
     }
 
-    /// Takes the numbers of the tile that was asked.
+    /// Stores the numbers of the requested tile.
     pub fn numbers(&mut self, ctx: &egui::Context, text: String) {
         match self.numbers.take() {
             Some((_, Target::Clipboard)) => ctx.copy_text(text),
@@ -67,12 +66,12 @@ impl Exports {
         }
     }
 
-    /// Numbers that are to be written.
+    /// Returns the next numbers that are to be written to a file.
     pub fn next_numbers(&mut self) -> Option<(Tile, PathBuf, String)> {
         self.done.pop()
     }
 
-    /// Numbers that are to be handed on.
+    /// Returns the numbers for the export dialog.
     pub fn handed_on(&mut self) -> Option<String> {
         self.handed_on.take()
     }

@@ -1,3 +1,3 @@
-//! Directions as the scene's façade or roof sees them: the study's, as the window uses it.
+//! Directions relative to the scene's façade or roof: the study's module, as the window uses it.
 
 pub use crate::study::facing::*;

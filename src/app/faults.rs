@@ -1,7 +1,7 @@
-//! A fault of the program in the window: what is open is saved first, then a report is written, then it is told.
+//! Internal errors in the window: the open session is saved first, then a report is written, then the error is shown.
 //!
-//! A fault in a job costs its result. One on the window's own thread ends the program: what was kept at the end of the
-//! frame before is on disk when it has, and the next start says where the report is.
+//! A fault in a job costs its result. A fault on the window's own thread ends the program: what was kept at the end of
+//! the frame before is on disk by then, and the next start says where the report is.
 
 use super::autosave::Autosave;
 use super::error::{AppError, JobError};
@@ -12,17 +12,17 @@ use crate::texts::shell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-/// Titles in a report, which is not for reading aloud.
+/// Titles of sections in a fault report; they are not translated.
 const SCENE: &str = "scene";
 const SYSTEM: &str = "system";
 
 impl App {
-    /// Writes reports on faults into a folder from now on.
+    /// Sets the folder that reports on faults are written to.
     pub fn report_faults(&mut self, folder: Option<&Path>) {
         self.faults.folder = folder.map(Path::to_path_buf);
     }
 
-    /// A job ended without a result. `stage`: of it, when it ended.
+    /// Shows why a job ended without a result. `stage`: the job's stage at its end.
     pub(super) fn take_failure(&mut self, lane: Lane, stage: &'static str, error: JobError) {
         let text = format!("{}: {error}", lane.word());
         match &error {
@@ -74,7 +74,7 @@ impl App {
         }
     }
 
-    /// The session is on disk when this returns, or cannot be written.
+    /// Saves the session; returns when it is on disk or cannot be written.
     fn save_now(&mut self) {
         self.keep_session();
         if let Some(keeper) = &self.autosave {
@@ -82,7 +82,8 @@ impl App {
         }
     }
 
-    /// Writes the report on a fault, or finds that on the same one before; `None` where there is no place for reports.
+    /// Writes the report on a fault, or finds an earlier report on the same one; `None` if there is no folder for
+    /// reports.
     fn report(&mut self, fault: &Fault, doing: &str) -> Option<Result<PathBuf, AppError>> {
         let folder = self.faults.folder.clone()?;
         if let Some((_, path)) = self.faults.reported.iter().find(|(other, path)| other.is_same(fault) && path.exists())
@@ -104,7 +105,7 @@ impl App {
         Some(written.map_err(AppError::Study))
     }
 
-    /// The window's own thread is at fault, and the program about to end.
+    /// Handles a fault on the window's own thread, as the program is about to end.
     fn end_at_fault(&mut self) {
         let keeper = self.autosave.take();
         // What is open was kept when the last frame ended; what this one has made of it is not to be trusted.
@@ -123,7 +124,7 @@ impl App {
         }
     }
 
-    /// Copies a report, to be sent.
+    /// Copies a report to the clipboard, so that it can be sent.
     pub(super) fn copy_report(&mut self, path: &Path) {
         match super::disk::read_bytes(path) {
             Ok(bytes) => {

@@ -1,4 +1,4 @@
-//! Has the selected dataset examined while the sheet of findings is open.
+//! Starts the data check of the selected dataset while the sheet of findings is open.
 
 use super::jobs::Lane;
 use super::state::Sheet;
@@ -7,7 +7,7 @@ use super::work::Outcome;
 use std::sync::Arc;
 
 impl App {
-    /// Asks for what the checks say about the dataset that is shown.
+    /// Starts the data check of the dataset that is shown.
     pub(super) fn ask_findings(&mut self) {
         let Some(dataset) = self.state.dataset.value.clone().filter(|_| self.state.sheet == Some(Sheet::Findings))
         else {

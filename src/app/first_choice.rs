@@ -1,4 +1,4 @@
-//! A product as it is first shown.
+//! First display of a product.
 
 use super::control;
 use super::scene::{Selection, fill, set_rule};
@@ -6,7 +6,7 @@ use super::state::Document;
 use crate::catalogue::FirstRule;
 use crate::study::control::year::CONTROLLED;
 
-/// Puts a product into a document as it is first shown: by its own rule, else in the state that is named.
+/// Puts a product into a document as it is first shown: with its own control rule, else in the state that is given.
 pub(super) fn first_choice(document: &mut Document, product: String, rule: FirstRule, state: Option<&str>) {
     let keys = control::first_keys(rule);
     let state = if keys.is_some() { CONTROLLED } else { state.unwrap_or_default() };

@@ -1,4 +1,4 @@
-//! Looks for fonts in a job when the window shows characters that it has no font for.
+//! Searches for fonts in a job when the window shows characters that it has no font for.
 
 use super::jobs::Lane;
 use super::theme::fallback;
@@ -8,7 +8,7 @@ use crate::texts::{character_names, shell};
 use egui::FontData;
 
 impl App {
-    /// Looks for fonts for what this frame could not draw.
+    /// Starts the search for fonts with the characters that this frame could not draw.
     pub(super) fn ask_fonts(&mut self) {
         // A newer job would replace the one that is under way.
         if self.jobs.busy(Lane::Fonts) {
@@ -24,7 +24,7 @@ impl App {
         }
     }
 
-    /// Installs the fonts that were found, and names the characters that no font has, once for a script.
+    /// Installs the fonts that were found, and names the characters that no font has, once per script.
     pub(super) fn take_fonts(&mut self, fonts: Vec<(String, FontData)>, missing: Vec<char>) {
         for (name, data) in fonts {
             self.ctx.add_font(fallback(&name, data));

@@ -1,4 +1,4 @@
-//! Fonts of the system for characters that the built-in fonts lack: looked for only when a text that is shown has such
+//! System fonts for characters that the built-in fonts lack: searched only when a text that is shown has such
 //! characters, and in a job, because listing the fonts of a system takes long.
 
 use crate::texts::is_syllable;
@@ -8,7 +8,7 @@ use egui_system_font_provider::SystemFontProvider;
 use std::collections::BTreeSet;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-/// Looks for fonts that have characters. Returns them by name, and the characters that no font has.
+/// Function that searches fonts with the given characters; returns them by name, and the characters that no font has.
 pub type FindFonts = fn(&[char]) -> (Vec<(String, FontData)>, Vec<char>);
 
 /// Characters that were shown and that no installed font has.
@@ -17,10 +17,10 @@ pub struct MissingCharacters(Mutex<Characters>);
 
 #[derive(Default)]
 struct Characters {
-    /// Characters that a font was looked for.
+    /// Characters that fonts were searched for.
     known: BTreeSet<char>,
     new: Vec<char>,
-    /// Scripts that a notice was given for.
+    /// Scripts that a notice was shown for.
     noticed: BTreeSet<u32>,
 }
 
@@ -29,7 +29,7 @@ impl MissingCharacters {
         act(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Returns the characters that were missed since the last call.
+    /// Returns the characters found missing since the last call.
     pub(super) fn take(&self) -> Vec<char> {
         self.with(|characters| std::mem::take(&mut characters.new))
     }
@@ -47,7 +47,7 @@ impl MissingCharacters {
 }
 
 impl FontProvider for MissingCharacters {
-    /// Notes the character, and has no font: the window would wait for the answer.
+    /// Records the character and returns no font: the window would wait for the answer.
     fn font_for(&self, request: &FallbackRequest<'_>) -> Option<FontInsert> {
         let character = request.cluster.chars().next()?;
         self.with(|characters| {
@@ -59,7 +59,7 @@ impl FontProvider for MissingCharacters {
     }
 }
 
-/// Looks among the fonts of the system.
+/// Searches the fonts of the system.
 pub fn system_fonts(characters: &[char]) -> (Vec<(String, FontData)>, Vec<char>) {
     static SYSTEM: LazyLock<SystemFontProvider> = LazyLock::new(SystemFontProvider::new);
     let (mut fonts, mut missing) = (Vec::new(), Vec::new());
@@ -74,7 +74,7 @@ pub fn system_fonts(characters: &[char]) -> (Vec<(String, FontData)>, Vec<char>)
     (fonts, missing)
 }
 
-/// Looks nowhere: for tests, which show the same on every machine.
+/// Returns no fonts: for tests, which show the same on every machine.
 pub fn no_fonts(characters: &[char]) -> (Vec<(String, FontData)>, Vec<char>) {
     (Vec::new(), characters.to_vec())
 }

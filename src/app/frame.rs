@@ -1,4 +1,4 @@
-//! Frame by frame: takes in what jobs brought, obeys keys and dropped files, draws, does what was asked. Never waits.
+//! Work of a frame: takes results of jobs, handles keys and dropped files, draws, acts on commands. Never waits.
 
 use super::backend::{StudyEngine, open_shelf};
 use super::command::Command;
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl App {
-    /// Everything before drawing: results, keys, dropped files, requests. Never waits.
+    /// Prepares a frame before drawing: results, keys, dropped files, requests. Never waits.
     pub fn logic(&mut self, ctx: &egui::Context) {
         let _speaking = self.speak();
         if !self.installed {
@@ -63,7 +63,7 @@ impl App {
         }
     }
 
-    /// Draws one frame and does what was asked in it.
+    /// Draws one frame and acts on its commands.
     pub fn draw(&mut self, ui: &mut egui::Ui) {
         let _speaking = self.speak();
         if self.opened.take(&self.state, ui.ctx().cumulative_frame_nr()) {
@@ -88,7 +88,7 @@ impl App {
     }
 }
 
-/// Where earlier versions kept their settings.
+/// Key under which earlier versions stored their settings.
 const SETTINGS_KEY: &str = "cfs-settings";
 
 impl eframe::App for App {
@@ -105,14 +105,14 @@ impl eframe::App for App {
     }
 }
 
-/// Name under which the desktop knows the window, and the folder of what is kept of it.
+/// Name by which the desktop identifies the window, and name of the folder with its stored state.
 const APP_ID: &str = "cfs";
 
-/// The window's icon, as desktops show it that have no desktop file of ours.
+/// Icon of the window, for desktops without our desktop file.
 const ICON: &[u8] = include_bytes!("../../assets/desktop/cfs-256.png");
 
-/// Opens the window and returns when it is closed. `catalogue`: its file, else the user's own; `open`: files to read
-/// at once.
+/// Opens the window and returns when it is closed. `catalogue`: path of the catalogue, or `None` for the user's own;
+/// `open`: files to read at once.
 pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     let catalogue = catalogue.map(Path::to_path_buf);
     let sessions = sessions_folder();
@@ -161,7 +161,8 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     .map_err(|error| anyhow::anyhow!(no_window(&error.to_string())))
 }
 
-/// Says why there is no window, without the place in a library's code where that was found, and what works without one.
+/// Returns the message why no window can be opened, without the source location in a library, and what works without a
+/// window.
 fn no_window(error: &str) -> String {
     let placed = error.split_once("os error at ").and_then(|(_, rest)| rest.split_once(": "));
     let reason = placed.map_or(error, |(_, reason)| reason).trim_end_matches('.');

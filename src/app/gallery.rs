@@ -1,4 +1,4 @@
-//! Pictures of products for the gallery: made on a thread for the cards in sight, kept by the content of the data.
+//! Pictures of products for the gallery: made on a thread for the visible cards, cached by the content of the data.
 
 use super::shelf::{Entry, Shelf};
 use crate::catalogue::TYPICAL_SUN;
@@ -9,15 +9,15 @@ use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// Most pictures made at a time: the first are in sight before the last are begun.
+/// Maximum number of pictures made at a time, so that the first are visible before the last are begun.
 const AT_ONCE: usize = 12;
-/// Most pictures that are kept; with more they are made anew as they come into sight.
+/// Maximum number of pictures in the cache; when exceeded, pictures are made again as they become visible.
 const MOST: usize = 1500;
 
-/// A picture that was made, by the hash of the data; `None` where the data cannot be drawn.
+/// Finished picture by the hash of the data; `None` if the data cannot be drawn.
 pub type Made = (Arc<str>, Option<Arc<ColorImage>>);
 
-/// What is asked for: key of the product and of its state, hash of the data.
+/// Requested picture: keys of product and state, hash of the data.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Wanted {
     product: String,
@@ -25,16 +25,16 @@ pub(super) struct Wanted {
     pub(super) dataset: Arc<str>,
 }
 
-/// The pictures.
+/// Cache of the pictures.
 #[derive(Default)]
 pub struct Gallery {
     pictures: HashMap<Arc<str>, Option<TextureHandle>>,
     wanted: Vec<Wanted>,
-    /// Columns of cards, as drawn last.
+    /// Number of columns of cards, as drawn last.
     pub columns: usize,
 }
 
-/// Where the light of the sun goes that a state stands for its product by.
+/// Draws the emergent light of a state of a product, for sunlight at the polar angle [`TYPICAL_SUN`].
 pub(super) fn picture(shelf: &dyn Shelf, wanted: &Wanted) -> Option<Arc<ColorImage>> {
     let dataset = shelf.load(&wanted.product, Some(&wanted.state)).ok()?;
     let btdf = dataset.transmission()?;
@@ -45,7 +45,7 @@ pub(super) fn picture(shelf: &dyn Shelf, wanted: &Wanted) -> Option<Arc<ColorIma
 }
 
 impl Gallery {
-    /// The picture of a product, if it is there; else it is made.
+    /// Returns the picture of a product, or requests it if it is missing.
     pub fn of(&mut self, entry: &Entry) -> Option<&TextureHandle> {
         let dataset = entry.dataset.as_ref()?;
         if !self.pictures.contains_key(dataset) && self.wanted.iter().all(|one| one.dataset != *dataset) {
@@ -58,7 +58,7 @@ impl Gallery {
         self.pictures.get(dataset)?.as_ref()
     }
 
-    /// What cards in sight have asked for since the last time, and is not there.
+    /// Returns the pictures that visible cards have requested since the last call and that are missing.
     pub(super) fn wanted(&mut self) -> Vec<Wanted> {
         let mut list = std::mem::take(&mut self.wanted);
         list.retain(|one| !self.pictures.contains_key(&one.dataset));
@@ -66,7 +66,7 @@ impl Gallery {
         list
     }
 
-    /// Is there a picture of data of this hash?
+    /// Whether there is a picture of data with this hash.
     pub fn has(&self, dataset: &str) -> bool {
         self.pictures.get(dataset).is_some_and(Option::is_some)
     }

@@ -1,4 +1,4 @@
-//! The sheet of the numerical goniophotometer: the system file as typed, what is asked, the states that are finished.
+//! Sheet of the virtual goniophotometer: the system file as typed, the setup, the finished states.
 //!
 //! Every state is a job of its own, so that finished ones show at once and stay when the run is stopped.
 
@@ -18,34 +18,35 @@ use crate::texts::{Text, goniophotometer as texts};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Seed of what is drawn at random.
+/// Seed of random numbers.
 const SEED: u64 = 1;
-/// States on more emergent cells than this are held in compact form: a family at 1° would fill the memory.
+/// Number of emergent cells above which states are held in compact form: a family of states at 1° would fill the
+/// memory.
 const MOST_WHOLE_CELLS: usize = 1000;
 
-/// Incident cells.
+/// Basis of the incident directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Incidence {
-    /// LBNL/Klems Full.
+    /// Klems full basis (LBNL).
     Klems,
-    /// Tregenza's lattice on the façade.
+    /// Tregenza patches, on the plane of the façade.
     Tregenza,
 }
 
-/// Emergent cells.
+/// Basis of the emergent directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Emergence {
-    /// LBNL/Klems Full.
+    /// Klems full basis (LBNL).
     Klems,
-    /// Even cells of this width. \[°\]
+    /// Even division into cells of this width. \[°\]
     Even(u8),
 }
 
 impl Incidence {
-    /// Both.
+    /// All bases for the incident directions.
     pub const ALL: [Self; 2] = [Self::Klems, Self::Tregenza];
 
-    /// As listed.
+    /// Returns the label.
     pub const fn word(self) -> Text {
         match self {
             Self::Klems => texts::KLEMS,
@@ -55,10 +56,10 @@ impl Incidence {
 }
 
 impl Emergence {
-    /// What is listed.
+    /// Bases for the emergent directions, as listed.
     pub const ALL: [Self; 4] = [Self::Klems, Self::Even(5), Self::Even(2), Self::Even(1)];
 
-    /// As listed.
+    /// Returns the label.
     pub fn word(self) -> String {
         match self {
             Self::Klems => texts::KLEMS.into(),
@@ -67,14 +68,14 @@ impl Emergence {
     }
 }
 
-/// On which cells, and how exactly.
+/// Bases and accuracy of a computation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setup {
-    /// Incident cells.
+    /// Basis of the incident directions.
     pub incidence: Incidence,
-    /// Emergent cells.
+    /// Basis of the emergent directions.
     pub emergence: Emergence,
-    /// Absolute error allowed in τ and ρ of any incidence.
+    /// Absolute error allowed in τ and ρ of any incident direction.
     pub error: f64,
 }
 
@@ -85,7 +86,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// For the study.
+    /// Returns the request to the study.
     pub fn request(&self) -> Request {
         let klems = || RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
         Request {
@@ -103,62 +104,63 @@ impl Setup {
     }
 }
 
-/// A finished state.
+/// Finished state of a run.
 #[derive(Debug, Clone)]
 pub struct Finished {
-    /// The four functions.
+    /// Dataset with the four functions of the state.
     pub dataset: Arc<Dataset>,
     /// Transmittance at normal incidence.
     pub tau_normal: f64,
-    /// Balance, reciprocity, error.
+    /// Energy balance, reciprocity and numerical error.
     pub quality: Option<Quality>,
-    /// Time it took. \[s\]
+    /// Computing time. \[s\]
     pub seconds: f64,
 }
 
-/// A run of all states of one text.
+/// Run over all states of one system file.
 #[derive(Debug, Clone)]
 pub struct Run {
-    /// What is measured.
+    /// Described system that is computed.
     pub described: Arc<Described>,
-    /// On which cells.
+    /// Bases and accuracy of the run.
     pub setup: Setup,
-    /// Keys of the states; `None` until the first job has found them.
+    /// Keys of the states; `None` until the first job has determined them.
     pub states: Option<Vec<String>>,
-    /// Finished ones, in order.
+    /// Finished states, in order.
     pub finished: Vec<Finished>,
 }
 
 impl Run {
-    /// Are all states finished?
+    /// Whether all states are finished.
     pub fn complete(&self) -> bool {
         self.states.as_ref().is_some_and(|states| states.len() == self.finished.len())
     }
 }
 
-/// What the sheet holds. Not under undo: nothing of it is in the catalogue before it is added.
+/// State of the goniophotometer's sheet. Not covered by undo, because nothing of it is in the catalogue before it is
+/// added.
 #[derive(Debug, Default)]
 pub struct Bench {
-    /// The system file as typed.
+    /// Text of the system file, as typed.
     pub text: String,
-    /// What the text names other files relative to.
+    /// Folder that relative names in the text start from.
     pub base: PathBuf,
-    /// The text as read, or what is wrong with it; `None` while there is none.
+    /// Text as read, or its error; `None` if the text is empty.
     pub described: Option<Result<Arc<Described>, AppError>>,
-    /// Counts the texts.
+    /// Number of changes of the text so far.
     pub revision: u64,
     /// Number of the state that is drawn.
     pub drawn: usize,
-    /// On which cells.
+    /// Bases and accuracy that are selected.
     pub setup: Setup,
-    /// The last run.
+    /// Last run, finished or not.
     pub run: Option<Run>,
-    /// Why the last run ended early.
+    /// Reason why the last run ended early.
     pub failure: Option<String>,
 }
 
 impl Bench {
-    /// Takes a new text.
+    /// Sets and reads a new text.
     pub fn set_text(&mut self, text: String) {
         self.revision += 1;
         self.described = (!text.trim().is_empty()).then(|| check(&text, self.base.clone()).map(Arc::new));
@@ -166,23 +168,23 @@ impl Bench {
         self.drawn = self.drawn.min(self.states().len().saturating_sub(1));
     }
 
-    /// The text as read, if it is right.
+    /// Returns the described system, if the text is valid.
     pub fn valid(&self) -> Option<&Arc<Described>> {
         self.described.as_ref()?.as_ref().ok()
     }
 
-    /// Keys of the states that can be drawn.
+    /// Returns the keys of the states that can be drawn.
     pub fn states(&self) -> Vec<String> {
         self.valid().map(|described| described.file.system.states()).unwrap_or_default()
     }
 
-    /// Does the last run belong to what is asked now?
+    /// Whether a run belongs to the current text and setup.
     pub fn is_current(&self, run: &Run) -> bool {
         run.setup == self.setup && self.valid().is_some_and(|described| *described == run.described)
     }
 }
 
-/// Reads a text and tries its geometry, which only building the system shows to be possible.
+/// Reads a text and checks its geometry, whose errors show only when the system is built.
 fn check(text: &str, base: PathBuf) -> Result<Described, AppError> {
     let described = Described::from_text(text, Base::Folder(base))?;
     let system = &described.file.system;
@@ -195,7 +197,7 @@ fn check(text: &str, base: PathBuf) -> Result<Described, AppError> {
     Ok(described)
 }
 
-/// Measures the state after those that are finished.
+/// Computes the next state after the finished ones.
 pub fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<String>, Finished), AppError> {
     let states = match &run.states {
         Some(states) => states.clone(),
@@ -212,9 +214,9 @@ pub fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<S
     Ok((states, finished))
 }
 
-/// What is stored with the states.
+/// Returns the product that is stored with the states.
 pub fn product(run: &Run) -> NewProduct {
-    // Names hang on the states alone, the description on what every state was computed from.
+    // Names depend on the states alone, the description on what every state was computed from.
     let named = |finished: &Finished| Dataset {
         state: finished.dataset.state.clone(),
         described: finished.dataset.described.clone(),
@@ -231,7 +233,7 @@ fn package(run: &Run) -> Result<Vec<u8>, CatalogueError> {
     catalogue.export_package(&[imported.key])
 }
 
-/// The files that [`export`] writes for a path.
+/// Returns the files that [`export`] writes for a path.
 pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
     if ends_in(path, "cfsp") || run.finished.len() < 2 {
         return vec![path.to_owned()];
@@ -242,7 +244,8 @@ pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
     run.finished.iter().map(|one| of_state(&one.dataset.state)).collect()
 }
 
-/// Writes all states: one package (.cfsp), or a file a state (.xml, .btdf.txt), named by the states if there are several.
+/// Writes all states: one package (.cfsp), or one file per state (.xml, .btdf.txt), named by the states if there are
+/// several.
 pub fn export(run: &Run, path: &Path, made_from: &[PathBuf]) -> Result<PathBuf, AppError> {
     let told = |error: AppError| error.about(path.display());
     if ends_in(path, "cfsp") {

@@ -1,4 +1,4 @@
-//! Handing on: what, in which form, and under which name. The choices are kept from one start to the next.
+//! Choices of the export dialog: content, form and name. They are kept from one start to the next.
 
 use super::moment;
 use super::safe_name::safe;
@@ -14,30 +14,30 @@ use crate::texts::{Language, Text, hand_on as texts};
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
 
-/// What is handed on.
+/// Content of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum What {
-    /// A tile as a picture.
+    /// Picture of a tile.
     #[default]
     Picture,
-    /// A PDF.
+    /// Report as PDF.
     Report,
-    /// The window as a luminaire at the scene's moment.
+    /// Luminaire file of the aperture at the scene's moment.
     Luminaire,
-    /// The same for many moments and states.
+    /// Luminaire files for many moments and states.
     Series,
-    /// A tile's numbers.
+    /// Numbers of a tile.
     Table,
-    /// The data of the state that is shown.
+    /// Data of the state that is shown.
     Dataset,
-    /// The product with all its states.
+    /// Product with all its states.
     Package,
-    /// Everything that this study needs, as text.
+    /// Scene with everything that the study needs, as text.
     Scene,
 }
 
 impl What {
-    /// All, as they are offered.
+    /// All contents, in the order in which they are offered.
     pub const ALL: [Self; 8] = [
         Self::Picture,
         Self::Report,
@@ -49,7 +49,7 @@ impl What {
         Self::Scene,
     ];
 
-    /// Its name, and one sentence.
+    /// Returns the label and the tooltip.
     pub const fn words(self) -> [Text; 2] {
         match self {
             Self::Picture => [texts::PICTURE, texts::PICTURE_TIP],
@@ -64,13 +64,13 @@ impl What {
     }
 }
 
-/// Which report.
+/// Kind of report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum ReportKind {
-    /// On the scene.
+    /// Report on the scene.
     #[default]
     Study,
-    /// On its product.
+    /// Product sheet.
     Sheet,
 }
 
@@ -78,13 +78,13 @@ pub enum ReportKind {
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Series {
-    /// Which months, on their 21st.
+    /// Months that are included, each on its 21st.
     pub months: [bool; 12],
-    /// First and last hour of the day.
+    /// First and last hour of the day. \[h\]
     pub hours: [u8; 2],
-    /// Hours from one to the next, at least 1.
+    /// Hours between moments, at least 1.
     pub step: u8,
-    /// All states of the product, else the one that is shown.
+    /// Whether all states of the product are included; otherwise the one that is shown.
     pub all_states: bool,
 }
 
@@ -96,43 +96,43 @@ impl Default for Series {
     }
 }
 
-/// All choices.
+/// All choices of the export dialog.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Choices {
-    /// What.
+    /// Content of the export.
     pub what: What,
-    /// Of pictures and tables: which tile.
+    /// Tile of pictures and tables.
     pub tile: TileKind,
-    /// Of pictures: their size.
+    /// Size of pictures.
     pub size: Size,
-    /// Vectors (.svg) instead of pixels (.png).
+    /// Whether pictures are written as vectors (.svg) instead of pixels (.png).
     pub vector: bool,
-    /// For printers.
+    /// Whether pictures have the colours for print.
     pub print: bool,
-    /// Words round a picture.
+    /// Whether a picture has a caption.
     pub caption: bool,
-    /// Of reports: which.
+    /// Kind of report.
     pub report: ReportKind,
-    /// Title of a study; empty: the product's name.
+    /// Title of a study report; empty: the product's name.
     pub title: String,
-    /// What it is to answer.
+    /// Question that a study report answers.
     pub question: String,
-    /// Of a study: with the candidates of the tray.
+    /// Whether a study report includes the candidates of the comparison.
     pub comparison: bool,
     /// Template of a product sheet's tender text.
     pub tender: String,
-    /// Luminaires as LM-63 (.ies) instead of EULUMDAT (.ldt).
+    /// Whether luminaires are written as LM-63 (.ies) instead of EULUMDAT (.ldt).
     pub ies: bool,
-    /// The aperture cut into as many luminaires as light a room rightly, with an index.
+    /// Whether the aperture is split into as many luminaires as light a room within 1 %, with an index.
     pub tiles: bool,
-    /// The straight sunbeam is left to the other program.
+    /// Whether unscattered direct sun is left to the other program.
     pub without_beam: bool,
-    /// Of a series.
+    /// Moments and states of a series.
     pub series: Series,
-    /// Datasets as text (.btdf.txt) instead of BSDF XML.
+    /// Whether datasets are written as text (.btdf.txt) instead of BSDF XML.
     pub text: bool,
-    /// Tables with decimal commas and semicolons.
+    /// Whether tables have decimal commas and semicolons.
     pub decimal_comma: bool,
 }
 
@@ -160,11 +160,11 @@ impl Default for Choices {
     }
 }
 
-/// Most files of a series: more are a mistake of the choice.
+/// Maximum number of files of a series; a larger number is taken as a mistake.
 pub const MOST_FILES: usize = 600;
 
 impl Choices {
-    /// Ending of the file, with its point.
+    /// Returns the extension of the file, with its point.
     pub const fn ending(&self) -> &'static str {
         match self.what {
             What::Picture if self.vector => ".svg",
@@ -180,72 +180,73 @@ impl Choices {
         }
     }
 
-    /// Format of a dataset.
+    /// Returns the format of a dataset.
     pub const fn format(&self) -> Format {
         if self.text { Format::BtdfText } else { Format::BsdfXml }
     }
 }
 
-/// What is seen of what would be written.
+/// Preview of an export.
 pub enum Preview {
-    /// A picture: width, height, and pixels row by row; and what is to be said of it.
+    /// Picture: width and height \[px\], pixels row by row, and a note.
     Picture([usize; 2], Vec<u8>, String),
-    /// The first lines of a text, and its length in bytes.
+    /// First lines of a text, and its length in bytes.
     Text(String, usize),
-    /// Files that will be written, and what is known of each.
+    /// Files that will be written, each with a description.
     Files(Vec<(String, String)>),
 }
 
-/// The dialog.
+/// State of the export dialog.
 #[derive(Default)]
 pub struct HandOn {
-    /// What the preview is of; `None`: none was asked for.
+    /// Key of the requested preview; `None` if none was requested.
     pub asked: Option<Key>,
-    /// The last preview, or why there is none.
+    /// Last preview, or the reason why there is none.
     pub shown: Option<Result<Preview, String>>,
-    /// Counts the previews, for the texture.
+    /// Number of previews so far, for the texture.
     pub revision: u64,
-    /// A tile's numbers, and of which choices they are.
+    /// Numbers of a tile, with the key that they belong to.
     pub numbers: Option<(Key, String)>,
-    /// The name that was offered; another in the field is the user's own.
+    /// Name that was proposed; another name in the field is the user's own.
     pub offered: String,
 }
 
-/// All that a preview hangs on.
+/// Everything that a preview depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
-    /// What is asked.
+    /// Choices of the dialog.
     pub choices: Choices,
-    /// Of which scene.
+    /// Current scene.
     pub scene: SceneFile,
-    /// Of which product.
+    /// Selected product and state.
     pub selection: Selection,
-    /// For which incidence, to the bit.
+    /// Incident direction, as bits of its vector.
     pub incident: Option<[u64; 3]>,
-    /// Which tile of the candidates, and which of them the others are less.
+    /// Tile of the comparison, and place of its reference.
     pub compared: (TileKind, usize),
-    /// Which year was computed, and how it is looked at.
+    /// Revision of the annual simulation, and its display settings.
     pub year: (u64, Look),
-    /// Which ranking is known, and how it is looked at.
+    /// Revision of the ranking, and its display settings.
     pub ranking: (u64, Choosing),
-    /// In which language.
+    /// Language of the texts.
     pub language: Language,
 }
 
-/// One file of a series.
+/// Moment of a series, one file each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
-    /// Its name.
+    /// Name of the file.
     pub name: String,
-    /// Its scene.
+    /// Scene of the file.
     pub scene: SceneFile,
-    /// When.
+    /// Date and time.
     pub time: DateTime,
-    /// Key of the state; empty: as the scene has it.
+    /// Key of the state; empty: as in the scene.
     pub state: String,
 }
 
-/// The files of a series beside an index at `path`. Moments with the sun below the horizon are left out.
+/// Returns the moments of a series, with files beside an index at `path`. Moments with the sun below the horizon are
+/// left out.
 pub fn moments(
     choices: &Choices,
     scene: &SceneFile,
@@ -287,7 +288,7 @@ pub fn moments(
     list
 }
 
-/// Puts every aperture from the catalogue into a state.
+/// Sets the state of every aperture that is filled from the catalogue.
 fn in_state(scene: &mut SceneFile, key: &str) {
     scene.control = None;
     for aperture in &mut scene.aperture {

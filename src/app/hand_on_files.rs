@@ -1,4 +1,4 @@
-//! The bytes of what is handed on, and what is seen of them before. Runs in jobs.
+//! Bytes of exported files, and their previews. Runs in jobs.
 
 use super::disk::{create_folder, write_several};
 use super::engine::{Engine, Question};
@@ -31,38 +31,38 @@ use crate::texts::hand_on as texts;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What a job needs to know.
+/// Input of an export job.
 pub struct Order {
-    /// In which form.
+    /// Choices of the dialog.
     pub choices: Choices,
-    /// The scene.
+    /// Scene and catalogue.
     pub question: Question,
-    /// The incidence that was chosen.
+    /// Incident direction that was chosen.
     pub incident: Option<Incident>,
-    /// The product that is shown.
+    /// Product that is shown.
     pub product: Option<Arc<Product>>,
-    /// The data of its state.
+    /// Dataset of the state that is shown.
     pub dataset: Option<Arc<Dataset>>,
-    /// Of the candidates in a study: which tile, and which of them the others are less.
+    /// Tile of the comparison in a study report, and place of its reference.
     pub compared: (TileKind, usize),
-    /// The scene's file, if it has one.
+    /// Path of the scene's file, if it has one.
     pub scene_path: Option<PathBuf>,
-    /// The year of the scene, where it was computed, and how it is looked at.
+    /// Annual simulation of the scene, if it was computed, with its display settings.
     pub year: Option<(Arc<Annual>, Look)>,
-    /// The ranking of the scene, where there is one, and how it is looked at.
+    /// Ranking of the scene, if there is one, with its display settings.
     pub ranking: Option<(Arc<Shortlist>, Choosing)>,
     /// Numbers of the tile.
     pub numbers: Option<String>,
-    /// Computes.
+    /// Engine for the computations.
     pub engine: Arc<dyn Engine>,
 }
 
-/// What is written where.
+/// Paths with the bytes that are written there.
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
-/// A preview's picture is at most so wide and high. \[px\]
+/// Maximum width and height of a preview's picture. \[px\]
 const PREVIEW: f64 = 900.0;
-/// Lines of a text that are shown.
+/// Number of lines of a text that are shown.
 const LINES: usize = 40;
 
 fn check(progress: &dyn Progress) -> Result<(), AppError> {
@@ -74,14 +74,14 @@ impl Order {
         if self.choices.print { &Inks::PRINT } else { &Inks::LIGHT }
     }
 
-    /// The tile that is chosen, as a drawing.
+    /// Draws the chosen tile.
     pub(super) fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
         let choices = &self.choices;
         // Before anything is computed: settings of another day may hold any number.
         let Size { width, height, unit } = choices.size;
         let look =
             PictureLook { size: Size::new(width, height, unit)?, print: choices.print, caption: choices.caption };
-        // The year is the one that the window has: it is not computed anew for a picture.
+        // The year is the one that the window has: it is not computed again for a picture.
         let wanted = Wanted { year: false, ..choices.tile.needs() };
         let mut subject = self.engine.subject(&self.question, self.incident, wanted, progress)?;
         subject.year.clone_from(&self.year);
@@ -89,7 +89,7 @@ impl Order {
         Ok(picture(&subject, choices.tile, &look)?)
     }
 
-    /// Title and pages.
+    /// Returns title and pages of a report.
     fn report(&self, progress: &dyn Progress) -> Result<(String, Vec<Drawing>), AppError> {
         let choices = &self.choices;
         let subject = self.engine.subject(&self.question, self.incident, Wanted::ALL, progress)?;
@@ -118,7 +118,7 @@ impl Order {
         Ok((subject.name, pages))
     }
 
-    /// Returns the bytes of everything that is one file. `warning`: what they do not show as it is.
+    /// Returns the bytes of an export that is a single file. `warning`: what the file does not show as it is.
     fn bytes(&self, path: &Path, warning: &mut Option<String>, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
         let choices = &self.choices;
         Ok(match choices.what {
@@ -159,7 +159,7 @@ impl Order {
         })
     }
 
-    /// The product with all its states, which are computed where they are not yet.
+    /// Returns the package of the product with all its states; missing states are computed.
     fn package(&self, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
         let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
         let count = product.states.len();
@@ -199,7 +199,8 @@ impl Order {
         }
     }
 
-    /// The scene's window as luminaires; `path`: of the one file, from which tiles have their names.
+    /// Computes the luminaire files of the scene's aperture; `path`: that of the single file, from which the files of a
+    /// grid get their names.
     fn luminaires(&self, scene: &SceneFile, path: &Path, progress: &dyn Progress) -> Result<LuminaireSet, AppError> {
         let Choices { tiles, without_beam, .. } = self.choices;
         let format =
@@ -210,7 +211,8 @@ impl Order {
         self.engine.luminaires(&question, &wish, path, progress)
     }
 
-    /// The window in tiles in a folder of their own, and their index last, so that it never names a file that is not there.
+    /// Returns the files of a grid of luminaires in a folder of its own, with the index last, so that it never names a
+    /// missing file.
     fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<Files, AppError> {
         let path = in_own_folder(path);
         let set = self.luminaires(&self.question.scene, &path, progress)?;
@@ -220,7 +222,7 @@ impl Order {
         Ok(files)
     }
 
-    /// The luminaire files of each moment, and the index last, so that it never names a file that is not there.
+    /// Returns the luminaire files of each moment, with the index last, so that it never names a missing file.
     fn series(&self, path: &Path, progress: &dyn Progress) -> Result<Files, AppError> {
         let moments = self.moments(path)?;
         let (mut rows, mut files) = (Vec::new(), Vec::with_capacity(moments.len() + 1));
@@ -238,10 +240,10 @@ impl Order {
         Ok(files)
     }
 
-    /// Makes everything, then writes it: whole, or not at all. Returns the path, and what the file does not show as it is.
+    /// Computes all files, then writes them, all or none. Returns the path, and what the file does not show as it is.
     ///
     /// # Errors
-    /// What cannot be made, or not be written; then no file is new.
+    /// Returns an error if a file cannot be made or written; then no new file is left.
     pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<(PathBuf, Option<String>), AppError> {
         if !path.to_string_lossy().to_lowercase().ends_with(self.choices.ending()) {
             return Err(AppError::HandOnEnding(self.choices.ending()).about(path.display()));
@@ -272,10 +274,10 @@ impl Order {
         Ok((index, warning))
     }
 
-    /// What would be written at a path, as far as it can be shown.
+    /// Returns a preview of what would be written at a path.
     ///
     /// # Errors
-    /// What cannot be made.
+    /// Returns an error if the content cannot be made.
     pub fn preview(&self, path: &Path, progress: &dyn Progress) -> Result<Preview, AppError> {
         let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         Ok(match self.choices.what {
@@ -335,12 +337,12 @@ impl Order {
     }
 }
 
-/// A file's path in a folder that bears its name.
+/// Returns the path of a file in a folder that has its name.
 pub(super) fn in_own_folder(path: &Path) -> PathBuf {
     path.with_extension("").join(path.file_name().unwrap_or_default())
 }
 
-/// The index beside the files of tiles.
+/// Returns the path of the index beside the files of a grid.
 pub(super) fn index_of(path: &Path) -> PathBuf {
     path.with_extension("index.csv")
 }

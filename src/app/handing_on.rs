@@ -1,4 +1,4 @@
-//! The dialog of handing on at work: its name, its preview, its job.
+//! Acting on the export dialog: its name, its preview, its job.
 
 use super::engine::Question;
 use super::error::AppError;
@@ -16,7 +16,7 @@ use crate::study::luminaire_set::tile_name;
 use crate::texts::{choose, language, year as say};
 use std::path::{Path, PathBuf};
 
-/// What a preview hangs on, of the window as it is.
+/// Returns the key of the preview for the window as it is.
 fn key_of(state: &State, results: &Results) -> Key {
     let document = &state.document;
     let bits = |incident: crate::compute::direction::Incident| incident.0.vector().to_array().map(f64::to_bits);
@@ -32,12 +32,12 @@ fn key_of(state: &State, results: &Results) -> Key {
     }
 }
 
-/// Which tile of the candidates is compared, and which of them the others are less.
+/// Returns the compared tile and the place of the reference.
 fn compared(state: &State) -> (TileKind, usize) {
     (TileKind::titled(state.compare.tile()).unwrap_or(TileKind::Room), state.compare.base)
 }
 
-/// The files that are written for a path.
+/// Returns the files that are written for a path.
 pub fn targets(state: &State, path: &Path) -> Vec<PathBuf> {
     let choices = &state.settings.hand_on;
     let mut list = vec![path.to_owned()];
@@ -58,7 +58,7 @@ fn tile_of(kind: TileKind) -> Option<Tile> {
 }
 
 impl App {
-    /// Opens the dialog for one thing.
+    /// Opens the dialog with this content.
     pub(super) fn hand_on(&mut self, what: What, tile: Option<Tile>) {
         let choices = &mut self.state.settings.hand_on;
         choices.what = what;
@@ -69,7 +69,7 @@ impl App {
         self.offer_hand_on();
     }
 
-    /// Offers folder and name.
+    /// Proposes folder and name.
     pub(super) fn offer_hand_on(&mut self) {
         let start = start_path(&self.state, PathUse::HandOn);
         self.state.path = start.display().to_string();
@@ -77,7 +77,7 @@ impl App {
         self.state.replace = None;
     }
 
-    /// Takes other choices; the name follows them, unless the user has given an own one: then its ending does.
+    /// Sets other choices. The proposed name follows them; of a name that the user typed only the extension does.
     pub(super) fn choose_hand_on(&mut self, choices: Choices) {
         let before = self.state.settings.hand_on.ending();
         self.state.settings.hand_on = choices;
@@ -91,8 +91,8 @@ impl App {
         }
     }
 
-    /// Offers the name of what the window shows now, unless the user has given an own one; true where the name is the one
-    /// that is offered.
+    /// Proposes the name for what the window shows now, unless the user has typed one; returns whether the field holds
+    /// the proposed name.
     fn follow_name(&mut self) -> bool {
         let next = file_name(&self.state, PathUse::HandOn);
         let path = PathBuf::from(&self.state.path);
@@ -105,13 +105,13 @@ impl App {
         offered
     }
 
-    /// Asks the desktop for folder and name.
+    /// Asks for folder and name in the desktop's dialog.
     pub(super) fn browse_hand_on(&mut self) {
         let (dialogs, start) = (self.services.dialogs.clone(), PathBuf::from(&self.state.path));
         self.start(Lane::Export, move |_| Outcome::Target(PathUse::HandOn, dialogs.save(PathUse::HandOn, &start)));
     }
 
-    /// What a job needs; `None` before the catalogue is open and the product is there.
+    /// Returns the input of an export job; `None` before the catalogue is open and the product is read.
     pub(super) fn order(&self) -> Option<Order> {
         let state = &self.state;
         let selected = &state.document.selection.product;
@@ -133,7 +133,7 @@ impl App {
         })
     }
 
-    /// Writes what is chosen.
+    /// Starts writing the export.
     pub(super) fn write_hand_on(&mut self, path: PathBuf) {
         self.state.sheet = Some(Sheet::HandOn);
         match self.order() {
@@ -148,7 +148,7 @@ impl App {
         }
     }
 
-    /// Keeps the preview in step with the window, while the dialog is open and nothing is being dragged or computed.
+    /// Updates the preview while the dialog is open and nothing is being dragged or computed.
     pub(super) fn ask_preview(&mut self) {
         if self.state.sheet != Some(Sheet::HandOn) {
             if self.state.hand_on.asked.take().is_some() {
@@ -193,7 +193,7 @@ impl App {
         self.start(Lane::Preview, move |progress| Outcome::Preview(order.preview(&path, progress)));
     }
 
-    /// Numbers that a tile gave for the dialog.
+    /// Stores the numbers that a tile gave for the dialog.
     pub(super) fn take_numbers(&mut self) {
         if let Some(text) = self.export.handed_on() {
             self.state.hand_on.numbers = Some((key_of(&self.state, &self.results), text));

@@ -1,4 +1,4 @@
-//! What was read from files and is not stored yet: proposed products with their states, and what was left out and why.
+//! Imported files that are not stored yet: proposed products with their states, and what was left out and why.
 
 use super::shelf::Addition;
 use crate::catalogue::{Doubt, Grouping, Known, NewProduct, Provenance, SourceFile, StateName, key_of_angle};
@@ -9,43 +9,43 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Words about a product, as typed.
+/// Texts of a product, as typed.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ImportFields {
-    /// Product name.
+    /// Name of the product.
     pub name: String,
-    /// Maker.
+    /// Name of the maker.
     pub manufacturer: String,
     /// Kind of system.
     pub kind: String,
-    /// Words to find it by, separated by commas.
+    /// Search terms, separated by commas.
     pub tags: String,
-    /// Who measured or computed.
+    /// Person or body that measured or computed the data.
     pub author: String,
-    /// On which terms the data may be passed on.
+    /// Licence of the data.
     pub license: String,
 }
 
 impl ImportFields {
-    /// The tags one by one.
+    /// Returns the tags as a list.
     pub fn tag_list(&self) -> Vec<String> {
         self.tags.split(',').map(|tag| tag.trim().to_owned()).filter(|tag| !tag.is_empty()).collect()
     }
 }
 
-/// A state as it is called, as typed.
+/// Name of a state, as typed.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct StateWords {
-    /// Angle in degrees; may be empty.
+    /// Angle in degrees, as typed; may be empty.
     pub angle: String,
     /// Name; may be empty where there is an angle or no other state.
     pub name: String,
 }
 
 impl StateWords {
-    /// As a dataset calls its state.
+    /// Creates the texts from the key of a state.
     pub fn of(key: &str) -> Self {
         match key.parse::<f64>() {
             Ok(_) => Self { angle: key.to_owned(), name: String::new() },
@@ -53,71 +53,71 @@ impl StateWords {
         }
     }
 
-    /// The angle that was typed, with a comma or a point; `None` where it is none. \[°\]
+    /// Returns the typed angle, with a comma or a point; `None` if it is not a valid angle. \[°\]
     pub fn number(&self) -> Option<f64> {
         let text = self.angle.trim().trim_end_matches('°').replace(',', ".").replace('−', "-");
         text.trim().parse().ok().filter(|angle: &f64| angle.is_finite() && angle.abs() <= 360.0)
     }
 
-    /// Key of the state.
+    /// Returns the key of the state.
     pub fn key(&self) -> String {
         self.number().map_or_else(|| self.name.trim().to_owned(), key_of_angle)
     }
 }
 
-/// A product that the files make, before it is stored.
+/// Product proposed from files, before it is stored.
 #[derive(Debug, Clone, Default)]
 pub struct Proposed {
-    /// What stands for its files, in their order; see [`file_id`].
+    /// Identifiers of its files, in their order; see [`file_id`].
     pub files: Vec<String>,
-    /// It comes out of a package, which is whole: its states are not taken apart.
+    /// Whether it comes from a package, whose states stay together.
     pub packed: bool,
-    /// What was recognised, one a state, with the repairs made.
+    /// Datasets, one per state, with the repairs made.
     pub datasets: Vec<Arc<Dataset>>,
-    /// The same as the files hold it.
+    /// Datasets as the files hold them, without repairs.
     pub originals: Vec<Arc<Dataset>>,
-    /// What the files hold, whatever it is called, one a state.
+    /// Content hashes of the original data, one per state, independent of names.
     pub contents: Vec<String>,
-    /// The file of each; empty where it was joined from several.
+    /// File of each state; empty if it was joined from several.
     pub sources: Vec<String>,
-    /// The files of each state, by their places in [`Proposed::files`].
+    /// Files of each state, by their places in [`Proposed::files`].
     pub parts: Vec<Vec<usize>>,
-    /// What each state is called.
+    /// Names of the states, as typed.
     pub states: Vec<StateWords>,
-    /// Transmittance of each under uniform light, where there is one.
+    /// Hemispherical transmittance of each state, if there is one.
     pub taus: Vec<Option<f64>>,
-    /// What the data doctor says about each.
+    /// Findings of the data check, one list per state.
     pub diagnoses: Vec<Vec<Diagnosis>>,
     /// Repairs made, in order; recorded when the product is stored.
     pub repairs: Vec<Repair>,
-    /// Repairs that are being made in place of these.
+    /// Repairs that are being made instead of [`Proposed::repairs`].
     pub wished: Option<Vec<Repair>>,
-    /// Fields for the user to fill in.
+    /// Texts for the user to fill in.
     pub fields: ImportFields,
-    /// What else the files tell: provenance, description, control curve, key.
+    /// Other information from the files: provenance, description, control curve, key.
     pub told: NewProduct,
-    /// What is to be asked before it is stored.
+    /// Ambiguity to be resolved before the product is stored.
     pub doubt: Option<Doubt>,
-    /// A file of this import that holds the same data.
+    /// File of this import that holds the same data.
     pub same_as: Option<String>,
     /// Products of the catalogue that hold all of its data.
     pub known: Vec<Known>,
-    /// Stored although it is there already?
+    /// Whether it is stored even if its data are in the catalogue already.
     pub add_anyway: bool,
 }
 
 impl Proposed {
-    /// Is it to be stored, as far as the same is not there already?
+    /// Whether it is to be stored: its data are not there already, or it is added anyway.
     pub fn wanted(&self) -> bool {
         self.add_anyway || (self.known.is_empty() && self.same_as.is_none())
     }
 
-    /// Does it have what a product needs?
+    /// Whether it has a name.
     pub fn named(&self) -> bool {
         !self.fields.name.trim().is_empty()
     }
 
-    /// Why it cannot be stored as it is, in a sentence.
+    /// Returns the reason why it cannot be stored as it is, as a sentence.
     pub fn problem(&self) -> Option<String> {
         if let Some(place) = (0..self.datasets.len()).find(|&place| !transmits(&self.datasets[place])) {
             let file = self.sources.get(place).map_or("", String::as_str);
@@ -142,12 +142,12 @@ impl Proposed {
         None
     }
 
-    /// Will it be stored when the import is added?
+    /// Whether it is stored when the import is added.
     pub fn ready(&self) -> bool {
         self.wanted() && self.doubt.is_none() && self.wished.is_none() && self.problem().is_none()
     }
 
-    /// What is stored.
+    /// Returns the addition to the catalogue.
     pub fn addition(&self) -> Addition {
         let mut order: Vec<usize> = (0..self.datasets.len()).collect();
         if !self.packed && self.states.iter().all(|words| words.number().is_some()) {
@@ -190,78 +190,78 @@ impl Proposed {
 }
 
 impl Proposed {
-    /// Paths of the files of the states, in this order of theirs.
+    /// Returns the paths of the files of the states, in this order of the states.
     fn paths(&self, order: &[usize]) -> Vec<String> {
         let parts = order.iter().flat_map(|&place| self.parts.get(place).into_iter().flatten());
         parts.filter_map(|&part| self.files.get(part).cloned()).collect()
     }
 }
 
-/// Is there what a product needs?
+/// Whether a dataset has a visible transmission.
 fn transmits(dataset: &Dataset) -> bool {
     dataset.transmission().or(dataset.visible.transmission_back.as_ref()).is_some()
 }
 
-/// A number of things in words.
+/// Returns a count with its noun, in the singular or plural.
 pub fn number(count: usize, one: Text, more: fn(usize) -> String) -> String {
     if count == 1 { one.into() } else { more(count) }
 }
 
-/// How the files of an import are taken: what undo goes over.
+/// Arrangement of an import's files, covered by undo.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Arrangement {
-    /// How the files are taken as a whole.
+    /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Which files make a product each, where that was changed by hand.
+    /// Files of each product, if changed by hand.
     pub by_hand: Option<Vec<Vec<String>>>,
-    /// Files about which the question was answered.
+    /// Files whose ambiguity was resolved.
     pub answered: BTreeSet<String>,
 }
 
-/// A step from one arrangement of an import to another.
+/// Step from one arrangement of an import to another.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Arranged {
     /// Files and folders of the import.
     pub paths: Vec<PathBuf>,
-    /// Before the step.
+    /// Arrangement before the step.
     pub before: Arrangement,
-    /// After it.
+    /// Arrangement after the step.
     pub after: Arrangement,
 }
 
-/// A state in the table: number of the product and of the state, from 0.
+/// State in the table: number of the product and of the state, from 0.
 pub type Row = (usize, usize);
 
-/// Which files were read and are not stored yet.
+/// Import: files that were read and are not stored yet.
 #[derive(Debug, Clone, Default)]
 pub struct Import {
     /// Files and folders as they were given.
     pub paths: Vec<PathBuf>,
-    /// How the files are taken.
+    /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Which files make a product each, where that was changed by hand.
+    /// Files of each product, if changed by hand.
     pub by_hand: Option<Vec<Vec<String>>>,
-    /// Files about which the question was answered.
+    /// Files whose ambiguity was resolved.
     pub answered: BTreeSet<String>,
-    /// The dataset files.
+    /// Dataset files.
     pub sources: Vec<Arc<SourceFile>>,
-    /// What they make.
+    /// Products proposed from the files.
     pub products: Vec<Proposed>,
-    /// Files that could not be read: file, place, what, what would be right.
+    /// Errors of files that could not be read: file, place, what was found, what was expected.
     pub failures: Vec<String>,
-    /// Files that are no datasets: file and reason.
+    /// Files that are not datasets: file and reason.
     pub left_out: Vec<String>,
-    /// Rows that are selected.
+    /// Selected rows.
     pub selected: BTreeSet<Row>,
-    /// The row that was selected last: what is shown beside the table.
+    /// Row that was selected last; its details are shown beside the table.
     pub shown: Option<Row>,
-    /// Products whose states are folded away.
+    /// Products whose states are collapsed.
     pub folded: BTreeSet<usize>,
-    /// The products are still those of the arrangement before.
+    /// Whether a new arrangement is being made: the products are still those of the one before.
     pub arranging: bool,
 }
 
-/// What stands for a file in an import: where it lies and its name.
+/// Returns the identifier of a file in an import: its folder and name.
 pub fn file_id(file: &SourceFile) -> String {
     if file.folder.is_empty() {
         file.name.clone()
@@ -271,41 +271,41 @@ pub fn file_id(file: &SourceFile) -> String {
 }
 
 impl Import {
-    /// How its files are taken.
+    /// Returns the arrangement of the files.
     pub fn arrangement(&self) -> Arrangement {
         Arrangement { grouping: self.grouping, by_hand: self.by_hand.clone(), answered: self.answered.clone() }
     }
 
-    /// Those that are to be stored, as far as the same is not there already.
+    /// Returns the products that are to be stored.
     pub fn wanted(&self) -> impl Iterator<Item = &Proposed> {
         self.products.iter().filter(|product| product.wanted())
     }
 
-    /// States of all products.
+    /// Returns the number of states of all products.
     pub fn states(&self) -> usize {
         self.products.iter().map(|product| product.datasets.len()).sum()
     }
 
-    /// Questions that nobody has answered yet, of products that are to be stored.
+    /// Returns the number of unresolved ambiguities of products that are to be stored.
     pub fn questions(&self) -> usize {
         self.wanted().filter(|product| product.doubt.is_some()).count()
     }
 
-    /// All rows, from top to bottom.
+    /// Returns all rows, from top to bottom.
     pub fn rows(&self) -> impl Iterator<Item = Row> {
         let states =
             |(number, product): (usize, &Proposed)| (0..product.datasets.len()).map(move |state| (number, state));
         self.products.iter().enumerate().flat_map(states)
     }
 
-    /// Products that have a selected state.
+    /// Returns the products that have a selected state.
     pub fn selected_products(&self) -> Vec<usize> {
         let mut list: Vec<usize> = self.selected.iter().map(|row| row.0).collect();
         list.dedup();
         list
     }
 
-    /// Files of the states that are selected, and which each product then still has; products of packages are whole.
+    /// Returns the files of the selected states, without products from packages.
     pub fn files_of_selected(&self) -> Vec<String> {
         let mut files: Vec<String> = Vec::new();
         for &(product, state) in &self.selected {
@@ -319,7 +319,7 @@ impl Import {
         files
     }
 
-    /// What it is called among drafts.
+    /// Returns the name in the list of drafts.
     pub fn name(&self) -> String {
         let first = self.paths.first().map(|path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
         let first = first.unwrap_or_default();
@@ -331,26 +331,26 @@ impl Import {
     }
 }
 
-/// Words and repairs of a product that is being imported.
+/// Texts and repairs of an imported product, as kept in a session.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct KeptProduct {
     /// Hash of the files that it is made of.
     pub source_hash: String,
-    /// What stands for its files.
+    /// Identifiers of its files.
     pub files: Vec<String>,
-    /// Words as typed.
+    /// Texts as typed.
     pub fields: ImportFields,
-    /// What its states are called.
+    /// Names of its states.
     pub states: Vec<StateWords>,
     /// Repairs by their names, in order.
     pub repairs: Vec<String>,
-    /// Stored although it is there already?
+    /// Whether it is stored even if its data are in the catalogue already.
     pub add_anyway: bool,
 }
 
 impl KeptProduct {
-    /// Of a product as it is now.
+    /// Creates the entry for a product as it is now.
     pub fn of(product: &Proposed) -> Self {
         Self {
             source_hash: product.told.provenance.source_hash.clone(),
@@ -362,12 +362,12 @@ impl KeptProduct {
         }
     }
 
-    /// The repairs; a name that no repair has any more is left out.
+    /// Returns the repairs; unknown names are left out.
     pub fn made(&self) -> Vec<Repair> {
         self.repairs.iter().filter_map(|word| word.parse().ok()).collect()
     }
 
-    /// Was this kept of the same files?
+    /// Whether the entry was kept for the same files.
     pub fn is_about(&self, product: &Proposed) -> bool {
         if self.files.is_empty() {
             self.source_hash == product.told.provenance.source_hash
@@ -386,26 +386,26 @@ impl KeptProduct {
     }
 }
 
-/// An import that is not stored yet. The files are read again.
+/// Import that is not stored yet, as kept in a session. The files are read again.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct KeptImport {
-    /// What it is called among drafts.
+    /// Name in the list of drafts.
     pub name: String,
-    /// Files and folders.
+    /// Files and folders of the import.
     pub paths: Vec<PathBuf>,
-    /// How they are taken.
+    /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Which files make a product each, where that was changed by hand.
+    /// Files of each product, if changed by hand.
     pub by_hand: Option<Vec<Vec<String>>>,
-    /// Files about which the question was answered.
+    /// Files whose ambiguity was resolved.
     pub answered: BTreeSet<String>,
-    /// What was typed and tried.
+    /// Texts and repairs of the products.
     pub products: Vec<KeptProduct>,
 }
 
 impl KeptImport {
-    /// Of an import.
+    /// Creates the entry for an import.
     pub fn of(import: &Import) -> Self {
         Self {
             name: import.name(),
@@ -417,7 +417,7 @@ impl KeptImport {
         }
     }
 
-    /// Is it what an import holds now?
+    /// Whether the entry equals the current content of an import.
     pub fn is_of(&self, import: &Import) -> bool {
         self.paths == import.paths
             && self.grouping == import.grouping

@@ -1,4 +1,4 @@
-//! From files that were read to the products of the import sheet, and from one arrangement of them to another.
+//! Products of the import sheet, made from files that were read, and changes from one arrangement of them to another.
 
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed, StateWords, file_id};
@@ -18,11 +18,11 @@ struct Part {
     files: Vec<usize>,
     angles: Option<Vec<f64>>,
     doubt: Option<Doubt>,
-    /// The file that holds the same data.
+    /// Name of the file that holds the same data.
     same_as: Option<String>,
 }
 
-/// The parts that names and contents propose. Files of the same data as one before them stand for themselves.
+/// Returns the parts that names and contents propose. A file with the same data as an earlier one is a part of its own.
 fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -> Vec<Part> {
     let mut first: HashMap<(&str, Vec<&str>), usize> = HashMap::new();
     let mut own = Vec::new();
@@ -55,7 +55,7 @@ fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -
     list
 }
 
-/// Which files make a product together.
+/// Returns the parts: the files that make a product together.
 fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<String>]>) -> Vec<Part> {
     let Some(by_hand) = by_hand else {
         return proposed(sources, &(0..sources.len()).collect::<Vec<_>>(), grouping);
@@ -67,7 +67,7 @@ fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<
     // What would be asked without the hand is still asked of products that it did not touch.
     let mut untouched = proposed(sources, &(0..sources.len()).collect::<Vec<_>>(), grouping);
     for group in by_hand {
-        // What is not there any more is left out; it was told when it could not be read.
+        // Missing files are left out; this was reported when they could not be read.
         let files: Vec<usize> =
             group.iter().filter_map(|id| places.get(id).copied()).filter(|&at| !taken[at]).collect();
         files.iter().for_each(|&place| taken[place] = true);
@@ -89,18 +89,18 @@ fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<
     list
 }
 
-/// What products are to be made of, and what is known of them from before.
+/// Context in which products are made from files.
 pub struct Arranging<'a> {
-    /// Where the same content may be already; `None` before the catalogue is open.
+    /// Catalogue that may hold the same content already; `None` before it is open.
     pub shelf: Option<&'a dyn Shelf>,
-    /// Products as they were arranged before; those of the same files stay as they are.
+    /// Products of the arrangement before; those of the same files stay as they are.
     pub before: Vec<Proposed>,
-    /// What was typed and tried on the same files.
+    /// Texts and repairs kept for the same files.
     pub kept: Option<&'a KeptImport>,
 }
 
 impl Arranging<'_> {
-    /// Makes the products of an import from its files; `packed`: products that come out of packages.
+    /// Creates the products of an import from its files; `packed`: products that come from packages.
     pub fn products(mut self, import: &mut Import, packed: Vec<Proposed>, progress: &dyn Progress) {
         let parts = parts(&import.sources, import.grouping, import.by_hand.as_deref());
         let mut list: Vec<(usize, Proposed)> = Vec::new();
@@ -149,7 +149,7 @@ impl Arranging<'_> {
         }
     }
 
-    /// Gives a product what was typed and tried on the same files before.
+    /// Restores the texts and repairs that were kept for the same files.
     fn take_kept(&self, product: &mut Proposed, failures: &mut Vec<String>) {
         carry_over(&self.before, product);
         if let Some(kept) = self.kept.and_then(|kept| kept.products.iter().find(|kept| kept.is_about(product))) {
@@ -172,8 +172,8 @@ impl Arranging<'_> {
     }
 }
 
-/// Gives a product what was typed about its files while they made other products: names and angles of states, maker,
-/// kind, tags and author. Its name is that of its own files.
+/// Copies what was typed about the product's files while they made other products: names and angles of states, maker,
+/// kind, tags and author. The name is that of its own files.
 fn carry_over(before: &[Proposed], product: &mut Proposed) {
     let holding = |file: &String| before.iter().find(|old| !old.packed && old.files.contains(file));
     if let Some(old) = product.files.first().and_then(holding) {
@@ -197,8 +197,8 @@ fn carry_over(before: &[Proposed], product: &mut Proposed) {
     }
 }
 
-/// Gives the products of a new arrangement what was typed and answered while they were made; `names`: of the products
-/// before, by their files, as they were when it was asked for.
+/// Copies what was typed and answered while the products of a new arrangement were made; `names`: those of the products
+/// before, by their files, as they were when it was requested.
 pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)]) {
     new.answered.clone_from(&now.answered);
     for product in &mut new.products {
@@ -221,7 +221,7 @@ pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)])
     }
 }
 
-/// Products of the catalogue that hold all data of this one.
+/// Returns the products of the catalogue that hold all data of this one.
 fn known(product: &Proposed, shelf: &dyn Shelf) -> Vec<Known> {
     let mut list = shelf.products_from(&product.told.provenance.source_hash).unwrap_or_default();
     let mut holding: Option<Vec<Known>> = None;
@@ -253,7 +253,7 @@ fn of_files(files: &[&SourceFile], ids: Vec<String>, part: Part) -> Proposed {
     product
 }
 
-/// A product of datasets with what is told about it.
+/// Creates a product from datasets and their metadata.
 fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed {
     let diagnoses = examine_all(&datasets);
     let datasets: Vec<_> = datasets.into_iter().map(Arc::new).collect();
@@ -278,7 +278,7 @@ fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed
     }
 }
 
-/// A product that comes out of a package.
+/// Creates a product from a package.
 pub fn of_package(package: &str, datasets: Vec<Dataset>, meta: NewProduct) -> Proposed {
     let id = format!("{package}#{}", meta.key.as_deref().unwrap_or(&meta.name));
     let contents = datasets.par_iter().map(content_of).collect();
@@ -288,7 +288,7 @@ pub fn of_package(package: &str, datasets: Vec<Dataset>, meta: NewProduct) -> Pr
     Proposed { files: vec![id], packed: true, contents, sources, parts, ..product }
 }
 
-/// The same files arranged otherwise; words, repairs and answers stay with products that remain the same.
+/// Arranges the files of an import in another way; texts, repairs and answers stay with products that remain the same.
 pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn Progress) -> Outcome {
     let before = std::mem::take(&mut import.products);
     let names = before.iter().map(|one| (one.files.clone(), one.fields.name.clone())).collect();
@@ -301,7 +301,7 @@ pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn 
     Outcome::Rearranged(Box::new(import), names)
 }
 
-/// Transmittances under uniform light.
+/// Returns the hemispherical transmittances.
 fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
     let tau = |dataset: &Arc<Dataset>| {
         let visible = &dataset.visible;
@@ -310,7 +310,7 @@ fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
     datasets.iter().map(tau).collect()
 }
 
-/// The product with its repairs made on all states, and examined.
+/// Returns the product with its repairs made on all states, and its data checked.
 fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
     let mended: Result<Vec<Arc<Dataset>>, _> =
         product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs).map(Arc::new)).collect();
@@ -319,7 +319,7 @@ fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
     Ok(Proposed { diagnoses, taus: taus(&datasets), datasets, ..product.clone() })
 }
 
-/// Makes repairs on all states of a product and examines what comes of it.
+/// Makes repairs on all states of a product and checks the results.
 pub fn mend(product: &Proposed) -> Outcome {
     Outcome::Mended(product.files.clone(), repaired(product).map(Box::new))
 }

@@ -1,39 +1,39 @@
-//! What can be done in the import sheet's table: choose rows, put files together or apart, name states, answer questions.
+//! Commands of the import sheet's table: choose rows, group or separate files, name states, resolve ambiguities.
 
 use super::import::{ImportFields, Row, StateWords};
 use crate::texts::{Text, catalogue as text};
 
-/// How a row is chosen.
+/// Way to select a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choose {
-    /// It alone.
+    /// Select this row only.
     Only,
-    /// It too, or no longer.
+    /// Add this row to the selection, or remove it.
     Also,
-    /// All from the one chosen last to it.
+    /// Select all rows from the one selected last to this one.
     UpTo,
 }
 
-/// A word about products that is typed once for all that are selected.
+/// Text about products that is typed once for all selected ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Word {
-    /// Maker.
+    /// Name of the maker.
     Manufacturer,
     /// Kind of system.
     Kind,
-    /// Words to find it by.
+    /// Search terms.
     Tags,
-    /// Who measured or computed.
+    /// Person or body that measured or computed the data.
     Author,
-    /// On which terms the data may be passed on.
+    /// Licence of the data.
     License,
 }
 
 impl Word {
-    /// All, in the order of the sheet.
+    /// All texts, in the order of the sheet.
     pub const ALL: [Self; 5] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author, Self::License];
 
-    /// What its field is called.
+    /// Returns the label of the field.
     pub const fn label(self) -> Text {
         match self {
             Self::Manufacturer => text::MANUFACTURER,
@@ -44,7 +44,7 @@ impl Word {
         }
     }
 
-    /// The text among the words of a product.
+    /// Returns the text in the texts of a product.
     pub const fn of(self, fields: &mut ImportFields) -> &mut String {
         match self {
             Self::Manufacturer => &mut fields.manufacturer,
@@ -56,29 +56,29 @@ impl Word {
     }
 }
 
-/// One thing to do with the table.
+/// Command about the table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Step {
-    /// Choose a state's row.
+    /// Select the row of a state.
     Choose(Row, Choose),
-    /// Choose all states of a product, or none any more.
+    /// Select all states of a product, or deselect them.
     ChooseProduct(usize, Choose),
-    /// Choose all rows; none where all are chosen.
+    /// Select all rows; none if all are selected.
     ChooseAll,
-    /// Fold the states of a product away, or show them.
+    /// Collapse or expand the states of a product.
     Fold(usize),
-    /// The files that are chosen are the states of one product.
+    /// Make the selected files the states of one product.
     Together,
-    /// Each file that is chosen is a product of its own.
+    /// Make each selected file a product of its own.
     Apart,
-    /// The files that are chosen are states of this product.
+    /// Make the selected files states of this product.
     StatesOf(usize),
-    /// What a state is called.
+    /// Set name and angle of a state.
     Name(Row, StateWords),
-    /// A word about all products with a row that is chosen.
+    /// Set a text of all products with a selected row.
     Word(Word, String),
-    /// The question about this product is answered: it is as proposed.
+    /// Accept the proposal for this product.
     Settle(usize),
-    /// All questions are answered so.
+    /// Accept the proposals for all products.
     SettleAll,
 }

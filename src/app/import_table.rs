@@ -1,4 +1,4 @@
-//! The import sheet's table: what its steps do.
+//! Acting on the import sheet's table.
 
 use super::import::{Arranged, Arrangement, Import, Row};
 use super::import_arranging::{catch_up, rearranged};
@@ -31,7 +31,7 @@ impl Import {
         self.rows().filter(|row| row.0 == product).collect()
     }
 
-    /// The present arrangement as one by hand, without these files.
+    /// Returns the current arrangement as one made by hand, without these files.
     fn without(&self, files: &[String]) -> Vec<Vec<String>> {
         let rest = |one: &super::import::Proposed| -> Vec<String> {
             one.files.iter().filter(|file| !files.contains(file)).cloned().collect()
@@ -46,7 +46,7 @@ impl Import {
 }
 
 impl App {
-    /// Does one thing with the table.
+    /// Acts on a command about the table.
     pub(super) fn import_step(&mut self, step: Step) {
         let Some(import) = &mut self.state.import else { return };
         let before = import.arrangement();
@@ -111,7 +111,7 @@ impl App {
         self.note_arrangement(before);
     }
 
-    /// A step from one arrangement to another is one of undo.
+    /// Records a change from one arrangement to another as an undo step.
     fn note_arrangement(&mut self, before: Arrangement) {
         let Some(import) = &self.state.import else { return };
         let after = import.arrangement();
@@ -124,7 +124,7 @@ impl App {
         }
     }
 
-    /// After a step back or forth: the arrangement that holds now.
+    /// Restores the arrangement that is in effect after undo or redo.
     pub(super) fn step_arranged(&mut self, before: &[usize]) {
         let after = self.state.document.arranged.clone();
         let steps = &self.state.arranged;
@@ -142,7 +142,7 @@ impl App {
         }
     }
 
-    /// Takes a new arrangement in; what was typed meanwhile stays. One of an import that is gone is forgotten.
+    /// Shows a new arrangement and keeps what was typed meanwhile. An arrangement of an import that is gone is dropped.
     pub(super) fn take_rearranged(&mut self, mut new: Import, names: &[(Vec<String>, String)]) {
         if let Some(now) = self.state.import.as_ref().filter(|now| now.paths == new.paths) {
             catch_up(&mut new, now, names);
@@ -151,7 +151,7 @@ impl App {
         }
     }
 
-    /// The arrangement that was under way is not made: the one that is shown holds.
+    /// Stops making a new arrangement: the one that is shown stays.
     pub(super) fn stop_arranging(&mut self) {
         if let Some(import) = self.state.import.as_mut().filter(|import| import.arranging) {
             import.arranging = false;
@@ -160,7 +160,7 @@ impl App {
         }
     }
 
-    /// Makes products of these groups of files, in the background.
+    /// Makes products from these groups of files, in the background.
     fn arrange_by_hand(&mut self, groups: Vec<Vec<String>>) {
         if let Some(import) = &mut self.state.import {
             import.by_hand = Some(groups);
@@ -168,7 +168,7 @@ impl App {
         }
     }
 
-    /// Takes the files for other products.
+    /// Groups the files into products in another way.
     pub(super) fn group_import(&mut self, grouping: Grouping) {
         let Some(import) = &mut self.state.import else { return };
         if import.grouping != grouping || import.by_hand.is_some() {

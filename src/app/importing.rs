@@ -1,4 +1,4 @@
-//! The import sheet's part of the window: reads what was opened, tries repairs, stores what is wanted, keeps drafts.
+//! Acting on the import sheet: reads what was opened, tries repairs, stores products, keeps drafts.
 
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed};
@@ -14,12 +14,12 @@ use crate::texts::take_in as text;
 use std::path::PathBuf;
 
 impl App {
-    /// Reads files, folders and archives.
+    /// Reads files, folders and archives into an import.
     pub(super) fn read_paths(&mut self, paths: Vec<PathBuf>) {
         self.read_again(paths, Grouping::Proposed, None);
     }
 
-    /// Reads files, and gives what they make the words and repairs that were given to the same before.
+    /// Reads files, and restores the texts and repairs that were kept for them.
     pub(super) fn read_again(&mut self, paths: Vec<PathBuf>, grouping: Grouping, kept: Option<KeptImport>) {
         if paths.is_empty() {
             return;
@@ -41,7 +41,7 @@ impl App {
         self.start(Lane::Import, move |job| read_files(&asked, job));
     }
 
-    /// Reads what was asked for before the catalogue was open.
+    /// Reads the files that were opened before the catalogue was ready.
     pub(super) fn start_waiting_files(&mut self) {
         let (kept, new): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.waiting_files).into_iter().partition(|(.., kept)| kept.is_some());
@@ -58,7 +58,7 @@ impl App {
         self.read_paths(new);
     }
 
-    /// Shows what was read; what was there before of other files becomes a draft.
+    /// Shows an import; an earlier one of other files becomes a draft.
     pub(super) fn take_import(&mut self, import: Import) {
         self.state.under_way = None;
         self.keep_draft_of(|old| old.paths != import.paths);
@@ -67,7 +67,7 @@ impl App {
         self.mend_next();
     }
 
-    /// Puts the import that is open among the drafts, if it holds something.
+    /// Moves the open import to the drafts, if it holds something.
     fn keep_draft_of(&mut self, which: impl Fn(&Import) -> bool) {
         let Some(old) = self.state.import.take() else { return };
         if which(&old) && old.wanted().next().is_some() {
@@ -76,7 +76,7 @@ impl App {
         }
     }
 
-    /// Goes on with a draft; what is open becomes one.
+    /// Continues a draft; the open import becomes a draft.
     pub(super) fn open_draft(&mut self, number: usize) {
         if number >= self.state.drafts.len() {
             return;
@@ -86,7 +86,7 @@ impl App {
         self.read_again(draft.paths.clone(), draft.grouping, Some(draft));
     }
 
-    /// Leaves what is open for later.
+    /// Keeps the open import as a draft.
     pub(super) fn put_aside(&mut self) {
         self.keep_draft_of(|_| true);
         self.state.sheet = None;
@@ -95,7 +95,7 @@ impl App {
         }
     }
 
-    /// Forgets what is open, or a draft: a step that undo takes back.
+    /// Discards the open import, or a draft, as an undo step.
     pub(super) fn discard_import(&mut self, draft: Option<usize>) {
         let gone = match draft {
             Some(number) if number < self.state.drafts.len() => Some(self.state.drafts.remove(number)),
@@ -114,7 +114,7 @@ impl App {
         end_step(&mut self.undoer, &self.state.document);
     }
 
-    /// After a step back or forth: drafts that are back, and those that are gone again.
+    /// Restores or discards drafts after undo or redo.
     pub(super) fn step_discarded(&mut self, before: &[usize]) {
         let after = self.state.document.discarded.clone();
         for &back in before.iter().filter(|number| !after.contains(number)) {
@@ -148,7 +148,7 @@ impl App {
         self.state.import.as_mut()?.products.get_mut(number)
     }
 
-    /// What was read with other repairs, made and examined in the background; until then it is not stored.
+    /// Changes the repairs of a product, which are made and checked in the background; until then it is not stored.
     pub(super) fn repair_import(&mut self, number: usize, change: impl FnOnce(&mut Vec<Repair>)) {
         if let Some(product) = self.proposed(number) {
             change(product.wished.get_or_insert_with(|| product.repairs.clone()));
@@ -156,7 +156,7 @@ impl App {
         }
     }
 
-    /// One product after the other.
+    /// Starts the repair of the next product that waits for one.
     pub(super) fn mend_next(&mut self) {
         let import = self.state.import.as_ref().filter(|_| !self.jobs.busy(Lane::Mend));
         let Some(product) = import.and_then(|import| import.products.iter().find(|one| one.wished.is_some())) else {
@@ -167,7 +167,7 @@ impl App {
         self.start(Lane::Mend, move |_| mend(&product));
     }
 
-    /// Takes the repaired data in; words that were typed meanwhile stay.
+    /// Stores the repaired data; texts typed meanwhile stay.
     pub(super) fn take_mended(&mut self, files: &[String], mended: Result<Box<Proposed>, AppError>) {
         let products = self.state.import.iter_mut().flat_map(|import| &mut import.products);
         if let Some(product) = products.into_iter().find(|product| product.files == files) {
@@ -187,7 +187,7 @@ impl App {
         self.mend_next();
     }
 
-    /// Stores all products that are wanted and about which nothing is open, as one step. The others stay in the sheet.
+    /// Stores all products that are ready, as one undo step. The others stay in the sheet.
     pub(super) fn add_import(&mut self) {
         let Some(mut import) =
             self.state.import.take_if(|import| !import.arranging && import.products.iter().any(Proposed::ready))
@@ -213,7 +213,7 @@ impl App {
         }
     }
 
-    /// Stores products as a step of its own, and closes the sheet that they came from.
+    /// Stores products as an undo step of its own, and closes their sheet.
     pub(super) fn add_to_catalogue(&mut self, additions: Vec<Addition>) {
         self.state.sheet = None;
         end_step(&mut self.undoer, &self.state.document);
@@ -227,7 +227,7 @@ impl App {
         self.store_additions(numbered);
     }
 
-    /// None of the additions could be stored: what they came from is open again.
+    /// Opens an import again if none of its products could be stored.
     pub(super) fn take_not_added(&mut self, numbers: &[usize], error: &AppError) {
         self.adding.retain(|number| !numbers.contains(number));
         self.state.document.additions.retain(|other| !numbers.contains(other));

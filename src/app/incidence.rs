@@ -1,4 +1,4 @@
-//! The one direction of incidence that tiles speak of: the study's, as the window uses it.
+//! Incident direction shared by the tiles: the study's module, as the window uses it.
 
 pub use crate::study::incidence::*;
 

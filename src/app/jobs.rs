@@ -1,11 +1,11 @@
-//! Work that may take longer than a frame: lanes, generations, cancelling, progress.
+//! Jobs that may take longer than a frame: lanes, generations, cancelling, progress.
 //!
-//! Each [`Lane`] runs one job at a time. A newer job of the same lane withdraws the older one: its progress then says
-//! "cancelled", and what it still returns is thrown away. Results come back through a channel that the window polls.
-//! A panic inside a job is caught and told as a failure; the window lives on.
+//! Each [`Lane`] runs one job at a time. A newer job of the same lane cancels the older one: its progress then says
+//! "cancelled", and what it still returns is dropped. Results come back through a channel that the window polls. A
+//! panic inside a job is caught and reported as a failure; the window continues to run.
 //!
-//! Work in the background gives way: wherever it reports progress or asks whether it is still wanted, it rests until
-//! nothing is under way that somebody looks at ([`Priority`]).
+//! Background jobs give way: wherever they report progress or ask whether they are still wanted, they rest until no job
+//! with a visible result is under way ([`Priority`]).
 
 use super::error::JobError;
 pub use super::lane::{Lane, Priority};
@@ -19,7 +19,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Counts the jobs whose results are still to come into sight.
+/// Number of jobs whose results are still to be shown.
 #[derive(Default)]
 struct Sight {
     awaited: Mutex<usize>,
@@ -27,25 +27,25 @@ struct Sight {
 }
 
 impl Sight {
-    /// The count is right whatever happened to a thread that held it.
+    /// Locks the count. It is right even if a thread panicked while it held the lock.
     fn lock(&self) -> MutexGuard<'_, usize> {
         self.awaited.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns when nothing is awaited or the caller is no longer wanted.
+    /// Waits until nothing is awaited or the caller is cancelled.
     fn rest(&self, cancelled: &AtomicBool) {
         let in_the_way = |awaited: &mut usize| *awaited > 0 && !cancelled.load(Ordering::Relaxed);
         drop(self.fewer.wait_while(self.lock(), in_the_way));
     }
 
-    /// Those who rest look again.
+    /// Wakes the resting jobs, so that they check again.
     fn wake(&self) {
         drop(self.lock());
         self.fewer.notify_all();
     }
 }
 
-/// Keeps the background resting as long as it lives.
+/// Guard that keeps background jobs resting as long as it lives.
 struct Awaited(Arc<Sight>);
 
 impl Awaited {
@@ -62,34 +62,34 @@ impl Drop for Awaited {
     }
 }
 
-/// The side of a job that both the worker and the window see.
+/// State of a job, shared by the worker and the window.
 #[derive(Default)]
 pub struct JobState {
-    /// What the job gives way to, if it does.
+    /// Count of visible jobs that the job gives way to; `None` if it does not give way.
     gives_way: Option<Arc<Sight>>,
     cancelled: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
-    /// The present stage, and since when.
+    /// Current stage, and its start.
     stage: Mutex<(&'static str, Option<Instant>)>,
 }
 
-/// A stage that has taken so long is judged by what it has done.
+/// Time that a stage must have run before its remaining time is estimated.
 const JUDGED: Duration = Duration::from_secs(1);
 
 impl JobState {
-    /// Share done of the present stage, 0 … 1; `None` before the first report.
+    /// Returns the finished share of the current stage, 0 … 1; `None` before the first report.
     pub fn fraction(&self) -> Option<f32> {
         let total = self.total();
         (total > 0).then(|| (self.done() as f32 / total as f32).clamp(0.0, 1.0))
     }
 
-    /// The present stage; empty before the first report.
+    /// Returns the current stage; empty before the first report.
     pub fn stage(&self) -> &'static str {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner).0
     }
 
-    /// What the present stage will still take if it goes on as it has begun; `None` while that is not known.
+    /// Returns the estimated time left in the current stage, from its mean speed so far; `None` if it is not known yet.
     pub fn left(&self) -> Option<Duration> {
         let spent = self.stage.lock().unwrap_or_else(PoisonError::into_inner).1?.elapsed();
         let share = f64::from(self.fraction()?);
@@ -139,36 +139,36 @@ impl Progress for JobState {
     }
 }
 
-/// A job under way.
+/// Job that is under way.
 struct Running {
     generation: u64,
     state: Arc<JobState>,
 }
 
-/// What came back from a lane.
+/// Result of a job in a lane.
 pub struct Finished<M> {
-    /// Whose.
+    /// Lane of the job.
     pub lane: Lane,
-    /// What the job returned, or why it did not.
+    /// Result of the job, or the reason why there is none.
     pub outcome: Result<M, JobError>,
-    /// Where it was when it ended.
+    /// Stage of the job at its end.
     pub stage: &'static str,
-    /// Dropped with this, when the outcome has been taken in and what it asks for is started.
+    /// Guard that is dropped with this, when the outcome has been stored and its follow-up jobs are started.
     _awaited: Option<Awaited>,
 }
 
-/// The job under way in a lane, as the status line shows it.
+/// Running job of a lane, as the status line shows it.
 pub struct JobView {
-    /// Where.
+    /// Lane of the job.
     pub lane: Lane,
-    /// Progress.
+    /// State of the job.
     pub state: Arc<JobState>,
 }
 
-/// All lanes. `M`: what jobs return.
+/// All lanes with their jobs. `M`: result type of the jobs.
 pub struct Jobs<M> {
     running: BTreeMap<Lane, Running>,
-    /// What the background reported last: it works in short jobs, and its bar does not start anew with each.
+    /// Progress that the background reported last: it works in short jobs, and its bar does not restart with each.
     background: Arc<JobState>,
     next: u64,
     sight: Arc<Sight>,
@@ -184,7 +184,7 @@ impl<M: Send + 'static> Default for Jobs<M> {
 }
 
 impl<M: Send + 'static> Jobs<M> {
-    /// Starts a job; an older one in the same lane is withdrawn. `wake` is called from the worker when it ends.
+    /// Starts a job and cancels an older one in the same lane. `wake` is called from the worker when it ends.
     pub fn start(
         &mut self,
         lane: Lane,
@@ -229,14 +229,14 @@ impl<M: Send + 'static> Jobs<M> {
         }
     }
 
-    /// Withdraws what a lane is doing; its result will not arrive. True if there was something.
+    /// Cancels the job of a lane, so that its result will not arrive; returns whether there was one.
     pub fn cancel(&mut self, lane: Lane) -> bool {
         let Some(job) = self.running.remove(&lane) else { return false };
         job.state.withdraw();
         true
     }
 
-    /// What has ended since the last call. Never waits.
+    /// Returns the results since the last call. Never waits.
     pub fn poll(&mut self) -> Vec<Finished<M>> {
         let mut list = Vec::new();
         while let Ok((generation, finished)) = self.receiver.try_recv() {
@@ -248,17 +248,18 @@ impl<M: Send + 'static> Jobs<M> {
         list
     }
 
-    /// Is a lane busy?
+    /// Whether a lane has a running job.
     pub fn busy(&self, lane: Lane) -> bool {
         self.running.contains_key(&lane)
     }
 
-    /// Share done of the present stage of a lane's job; `None` without one, and before it says so.
+    /// Returns the finished share of the current stage of a lane's job; `None` without a job, and before its first
+    /// report.
     pub fn fraction(&self, lane: Lane) -> Option<f32> {
         self.running.get(&lane)?.state.fraction()
     }
 
-    /// All jobs under way.
+    /// Returns all running jobs.
     pub fn views(&self) -> Vec<JobView> {
         self.running.iter().map(|(&lane, job)| JobView { lane, state: job.state.clone() }).collect()
     }

@@ -1,4 +1,4 @@
-//! Products after they are stored: other words about them, out of sight and back. Undo goes over both.
+//! Editing stored products: their texts, deleting and restoring. Undo covers both.
 
 use super::changes::{Change, Editing, Looked};
 use super::editing::look;
@@ -13,12 +13,12 @@ use crate::study::subscriptions::Report;
 use crate::texts::catalogue as text;
 
 impl App {
-    /// The named product, or the selected one.
+    /// Returns the given key, or that of the selected product.
     pub(super) fn meant(&self, key: Option<String>) -> Option<String> {
         key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()))
     }
 
-    /// Looks a product up for its sheet.
+    /// Reads a product for its sheet.
     pub(super) fn edit_product(&mut self, key: Option<String>) {
         if let Some(key) = self.meant(key) {
             self.queue(move |shelf| Outcome::Editing(look(shelf, &key)));
@@ -35,14 +35,14 @@ impl App {
         }
     }
 
-    /// Stores what was typed in the sheet.
+    /// Stores what was typed in the sheet of a product.
     pub(super) fn save_words(&mut self) {
         let Some(editing) = self.state.editing.take_if(|editing| editing.problem().is_none()) else { return };
         self.state.sheet = None;
         editing.changes().into_iter().for_each(|change| self.change(change));
     }
 
-    /// Takes a product out of sight; the next one of the list is shown in its place.
+    /// Deletes a product, restorable; the next one of the list is shown in its place.
     pub(super) fn delete_product(&mut self, key: Option<String>) {
         let Some(key) = self.meant(key) else { return };
         if self.state.deleted.iter().any(|one| one.key == key) {
@@ -69,13 +69,13 @@ impl App {
         self.note_change(Change::Deleted { key, name });
     }
 
-    /// A change to the catalogue as a step of its own.
+    /// Makes a change to the catalogue as an undo step of its own.
     pub(super) fn change(&mut self, change: Change) {
         end_step(&mut self.undoer, &self.state.document);
         self.note_change(change);
     }
 
-    /// A change to the catalogue with all that the document became since its last step, as one step.
+    /// Makes a change to the catalogue, and with it all changes of the document since the last step, as one undo step.
     fn note_change(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
@@ -84,7 +84,7 @@ impl App {
         self.make_change(number, true);
     }
 
-    /// Makes a change of this session, or takes it back.
+    /// Makes a change of this session, or reverts it.
     pub(super) fn make_change(&mut self, number: usize, forth: bool) {
         let Some(change) = self.state.changes.get(number).cloned() else { return };
         self.queue(move |shelf| Outcome::Changed(number, forth, change.make(shelf, forth)));
@@ -113,7 +113,7 @@ impl App {
         self.look_up_deleted();
     }
 
-    /// Brings a product back into sight. If this session deleted it, undo knows.
+    /// Restores a deleted product. If this session deleted it, undo covers it.
     pub(super) fn restore_product(&mut self, key: String) {
         let of_this_session = |number: &usize| matches!(&self.state.changes[*number], Change::Deleted { key: other, .. } if *other == key);
         let number = self.state.document.changes.iter().copied().rfind(of_this_session);
@@ -152,7 +152,7 @@ impl App {
         }
     }
 
-    /// Looks up which products are out of sight.
+    /// Looks up the deleted products.
     pub(super) fn look_up_deleted(&mut self) {
         self.queue(|shelf| Outcome::Deleted(shelf.deleted()));
     }

@@ -1,25 +1,25 @@
-//! What jobs work on, and who goes first.
+//! Lanes of jobs, and their priority.
 
 use crate::texts::{Text, catalogue as products, choose, scene, shell, year};
 
-/// What a job works on. Later requests of a lane replace earlier ones.
+/// Lane: subject of a job. Later requests of a lane replace earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Lane {
-    /// Opening the catalogue and searching in it.
+    /// Opening and searching the catalogue.
     Catalogue,
-    /// Searching for what the palette's words fit.
+    /// Searching the catalogue for the palette.
     Palette,
-    /// Reading files that the user opened.
+    /// Reading of files that the user opened.
     Import,
-    /// Taking what was read for other products.
+    /// Grouping imported files into other products.
     Arrange,
-    /// Repairs of what was read.
+    /// Repairs of imported products.
     Mend,
-    /// Looking for fonts of the system.
+    /// Searching for fonts of the system.
     Fonts,
-    /// Asking the desktop for paths.
+    /// Asking for paths in a dialog of the desktop.
     Dialog,
-    /// What the checks say about the selected dataset.
+    /// Data check of the selected dataset.
     Findings,
     /// Pictures of products.
     Gallery,
@@ -27,25 +27,25 @@ pub enum Lane {
     Store,
     /// Reading folders of packages that are subscribed to.
     Subscribed,
-    /// From the scene as typed to sky, sun and systems.
+    /// Sky, sun and systems of the scene as typed.
     Scene,
-    /// The luminous-intensity distribution.
+    /// Luminous intensity distribution.
     Lid,
     /// Illuminances in the room.
     Room,
     /// Illuminances of the room's surfaces.
     Surfaces,
-    /// What control chooses over the year.
+    /// States that shading control chooses over the year.
     Year,
-    /// A year of weather in the room.
+    /// Annual simulation of the room.
     Annual,
-    /// Products through a year, put in order.
+    /// Ranking of products by their annual simulations.
     Rank,
-    /// Reading the weather that hours are picked from.
+    /// Reading the weather file that hours are picked from.
     Weather,
-    /// The data of one incidence in another form.
+    /// Data of one incident direction in another form.
     DataForm,
-    /// How light is interpolated between the directions of the data.
+    /// Map of interpolation schemes between the directions of the data.
     Schemes,
     /// Error against run time.
     Accuracy,
@@ -53,22 +53,22 @@ pub enum Lane {
     Obstructions,
     /// Computing the data of the chosen state, which the catalogue does not hold yet.
     Product,
-    /// Computing data of built-in products that nobody has asked for yet.
+    /// Computing data of built-in products in advance.
     Builtin,
-    /// What is compared.
+    /// Results of the candidates of the comparison.
     Compare,
-    /// Data computed from a description.
+    /// Computing data from a description.
     Goniophotometer,
-    /// What would be handed on.
+    /// Preview of an export.
     Preview,
-    /// A picture for the clipboard.
+    /// Picture of a tile for the clipboard.
     Copy,
     /// Writing files.
     Export,
 }
 
 impl Lane {
-    /// What the status line calls it.
+    /// Returns the label in the status line.
     pub const fn word(self) -> Text {
         match self {
             Self::Catalogue => shell::LANE_CATALOGUE,
@@ -104,7 +104,7 @@ impl Lane {
         }
     }
 
-    /// Who goes first.
+    /// Returns the priority.
     pub const fn priority(self) -> Priority {
         match self {
             Self::Builtin => Priority::Background,
@@ -117,13 +117,13 @@ impl Lane {
     }
 }
 
-/// Who goes first.
+/// Priority of a job.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Priority {
-    /// What is in sight hangs on it.
+    /// Priority of jobs that visible results depend on.
     InSight,
-    /// May stand waiting for an answer of the user: neither gives way nor is given way to.
+    /// Priority of jobs that may wait for an answer of the user: they neither give way nor are given way to.
     Asking,
-    /// Nobody looks at it: rests while anything in sight is under way.
+    /// Priority of jobs without visible results: they rest while any visible result is being computed.
     Background,
 }

@@ -1,11 +1,11 @@
-//! In which language the window speaks.
+//! Language of the window.
 
 use crate::texts::{Language, Text, shell};
 
-/// Which language the user wants.
+/// Language that the user chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum LanguageChoice {
-    /// What the desktop says.
+    /// Language of the desktop.
     #[default]
     System,
     /// English.
@@ -15,10 +15,10 @@ pub enum LanguageChoice {
 }
 
 impl LanguageChoice {
-    /// All, in the order of the menu.
+    /// All choices, in the order of the menu.
     pub const ALL: [Self; 3] = [Self::System, Self::English, Self::German];
 
-    /// In words: languages by their own names.
+    /// Returns the label: languages by their own names.
     pub const fn word(self) -> Text {
         match self {
             Self::System => shell::AS_THE_DESKTOP,
@@ -27,7 +27,7 @@ impl LanguageChoice {
         }
     }
 
-    /// The language, where the desktop's is `system`.
+    /// Returns the language, if that of the desktop is `system`.
     pub fn language(self, system: Language) -> Language {
         match self {
             Self::System => system,
@@ -37,7 +37,7 @@ impl LanguageChoice {
     }
 }
 
-/// The desktop's language.
+/// Returns the language of the desktop.
 pub fn of_desktop() -> Language {
     Language::of_locale(&sys_locale::get_locale().unwrap_or_default())
 }

@@ -1,4 +1,4 @@
-//! Makes what the BTDF tile looks at.
+//! Computations for the views of the BTDF tile on the data.
 
 use super::data_looks::{DataLook, FormKey, FormResult, NoSchemes, SchemesResult};
 use super::incidence::Incidence;
@@ -13,11 +13,11 @@ use crate::compute::incidence::ways::triangles;
 use crate::study::data_form::{DataForm, NoForm, compressed, filtered};
 use crate::study::scene_file::Interpolation;
 
-/// The tile that all this is for.
+/// Tile that shows the views.
 const TILE: Tile = tiles::BTDF;
 
 impl App {
-    /// Looks at the data otherwise, and brings the tile into sight.
+    /// Changes the view on the data, and makes the tile visible.
     pub(super) fn look_at_data(&mut self, change: impl FnOnce(&mut DataLook)) {
         change(&mut self.state.data_look);
         // What was stopped is asked for again.
@@ -30,7 +30,7 @@ impl App {
         self.bring_up(TILE);
     }
 
-    /// Asks for what the BTDF tile looks at and does not have yet.
+    /// Starts the missing computations for the view of the BTDF tile.
     pub(super) fn ask_data_looks(&mut self) {
         let state = &self.state;
         let look = state.data_look;

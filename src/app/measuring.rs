@@ -1,4 +1,4 @@
-//! The goniophotometer's part of the window: fills its sheet, measures state after state, stores what came out.
+//! Acting on the goniophotometer's sheet: fills it, computes state after state, stores the results.
 
 use super::error::AppError;
 use super::examples::EXAMPLES;
@@ -29,7 +29,7 @@ impl App {
         }
     }
 
-    /// Measures what is described; a run that was stopped goes on.
+    /// Computes the described system; a stopped run resumes.
     pub(super) fn measure_system(&mut self) {
         self.state.sheet = Some(Sheet::Goniophotometer);
         if self.jobs.busy(Lane::Goniophotometer) {
@@ -53,7 +53,7 @@ impl App {
         self.start(Lane::Goniophotometer, move |job| Outcome::Measured(next_state(&run, &library, job).map(Box::new)));
     }
 
-    /// Takes in a finished state and goes on to the next.
+    /// Stores a finished state and continues with the next.
     pub(super) fn take_measured(&mut self, result: Result<Box<(Vec<String>, Finished)>, AppError>) {
         let bench = &mut self.state.goniophotometer;
         match (result, &mut bench.run) {
@@ -69,7 +69,7 @@ impl App {
         }
     }
 
-    /// Stores all states as a product; undo takes it out again.
+    /// Stores all states as a product; undo removes it again.
     pub(super) fn add_measured(&mut self) {
         let Some(run) = self.state.goniophotometer.run.as_ref().filter(|run| run.complete()) else {
             self.toasts.info(texts::COMPUTE_FIRST);

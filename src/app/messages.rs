@@ -1,35 +1,35 @@
-//! What the window says: shown for as long as it takes to read, then kept in a list.
+//! Messages of the window: shown for as long as it takes to read them, then kept in a list.
 
 use super::clock;
 use crate::texts::{Text, shell, short_numbers, visible};
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
-/// Messages kept.
+/// Maximum number of messages kept.
 const MOST: usize = 200;
-/// Seconds that a message stays at least, and at most.
+/// Minimum and maximum time that a message is shown. \[s\]
 const SECONDS: [f64; 2] = [4.0, 40.0];
-/// Seconds per character on top: a slow reader's pace.
+/// Additional time per character, at a slow reader's pace. \[s\]
 const PER_CHARACTER: f64 = 0.07;
 
-/// A frame that took longer came late. \[s\]
+/// Maximum time that one frame counts for: a longer frame came late. \[s\]
 const LATE: f64 = 0.5;
 
-/// How much it matters.
+/// Severity of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// For knowing.
+    /// Note.
     Info,
-    /// Something was done.
+    /// Confirmation that something was done.
     Success,
-    /// Worth a look.
+    /// Warning.
     Warning,
-    /// Something was not done.
+    /// Error: something was not done.
     Error,
 }
 
 impl Weight {
-    /// In words.
+    /// Returns the label.
     pub const fn word(self) -> Text {
         match self {
             Self::Info => shell::NOTE,
@@ -40,33 +40,33 @@ impl Weight {
     }
 }
 
-/// One message.
+/// Message of the window.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Message {
-    /// Its number, which no other has.
+    /// Unique number of the message.
     pub id: u64,
-    /// How much it matters.
+    /// Severity of the message.
     pub weight: Weight,
-    /// What is said.
+    /// Text of the message.
     pub text: String,
-    /// Clock time at which it was said, e.g. `14:03`.
+    /// Clock time of the message, e.g. `14:03`.
     pub at: String,
-    /// Seconds that it is still shown. \[s\]
+    /// Time that it is still shown. \[s\]
     pub left: f64,
-    /// A report that goes with it.
+    /// Report that belongs to the message.
     pub report: Option<PathBuf>,
 }
 
-/// All messages of a session, the newest last.
+/// All messages of a session, newest last.
 #[derive(Debug, Default)]
 pub struct Messages {
     list: VecDeque<Message>,
     next: u64,
-    /// When time was last let pass: the window's own clock. \[s\]
+    /// Time of the last update, by the window's own clock. \[s\]
     clock: f64,
 }
 
-/// Seconds that a text is shown.
+/// Returns the time that a text is shown. \[s\]
 pub fn seconds(text: &str) -> f64 {
     let [least, most] = SECONDS;
     (least + PER_CHARACTER * text.chars().count() as f64).min(most)
@@ -86,72 +86,72 @@ impl Messages {
         }
     }
 
-    /// Says something worth knowing.
+    /// Shows a note.
     pub fn info(&mut self, text: impl Into<String>) {
         self.say(Weight::Info, text.into(), None);
     }
 
-    /// Says that something was done.
+    /// Shows that something was done.
     pub fn success(&mut self, text: impl Into<String>) {
         self.say(Weight::Success, text.into(), None);
     }
 
-    /// Says something worth a look.
+    /// Shows a warning.
     pub fn warning(&mut self, text: impl Into<String>) {
         self.say(Weight::Warning, text.into(), None);
     }
 
-    /// Says that something was not done.
+    /// Shows an error.
     pub fn error(&mut self, text: impl Into<String>) {
         self.say(Weight::Error, text.into(), None);
     }
 
-    /// Says a fault of the program, with the report on it.
+    /// Shows an internal error, with its report.
     pub fn fault(&mut self, text: impl Into<String>, report: PathBuf) {
         self.say(Weight::Error, text.into(), Some(report));
     }
 
-    /// All, the oldest first.
+    /// Returns all messages, oldest first.
     pub fn all(&self) -> impl DoubleEndedIterator<Item = &Message> {
         self.list.iter()
     }
 
-    /// How many.
+    /// Returns the number of messages.
     pub fn len(&self) -> usize {
         self.list.len()
     }
 
-    /// None at all?
+    /// Whether there are no messages.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
-    /// Those that are shown now, the oldest first.
+    /// Returns the messages that are shown now, oldest first.
     pub fn shown(&self) -> impl DoubleEndedIterator<Item = &Message> {
         self.list.iter().filter(|message| message.left > 0.0)
     }
 
-    /// Lets time pass up to a moment of the window's clock \[s\] for all that are shown, but for the one under the
-    /// pointer. A frame that came late counts as a moment: what was not in sight was not read.
+    /// Lets time pass up to a moment of the window's clock \[s\] for all messages that are shown, except the one under
+    /// the pointer. A frame that came late counts for a moment only: what was not visible was not read.
     pub fn pass_to(&mut self, now: f64, held: Option<u64>) {
         let passed = (now - self.clock).clamp(0.0, LATE);
         self.clock = now;
         self.pass(passed, held);
     }
 
-    /// Lets time pass \[s\].
+    /// Lets time pass for all messages but `held`. \[s\]
     fn pass(&mut self, seconds: f64, held: Option<u64>) {
         for message in self.list.iter_mut().filter(|message| Some(message.id) != held) {
             message.left = (message.left - seconds).max(0.0);
         }
     }
 
-    /// Takes one, or all, out of the window; the list keeps them.
+    /// Hides one message, or all; the list keeps them.
     pub fn dismiss(&mut self, id: Option<u64>) {
         self.list.iter_mut().filter(|one| id.is_none_or(|id| id == one.id)).for_each(|one| one.left = 0.0);
     }
 
-    /// Forgets all.
+    /// Removes all messages.
     pub fn clear(&mut self) {
         self.list.clear();
     }

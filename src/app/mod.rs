@@ -1,7 +1,7 @@
-//! The window: catalogue on the left, bench in the middle, scene on the right; everything linked, nothing modal.
+//! The window: catalogue on the left, tile area in the middle, scene on the right; everything linked, nothing modal.
 //!
-//! Drawing ([`panels`], [`tiles`], [`views`]) reads [`state::State`] and returns [`command::Command`]s; [`apply`] acts on
-//! them; [`work`] asks for whatever a change affects, and [`outcomes`] takes in what comes back. Nothing here waits.
+//! Drawing ([`panels`], [`tiles`], [`views`]) reads [`state::State`] and returns [`command::Command`]s; [`apply`] acts
+//! on them; [`work`] asks for whatever a change affects, and [`outcomes`] stores the results. Nothing here waits.
 
 mod annual;
 pub mod apply;

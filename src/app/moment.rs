@@ -1,4 +1,4 @@
-//! The scene's date and time: the study's, as the window uses it.
+//! Date and time of the scene: the study's module, as the window uses it.
 
 pub use crate::study::moment::*;
 

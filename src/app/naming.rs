@@ -1,4 +1,4 @@
-//! Names that files are offered: product, state and moment, in characters that every system takes.
+//! Proposed file names: product, state and moment, in characters that every system accepts.
 
 use super::hand_on::{ReportKind, What};
 use super::moment;
@@ -10,19 +10,19 @@ use crate::report::TileKind;
 use crate::study::scene_file::SystemKeys;
 use std::path::PathBuf;
 
-/// The selected product, as files are called.
+/// Returns the selected product as part of a file name.
 fn product(state: &State) -> String {
     let product = safe(&state.document.selection.product);
     if product.is_empty() { "window".to_owned() } else { product }
 }
 
-/// What lights the room: the selected product and state, or the scene's own system.
+/// Returns what fills the aperture as parts of a file name: the selected product and state, or the scene's own system.
 fn in_room(state: &State) -> [String; 2] {
     let words = |keys: &SystemKeys| [safe(&title::system(keys).to_lowercase()), String::new()];
     own_system(&state.document.scene).map_or_else(|| [product(state), safe(&state.shown_state)], words)
 }
 
-/// System, state and moment, e.g. `venetian-80-72_45_2026-03-21T1200`: those of a tile, or of the room.
+/// Returns system, state and moment as a file name, e.g. `venetian-80-72_45_2026-03-21T1200`, for a tile or the room.
 fn study(state: &State, tile: Option<TileKind>) -> String {
     let [system, of] = match tile {
         Some(TileKind::Btdf | TileKind::Transmittance | TileKind::Control) => {
@@ -40,7 +40,7 @@ fn study(state: &State, tile: Option<TileKind>) -> String {
     words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
-/// A name to start from.
+/// Returns the proposed file name.
 pub fn file_name(state: &State, what: PathUse) -> String {
     match what {
         PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe => String::new(),
@@ -59,7 +59,7 @@ pub fn file_name(state: &State, what: PathUse) -> String {
     }
 }
 
-/// A name for what is handed on.
+/// Returns the proposed name of an export.
 fn handed_on(state: &State) -> String {
     let choices = &state.settings.hand_on;
     let (ending, tile) = (choices.ending(), choices.tile.word());
@@ -79,7 +79,7 @@ fn handed_on(state: &State) -> String {
     }
 }
 
-/// Folder and name to start from: where the scene came from for the scene, else the folder that was used last, else
+/// Returns the proposed folder and name: the path of the scene for the scene, else the folder that was used last, else
 /// the user's documents.
 pub fn start_path(state: &State, what: PathUse) -> PathBuf {
     if let (PathUse::SaveScene, Some(path)) = (what, &state.scene_path) {

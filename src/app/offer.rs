@@ -1,5 +1,5 @@
-//! What is offered: one table of the commands that menus, palette, keys sheet and keyboard know, with their words, keys
-//! and places. A new one is an entry here and its effect in [`super::apply`].
+//! Commands that are offered: one table for menus, palette, keys sheet and keyboard, with labels, keys and places. A
+//! new one is an entry here and its effect in [`super::apply`].
 
 use super::arrange::{self, Way};
 use super::choose::ChooseAct;
@@ -26,34 +26,34 @@ use crate::texts::{self, Language::English, Text, catalogue, choose, language, s
 use egui::{Event, Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
-/// The menus, in the order of the bar.
+/// Menus, in the order of the bar.
 pub const MENUS: [Text; 5] = [FILE, EDIT, VIEW, COMPARE, HELP];
 
-/// Where the menus have a command.
+/// Place of a command in the menus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
-    /// Which of [`MENUS`].
+    /// Menu, one of [`MENUS`].
     pub menu: Text,
     /// Order in the menu; a line separates one ten from the next.
     pub rank: u8,
-    /// Name of the menu in the menu that gathers it with its like.
+    /// Name of the submenu that groups it with similar commands.
     pub within: Option<&'static str>,
 }
 
-/// A command as it is offered.
+/// Command as it is offered.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offer {
-    /// What is done.
+    /// Command to act on.
     pub command: Command,
-    /// Menu entry, sentence case; `…` when more is asked.
+    /// Menu entry, sentence case; ends with `…` if more is asked.
     pub text: String,
-    /// One sentence.
+    /// Tooltip, one sentence.
     pub tip: &'static str,
-    /// Keys. Those without Ctrl act only while nothing has the keyboard.
+    /// Shortcut. Keys without Ctrl act only while nothing has the keyboard.
     pub keys: Option<KeyboardShortcut>,
-    /// Where the menus have it.
+    /// Place in the menus.
     pub place: Option<Place>,
-    /// Do palette and keys sheet list it?
+    /// Whether palette and keys sheet list it.
     pub listed: bool,
 }
 
@@ -86,13 +86,13 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 // What is offered says their number.
 const _: () = assert!(TILES.len() == 8);
 
-/// A word as it stands behind a colon: English ones begin small there, German ones as they are.
+/// Returns a word as written after a colon: English ones begin in lower case there, German ones stay unchanged.
 fn behind_colon(word: impl std::fmt::Display) -> String {
     let word = word.to_string();
     if language() == English { word.to_lowercase() } else { word }
 }
 
-/// What arranges the tiles. Arrow keys do the same at a tile's head, see the bench.
+/// Returns the commands that arrange the tiles. Arrow keys do the same at a tile's head, see the tile area.
 fn arrangement() -> Vec<Offer> {
     use arrange::Arrange::*;
     let plain = |what, text: String, tip: Text| {
@@ -128,7 +128,7 @@ fn arrangement() -> Vec<Offer> {
     list
 }
 
-/// The table, in the order of palette and keys sheet.
+/// Returns the table, in the order of palette and keys sheet.
 fn table() -> Vec<Offer> {
     use Command::*;
     let sheet = |sheet| Command::Sheet(Some(sheet));
@@ -293,7 +293,7 @@ fn table_in(language: texts::Language) -> Vec<Offer> {
     table()
 }
 
-/// All that is offered, in the language that is spoken.
+/// Returns all offers, in the current language.
 pub fn offers() -> &'static [Offer] {
     static ENGLISH: LazyLock<Vec<Offer>> = LazyLock::new(|| table_in(texts::Language::English));
     static GERMAN: LazyLock<Vec<Offer>> = LazyLock::new(|| table_in(texts::Language::German));
@@ -303,12 +303,12 @@ pub fn offers() -> &'static [Offer] {
     }
 }
 
-/// What palette and keys sheet list.
+/// Returns the offers that palette and keys sheet list.
 pub fn listed() -> impl Iterator<Item = &'static Offer> {
     offers().iter().filter(|offer| offer.listed)
 }
 
-/// Keys as they are written on a keyboard: `Ctrl+Shift+Z`, `]`, `→`.
+/// Returns a shortcut as written on a keyboard: `Ctrl+Shift+Z`, `]`, `→`.
 pub fn key_words(keys: &KeyboardShortcut) -> String {
     let key = match keys.logical_key {
         Key::ArrowLeft => "←",
@@ -332,19 +332,19 @@ pub fn key_words(keys: &KeyboardShortcut) -> String {
     format!("{held}{key}")
 }
 
-/// How a command is offered.
+/// Returns the offer of a command.
 pub fn of(command: &Command) -> Option<&'static Offer> {
     offers().iter().find(|offer| offer.command == *command)
 }
 
-/// Does a command open something to type in?
+/// Whether a command opens something to type in.
 const fn opens_field(command: &Command) -> bool {
     use Command::{Open, OpenFolder, Palette, SaveScene, Search, Sheet};
     matches!(command, Open | OpenFolder | Palette | SaveScene | Search | Sheet(Some(state::Sheet::HandOn)))
 }
 
-/// The commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard, an open
-/// list among others: its arrow keys do not move the clock.
+/// Returns the commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard,
+/// for example an open list: its arrow keys do not move the clock.
 pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let typing = ctx.memory(|memory| memory.focused().is_some()) || egui::Popup::is_any_open(ctx);
     // The editor of system files has a history of its own.
@@ -377,8 +377,8 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     })
 }
 
-/// Takes a key of the row of digits for its digit where the keyboard has a sign there without Shift, as in France and Bohemia,
-/// that is nothing `offered`. What else a key with a digit on it may be stays: the number pad moves the cursor, too.
+/// Replaces a key of the row of digits by its digit if the keyboard has a sign there without Shift, as in France and
+/// Bohemia, that is not `offered`. Other keys with a digit on them stay: the number pad also moves the cursor.
 fn digit_by_place(event: &mut Event, offered: impl Fn(Key, Modifiers) -> bool) {
     let Event::Key { key, physical_key: Some(place), modifiers, .. } = event else { return };
     let sign = matches!(key, Key::Quote | Key::Minus | Key::Plus | Key::Exclamationmark);

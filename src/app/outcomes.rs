@@ -1,4 +1,4 @@
-//! Starts jobs, and takes what they bring back into the window.
+//! Starting jobs, and storing their results in the window.
 
 use super::command::Command;
 use super::engine::Question;
@@ -20,7 +20,7 @@ use crate::study::sky::SkyKeyError;
 use crate::texts::{Language, language, shell};
 use std::sync::Arc;
 
-/// After so many failures built-in products are no longer computed before they are asked for.
+/// Number of failures after which built-in products are no longer computed in advance.
 const FILL_FAILURES: usize = 5;
 
 impl App {
@@ -31,7 +31,7 @@ impl App {
         self.start(Lane::Catalogue, move |_| Outcome::Opened(open()));
     }
 
-    /// Looks the list up anew.
+    /// Searches the catalogue again.
     pub(super) fn search(&mut self) {
         if let Some(shelf) = self.state.shelf() {
             let query = Query { shown: self.state.settings.recent.clone(), ..self.state.query.clone() };
@@ -39,9 +39,9 @@ impl App {
         }
     }
 
-    /// Computes data of built-in products that nobody has asked for yet, while nothing else is computed: those of the chosen
-    /// product, then those that stand for the products of the list as it is, then for the rest. Stopped, it goes on when
-    /// another product is chosen.
+    /// Computes data of built-in products in advance, while nothing else is computed: those of the chosen product, then
+    /// those that represent the products of the list as it is, then the rest. Once stopped, it resumes when another
+    /// product is chosen.
     pub(super) fn fill_catalogue(&mut self) {
         if !self.fill_due || !self.jobs.views().is_empty() {
             return;
@@ -56,7 +56,7 @@ impl App {
         self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, &order, progress)));
     }
 
-    /// Computes the data of the state that is to be shown, which the catalogue does not hold yet.
+    /// Computes the data of the state that is to be shown, if the catalogue does not hold it yet.
     fn compute_state(&mut self, product: &Product, state: String) {
         let Some(shelf) = self.state.shelf() else { return };
         let label = product.states.iter().find(|one| one.key == state).map_or("", |one| one.label.as_str());
@@ -66,7 +66,7 @@ impl App {
         self.start(Lane::Product, move |job| Outcome::Provided(shelf.provide(&key, Some(&state), job)));
     }
 
-    /// Nobody waits for the data of a state any more.
+    /// Cancels the computation of the data of a state.
     pub(super) fn stop_computing(&mut self) {
         self.jobs.cancel(Lane::Product);
         self.state.computing = None;
@@ -78,7 +78,7 @@ impl App {
         self.start_pending_change();
     }
 
-    /// Stores additions of this session: all, or none.
+    /// Stores additions of this session: all or none.
     pub(super) fn store_additions(&mut self, additions: Vec<(usize, Addition)>) {
         self.adding.extend(additions.iter().map(|(number, _)| *number));
         self.queue(move |shelf| {
@@ -89,18 +89,19 @@ impl App {
         });
     }
 
-    /// Looks a product up that is to be chosen, behind all changes: it may be what one of them stores.
+    /// Reads a product that is to be selected, after all pending changes: one of them may store it.
     pub(super) fn look_up(&mut self, product: String) {
         self.queue(move |shelf| Outcome::Choice(shelf.product(&product)));
     }
 
-    /// Asks or changes the catalogue after everything that was asked before.
+    /// Queues a query or change of the catalogue after everything that was queued before.
     pub(super) fn queue(&mut self, change: impl FnOnce(&dyn Shelf) -> Outcome + Send + 'static) {
         self.pending_changes.push_back(Box::new(change));
         self.start_pending_change();
     }
 
-    /// Changes must all happen, so they wait for each other instead of replacing each other.
+    /// Starts the next change of the catalogue, if none is running: changes must all happen, so they wait for each
+    /// other instead of replacing each other.
     fn start_pending_change(&mut self) {
         if self.jobs.busy(Lane::Store) {
             return;
@@ -111,7 +112,7 @@ impl App {
         }
     }
 
-    /// Takes in what jobs brought back. Never waits.
+    /// Stores the results of jobs. Never waits.
     pub fn poll(&mut self) {
         // Ended, or stopped.
         self.writing &= self.jobs.busy(Lane::Export);
@@ -161,7 +162,7 @@ impl App {
             }
             Outcome::Builtin(Err(error)) => {
                 self.toasts.warning(shell::builtin_failed(error));
-                // What failed is left out from now on; a catalogue that cannot be written to fails for good.
+                // Failed states are skipped from now on; a catalogue that cannot be written to fails permanently.
                 self.fill_failures += 1;
                 self.fill_due = true;
             }
@@ -194,7 +195,7 @@ impl App {
             Outcome::Target(PathUse::HandOn, Err(error)) => self.toasts.info(error.to_string()),
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
-            // Chosen, not yet written: the preview goes on.
+            // Chosen, not yet written: the preview continues.
             Outcome::Target(PathUse::HandOn, Ok(Some(path))) => self.state.path = path.display().to_string(),
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
@@ -286,7 +287,7 @@ impl App {
         let (mut added, mut there, mut undone) = (Vec::new(), 0, Vec::new());
         for (&number, (new, product)) in numbers.iter().zip(products) {
             if !new {
-                // It is not this import's to take out again.
+                // This import did not add it, so undo does not remove it.
                 there += 1;
             } else if self.state.document.additions.contains(&number) {
                 self.state.additions[number].key = Some(product.key.clone());
@@ -320,7 +321,7 @@ impl App {
         self.search();
     }
 
-    /// After opening a scene the selection is what its first catalogue aperture holds. A scene of its own systems keeps
+    /// Takes the selection from the first catalogue aperture after a scene was opened. A scene of its own systems keeps
     /// them, and the selection stays.
     fn adopt_selection(&mut self) {
         if let Some(selection) = selection_of(&self.state.document.scene) {
@@ -330,15 +331,15 @@ impl App {
         }
     }
 
-    /// Says what lights the room where that is not the product that the other tiles show.
+    /// Shows a message if the room has another system than the product that the other tiles show.
     fn tell_own_system(&mut self, product: String) {
         if let Some(system) = own_system(&self.state.document.scene) {
             self.toasts.info(shell::own_system(title::system(system), product));
         }
     }
 
-    /// A first start shows something alive: a light-guiding product if there is one, else the first. A scene of its own
-    /// systems keeps them.
+    /// Selects a product at a first start, so that something is shown: a light-guiding product if there is one, else
+    /// the first. A scene of its own systems keeps them.
     fn select_something(&mut self) {
         let document = &self.state.document;
         if !document.selection.product.is_empty() || self.state.found.entries.is_empty() {
@@ -362,7 +363,7 @@ impl App {
         self.undoer = fresh_undoer(&self.state.document);
     }
 
-    /// Asks for the year of control anew when something that it hangs on has changed.
+    /// Starts the year of shading control again when something that it depends on has changed.
     pub(super) fn ask_year(&mut self) {
         let state = &self.state;
         let Some(product) = state.product.clone() else { return };
@@ -381,8 +382,8 @@ impl App {
         }
     }
 
-    /// Asks for the peaks of the LID that is shown, once it stands still: a table of all directions takes longer than the
-    /// LID itself, and while something is dragged the next one would come before it.
+    /// Starts the search for the peaks of the LID that is shown, once it no longer changes: a table of all directions
+    /// takes longer than the LID itself, and during dragging the next LID would come before it.
     pub(super) fn ask_peaks(&mut self) {
         let lid = &self.results.lid;
         let Some(figures) = lid.value.as_ref().filter(|_| !lid.stale) else { return };
@@ -401,7 +402,7 @@ impl App {
         });
     }
 
-    /// Runs the ladder on the present scene and shows its sheet.
+    /// Runs the refinement series on the current scene and shows its sheet.
     pub(super) fn measure_accuracy(&mut self) {
         self.state.sheet = Some(Sheet::Accuracy);
         let Some(shelf) = self.state.shelf() else {
@@ -414,14 +415,14 @@ impl App {
         self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
     }
 
-    /// Finds the effect of every obstruction of the present scene.
+    /// Computes the effect of every obstruction of the current scene.
     pub(super) fn weigh_obstructions(&mut self) {
         let (scene, base) = (self.state.document.scene.clone(), self.state.base());
         self.results.obstructions.error = None;
         self.start(Lane::Obstructions, move |job| Outcome::Obstructions(obstructions(scene, &base, job)));
     }
 
-    /// Asks for product, state and dataset of the selection, and for sky and sun.
+    /// Starts reading product, state and dataset of the selection, and sky and sun.
     fn ask_scene(&mut self) {
         let Some(shelf) = self.state.shelf() else { return };
         let document = &self.state.document;
@@ -434,14 +435,15 @@ impl App {
         });
     }
 
-    /// In which language the document as it is was asked for; `None` if another one was, or nothing.
+    /// Returns the language in which the current document was last requested; `None` if another document was, or
+    /// nothing.
     pub(super) fn asked_last(&self) -> Option<Language> {
         let (asked, language) = self.asked.as_ref()?;
         asked.asks_the_same(&self.state.document).then_some(*language)
     }
 
-    /// Asks for everything that the document's change since the last call affects; results in another language say it
-    /// anew.
+    /// Starts everything that the document's change since the last call affects; results in another language are
+    /// computed again.
     pub fn refresh(&mut self) {
         let document = &self.state.document;
         let asked = self.asked_last();
@@ -454,7 +456,7 @@ impl App {
         self.results.accuracy.stale |= asked.is_none();
         self.asked = Some((document.clone(), language()));
         self.note_shown();
-        // What is in sight has the computer to itself.
+        // Visible results have the computer to themselves.
         self.fill_due |= self.jobs.cancel(Lane::Builtin);
         self.stop_computing();
         self.state.dataset.stale = true;

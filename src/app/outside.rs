@@ -1,5 +1,5 @@
-//! What stands outside, as the window puts it into a scene: overhang, fin, reveal, balcony, neighbour, with sizes that go
-//! with the first aperture.
+//! Obstructions that the window adds to a scene: overhang, fin, reveal, balcony, neighbour, with sizes that follow the
+//! first aperture.
 
 use crate::compute::estimate::Estimate;
 use crate::study::outside::MOST_BOXES;
@@ -8,29 +8,30 @@ use crate::study::scene_file::{
 };
 use crate::texts::{Text, scene as texts};
 
-/// Scene, and the effect of every box and of the building on its apertures' illuminance, `None` in the dark; or why not.
+/// Scene, and the effect of every box and of the building on its apertures' illuminance, `None` if it is dark; or the
+/// reason why there is none.
 pub type ObstructionEffects = (SceneFile, Result<Option<Vec<Estimate>>, String>);
 
-/// What may be put outside.
+/// Kind of obstruction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A slab over the aperture.
+    /// Horizontal slab above the aperture.
     Overhang,
-    /// An upright slab beside it.
+    /// Vertical slab beside the aperture.
     Fin,
-    /// The four sides of the opening in which it stands back.
+    /// Four sides round the aperture, which is set back between them.
     Reveal,
-    /// A slab below the room with a parapet.
+    /// Slab below the room, with a parapet.
     Balcony,
-    /// A building across the street.
+    /// Building across the street.
     Neighbour,
 }
 
 impl Kind {
-    /// All, the nearest first.
+    /// All kinds, nearest first.
     pub const ALL: [Self; 5] = [Self::Overhang, Self::Fin, Self::Reveal, Self::Balcony, Self::Neighbour];
 
-    /// In a word.
+    /// Returns the label.
     pub const fn word(self) -> Text {
         match self {
             Self::Overhang => texts::OVERHANG,
@@ -41,7 +42,7 @@ impl Kind {
         }
     }
 
-    /// As it is offered.
+    /// Returns the label of the command that adds it.
     pub const fn order(self) -> Text {
         match self {
             Self::Overhang => texts::ADD_OVERHANG,
@@ -53,28 +54,28 @@ impl Kind {
     }
 }
 
-/// What is done with the boxes outside, as a step of its own. Counted from 0; the last one where it is `None`.
+/// Command about the boxes outside, an undo step of its own. Numbers count from 0; `None` is the last one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Act {
-    /// Put something there.
+    /// Add an obstruction.
     Add(Kind),
-    /// The same again, beside it.
+    /// Duplicate a box, beside it.
     Duplicate(Option<usize>),
-    /// Take one away.
+    /// Remove a box.
     Remove(Option<usize>),
 }
 
-/// Why nothing was done.
+/// Reason why nothing was done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refused {
-    /// There is no such box.
+    /// Missing box.
     NothingThere,
-    /// There are as many as a scene may have.
+    /// Maximum number of boxes in a scene reached.
     TooMany,
 }
 
 impl Refused {
-    /// In a sentence.
+    /// Returns the reason as a sentence.
     pub fn words(self) -> String {
         match self {
             Self::NothingThere => texts::NOTHING_OUTSIDE.into(),
@@ -83,19 +84,20 @@ impl Refused {
     }
 }
 
-/// Room is left between what is put there and the aperture's edge. \[m\]
+/// Gap between an obstruction and the aperture's edge. \[m\]
 const GAP: f64 = 0.1;
 /// Thickness of slabs, fins and parapets. \[m\]
 const THICK: f64 = 0.15;
-/// How far an overhang and a balcony reach beyond the aperture's sides. \[m\]
+/// Length by which an overhang or a balcony extends beyond the aperture's sides. \[m\]
 const BEYOND: f64 = 0.5;
 
-/// To the millimetre, so that what is shown is what is meant.
+/// Rounds to the millimetre, so that the value shown is the value used. \[m\]
 pub fn exact(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0 + 0.0
 }
 
-/// The rectangle of the façade that what is put there goes with: the first window, or else the whole wall.
+/// Returns the rectangle of the façade that obstructions follow: the first aperture there, or else the whole wall.
+/// \[m\]
 fn window(scene: &SceneFile) -> [[f64; 2]; 2] {
     let first = scene.aperture.iter().find(|one| one.surface == SurfaceKey::Facade);
     first.map_or([[0.0, scene.room.width], [0.0, scene.room.height]], sides)
@@ -110,7 +112,7 @@ fn solid(x: [f64; 2], y: [f64; 2], z: [f64; 2]) -> BoxKeys {
     BoxKeys { from: end(0), to: end(1), turn: 0.0 }
 }
 
-/// The boxes of one kind, each with its name.
+/// Returns the boxes of one kind, each with its name.
 fn boxes(kind: Kind, scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     let [[left, right], [sill, head]] = window(scene);
     let wide = [left - BEYOND, right + BEYOND];
@@ -126,7 +128,7 @@ fn boxes(kind: Kind, scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     names.into_iter().zip(solids).collect()
 }
 
-/// Four boxes round the first aperture, wherever it is.
+/// Returns the four boxes round the first aperture, wherever it is.
 fn reveal(scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     const DEEP: f64 = 0.25;
     let first = scene.aperture.first();
@@ -141,8 +143,8 @@ fn reveal(scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     names.into_iter().zip(across.into_iter().zip(along).map(place)).collect()
 }
 
-/// Where the next one of its kind goes while another stands there already: overhangs higher, all else further to the left
-/// for fins, to the right for others.
+/// Returns the place for another box of a kind beside an existing one: overhangs higher, fins further to the left,
+/// others further to the right.
 fn beside(kind: Kind, solid: &BoxKeys, scene: &SceneFile) -> BoxKeys {
     let [[left, _], _] = window(scene);
     let size = [0, 1, 2].map(|k| solid.to[k] - solid.from[k]);
@@ -155,9 +157,9 @@ fn beside(kind: Kind, solid: &BoxKeys, scene: &SceneFile) -> BoxKeys {
     }
 }
 
-/// A building round the room: flush with the façade or the roof that has apertures, down to the ground.
+/// Returns a building round the room: flush with the façade or the roof that has apertures, down to the ground.
 pub fn building(scene: &SceneFile) -> BuildingKeys {
-    /// How far it goes on beside, behind and above the room. \[m\]
+    /// Length by which the building extends beside, behind and above the room. \[m\]
     const ON: f64 = 6.0;
     let room = &scene.room;
     let on_roof = scene.aperture.iter().any(|one| one.surface == SurfaceKey::Roof);
@@ -169,7 +171,7 @@ pub fn building(scene: &SceneFile) -> BuildingKeys {
     }
 }
 
-/// A box, moved along an axis. \[m\]
+/// Returns a box moved along an axis by `way`. \[m\]
 pub fn moved(solid: &BoxKeys, axis: usize, way: f64) -> BoxKeys {
     let mut new = *solid;
     new.from[axis] = exact(new.from[axis] + way);
@@ -177,15 +179,15 @@ pub fn moved(solid: &BoxKeys, axis: usize, way: f64) -> BoxKeys {
     new
 }
 
-/// What a box is called: its name, else its number.
+/// Returns the name of a box, or its number if it has none.
 pub fn name(number: usize, keys: &OutsideKeys) -> String {
     if keys.name.trim().is_empty() { texts::box_number(number + 1) } else { keys.name.trim().to_owned() }
 }
 
-/// A scene after something was done with its boxes.
+/// Applies a command to the boxes of a scene.
 ///
 /// # Errors
-/// [`Refused`]; the scene is as it was then.
+/// Returns [`Refused`] if nothing was done; the scene is then unchanged.
 pub fn act(scene: &mut SceneFile, act: Act) -> Result<(), Refused> {
     let last = scene.outside.len().checked_sub(1);
     let there = |number: Option<usize>| {

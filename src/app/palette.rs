@@ -1,4 +1,4 @@
-//! What the palette lists for its words: commands, states of the chosen product, products of the catalogue, best first.
+//! Rows of the palette for its text: commands, states of the selected product, products of the catalogue, best first.
 
 use super::command::Command;
 use super::control::state_words;
@@ -11,27 +11,27 @@ use super::window::App;
 use super::work::Outcome;
 use crate::texts::shell;
 
-/// Rows shown at most.
+/// Maximum number of rows shown.
 pub const ROWS: usize = 12;
 
-/// Products looked through at most.
+/// Maximum number of products searched.
 const PRODUCTS: usize = 50;
 
-/// A row of the palette.
+/// Row of the palette.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// What is done.
+    /// Command of the row.
     pub command: Command,
-    /// What it is called.
+    /// Label of the row.
     pub text: String,
-    /// One sentence more; may be empty.
+    /// Additional sentence; may be empty.
     pub tip: String,
-    /// Its keys in words, where it has some.
+    /// Shortcut as text, if there is one.
     pub keys: Option<String>,
 }
 
-/// How well a name (or what is said about it) has all of some words, all in lower case: the less the better; `None` where
-/// one is missing. A whole word goes before the beginning of one, that before a part, and the tip comes last.
+/// Returns how badly a name (or the text about it) matches some words, all in lower case: the lower the better; `None`
+/// if a word is missing. A whole word ranks before the beginning of a word, that before a part, and the tip comes last.
 fn misfit(name: &str, about: &str, wanted: &[String]) -> Option<usize> {
     let name = name.to_lowercase();
     let about = about.to_lowercase();
@@ -52,7 +52,8 @@ fn misfit(name: &str, about: &str, wanted: &[String]) -> Option<usize> {
     sum.map(|sum| 2 * sum + usize::from(!begins))
 }
 
-/// What the palette lists, the best first; among equals commands before states before products.
+/// Returns the rows of the palette, best first; with equal match commands come before states and states before
+/// products.
 pub fn rows(state: &State, text: &str) -> Vec<Row> {
     let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
     // The palette itself is left out: it would only close.
@@ -98,7 +99,8 @@ pub fn rows(state: &State, text: &str) -> Vec<Row> {
     list.into_iter().map(|(_, row)| row).collect()
 }
 
-/// What was found in the catalogue, as far as it is what was asked for: words that it had to read as others are none.
+/// Returns the products found in the catalogue, if the search took the words as typed: results of a corrected search
+/// are left out.
 fn hits(found: Found) -> Vec<Hit> {
     if !found.read_as.is_empty() {
         return Vec::new();
@@ -121,7 +123,7 @@ impl App {
         self.jobs.cancel(Lane::Palette);
     }
 
-    /// Takes other words in, and looks in the catalogue what they fit.
+    /// Sets the text of the palette, and searches the catalogue for it.
     pub(super) fn edit_palette(&mut self, text: String) {
         let words = text.trim().to_owned();
         self.state.palette = Some(text);
@@ -135,7 +137,7 @@ impl App {
         }
     }
 
-    /// Products for the palette have come.
+    /// Stores the products found for the palette.
     pub(super) fn take_hits(&mut self, found: Result<Found, super::error::AppError>) {
         match found {
             Ok(found) => {

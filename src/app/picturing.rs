@@ -1,4 +1,4 @@
-//! Has pictures of products made for the gallery.
+//! Starting pictures of products for the gallery.
 
 use super::gallery::{Made, picture};
 use super::jobs::Lane;
@@ -6,9 +6,9 @@ use super::window::App;
 use super::work::Outcome;
 
 impl App {
-    /// Asks for pictures of the cards that are in sight and have none.
+    /// Starts making the missing pictures of the visible cards.
     pub(super) fn ask_pictures(&mut self) {
-        // Cards ask in every frame: what is out of sight meanwhile is not made, and what is under way not twice.
+        // Cards ask in every frame: what is hidden meanwhile is not made, and what is under way not twice.
         let wanted = self.gallery.wanted();
         if wanted.is_empty() || self.jobs.busy(Lane::Gallery) {
             return;

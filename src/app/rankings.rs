@@ -4,13 +4,13 @@ use super::choose::{Board, Figures};
 use crate::study::rank::Store;
 use std::sync::Arc;
 
-/// What the window knows of rankings beside the one that is shown.
+/// State of the rankings beside the one that is shown.
 #[derive(Default)]
 pub(super) struct Choosing {
-    /// The one that is under way, or was last, and what of it was seen.
+    /// Board of the current or last ranking, and the number of its results that were read.
     pub board: Option<(Arc<Board>, u64)>,
-    /// Those of other questions.
+    /// Results for other inputs.
     pub kept: Vec<Arc<Figures>>,
-    /// Products whose years are known.
+    /// Store of products whose years are computed.
     pub store: Arc<Store>,
 }

@@ -1,4 +1,4 @@
-//! Reads what was opened or dropped: files, folders and archives, each taken for what it is.
+//! Reading what was opened or dropped: files, folders and archives, each by its type.
 
 use super::disk::read_bytes;
 use super::error::AppError;
@@ -15,17 +15,17 @@ use crate::study::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What is asked of files.
+/// Request to read files.
 pub struct Asked {
     /// Files, folders and archives.
     pub paths: Vec<PathBuf>,
-    /// How datasets are taken.
+    /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Reads a dataset file.
+    /// Function that reads a dataset file.
     pub read: ReadDataset,
-    /// Where the same content may be already; `None` before the catalogue is open.
+    /// Catalogue that may hold the same content already; `None` before it is open.
     pub shelf: Option<Arc<dyn Shelf>>,
-    /// What was typed and tried on the same files before.
+    /// Texts and repairs kept for the same files.
     pub kept: Option<KeptImport>,
 }
 
@@ -57,10 +57,11 @@ fn read_single(single: Single, path: &Path) -> Outcome {
 }
 
 /// Reads files: of scenes, systems and control curves the first that is named; datasets and packages as products to be
-/// added; other files are told.
+/// added; other files are reported.
 pub fn read_files(asked: &Asked, progress: &dyn Progress) -> Outcome {
     let taken = take_in(&asked.paths, asked.read, progress);
-    // Taken up again, what is opened by itself is open already: reading it once more would take back what was changed since.
+    // Restored with a session, files opened by themselves are open already: reading them again would undo later
+    // changes.
     let singles = taken.singles.iter().filter(|_| asked.kept.is_none());
     let mut list: Vec<Outcome> = singles.map(|(single, path)| read_single(*single, path)).collect();
     let by_hand = asked.kept.as_ref().and_then(|kept| kept.by_hand.clone());

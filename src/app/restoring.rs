@@ -1,4 +1,4 @@
-//! The window's session: taken up at the start, kept while it lives, left in order at the end.
+//! Session of the window: restored at the start, kept while the window lives, closed at the end.
 
 use super::autosave::{Autosave, Found};
 use super::clock;
@@ -8,17 +8,17 @@ use crate::texts::shell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// How long a window that is closed waits for what is still being stored.
+/// Maximum time that a closing window waits for what is still being stored.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Where the user's sessions are kept: beside the catalogue, in the user's folder for data.
+/// Returns the folder of the user's sessions: beside the catalogue, in the user's data folder.
 pub fn sessions_folder() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "cfs").map(|folders| folders.data_dir().join("sessions"))
 }
 
 impl App {
-    /// Keeps the session in a folder from now on, and takes up what lies there. `take_up`: also the session of a window
-    /// that did not close, which is told.
+    /// Keeps the session in a folder from now on, and restores what is there. `take_up`: also the session of a window
+    /// that did not close, with a message.
     pub fn begin_session(&mut self, folder: Option<&Path>, take_up: bool) {
         let Some(folder) = folder else {
             let _speaking = self.speak();
@@ -65,7 +65,7 @@ impl App {
         }
     }
 
-    /// Hands what has changed to the keeper. Never waits.
+    /// Passes changes of the session to its writer. Never waits.
     pub(super) fn keep_session(&mut self) {
         let Some(keeper) = &mut self.autosave else { return };
         keeper.keep(&self.state);
@@ -74,7 +74,7 @@ impl App {
         }
     }
 
-    /// Ends in order: what is being stored and written comes to its end, the session is left for the next start.
+    /// Ends the window in order: what is being stored and written is completed, the session is left for the next start.
     pub fn close(&mut self) {
         let start = Instant::now();
         let storing = |app: &Self| app.jobs.busy(Lane::Store) || !app.pending_changes.is_empty() || app.writing;

@@ -1,5 +1,6 @@
-//! Hebrew and Arabic in the window. egui turns and joins the letters of a word, and sets words from left to right. Here what a
-//! frame has drawn is set again in the order of reading, so that no label, list or picture has to care for it.
+//! Hebrew and Arabic in the window. egui turns and joins the letters of a word, and sets words from left to right. This
+//! module sets what a frame has drawn again in the order of reading, so that no label, list or picture has to care for
+//! it.
 
 use crate::texts::{has_right_to_left, visual_parts};
 use egui::epaint::text::{ByteIndex, LayoutJob, LayoutSection, TextWrapping};
@@ -9,7 +10,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use unicode_bidi_mirroring::get_mirrored;
 
-/// Sets the texts that a frame has drawn in the order of reading. Called at its end.
+/// Sets the texts that a frame has drawn in the order of reading. Called at the end of the frame.
 pub fn reorder(ui: &mut Ui) {
     let ctx = ui.ctx();
     let mut layers: Vec<LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
@@ -50,11 +51,11 @@ fn set_in_order(ctx: &Context, shape: &mut Shape) {
     }
 }
 
-/// A part of a text on a line, and whether the text ends there with "…".
+/// Part of a text on a line, and whether the text ends there with "…".
 type Line = (Range<usize>, bool);
 
-/// Returns a text with every line in the order of reading; where it is wrapped or cut, that is done again, in the order of
-/// its letters.
+/// Returns a text with every line in the order of reading; a wrapped or cut text is wrapped or cut again, in the order
+/// of its letters.
 fn in_order(galley: &Galley, layout: &dyn Fn(LayoutJob) -> Arc<Galley>) -> Arc<Galley> {
     let job = &*galley.job;
     let wraps = galley.elided || galley.rows.len() > job.text.split('\n').count();

@@ -1,26 +1,26 @@
-//! How the room is drawn: kept from one start to the next.
+//! Display settings of the room, kept from one start to the next.
 
 use crate::texts::{Text, tiles as say};
 use serde::{Deserialize, Serialize};
 
-/// From where one looks at the room.
+/// View of the room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RoomView {
-    /// From above, the sensor plane in false colour.
+    /// Floor plan, the work plane in false colour.
     #[default]
     Plan,
-    /// From the side.
+    /// Section.
     Section,
-    /// Turned by hand, its surfaces as they are lit.
+    /// Perspective, rotated by hand, with the illuminated surfaces.
     Perspective,
 }
 
 impl RoomView {
-    /// All, in the order of the toggle.
+    /// All views, in the order of the toggle.
     pub const ALL: [Self; 3] = [Self::Plan, Self::Section, Self::Perspective];
 
-    /// In words, as on the toggle.
+    /// Returns the label on the toggle.
     pub const fn word(self) -> Text {
         match self {
             Self::Plan => say::PLAN,
@@ -29,7 +29,7 @@ impl RoomView {
         }
     }
 
-    /// One sentence.
+    /// Returns the tooltip, one sentence.
     pub const fn tip(self) -> Text {
         match self {
             Self::Plan => say::PLAN_TIP,
@@ -39,14 +39,14 @@ impl RoomView {
     }
 }
 
-/// How the room is drawn.
+/// Display settings of the room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct RoomLook {
-    /// From where.
+    /// View of the room.
     pub view: RoomView,
-    /// The daylight factor instead of illuminance.
+    /// Whether the daylight factor is shown instead of illuminance.
     pub daylight_factor: bool,
-    /// In perspective, luminances as one would see them instead of false colours.
+    /// Whether the perspective shows luminances as an observer would see them instead of false colours.
     pub as_seen: bool,
 }

@@ -1,11 +1,11 @@
-//! Words as parts of file names, in characters that every system takes.
+//! Words as parts of file names, in characters that every system accepts.
 
 use crate::texts::ascii_letters;
 
-/// Longest part of a name made from words. \[characters\]
+/// Maximum length of a part of a name made from words. \[characters\]
 const LONGEST: usize = 80;
 
-/// A word in ASCII letters, digits, point and hyphen; other runs become one hyphen.
+/// Returns a word in ASCII letters, digits, point and hyphen; runs of other characters become one hyphen.
 pub fn safe(word: &str) -> String {
     let mut text = String::new();
     for c in ascii_letters(word).chars() {

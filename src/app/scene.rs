@@ -1,4 +1,4 @@
-//! The scene as the window starts it, fills it and reads it.
+//! First scene of the window, and functions that fill and read scenes.
 
 use super::moment;
 use crate::study::control::year::CONTROLLED;
@@ -6,19 +6,20 @@ pub use crate::study::example::first_scene;
 use crate::study::scene_file::{ControlKeys, IlluminanceKey, SceneFile, SystemKeys};
 use crate::study::sky::illuminances;
 
-/// Product and state: the window's one selection.
+/// Selected product and state of the window.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Selection {
-    /// Product key.
+    /// Key of the product.
     pub product: String,
-    /// Key of the state; empty for the one that stands for the product; `controlled` when the scene's control picks it.
+    /// Key of the state; empty for the representative state; `controlled` if the scene's control picks it.
     pub state: String,
 }
 
-/// The scene that the last session left; `None` where the text is no scene.
+/// Returns the scene that the last session left; `None` if the text is not a scene.
 ///
 /// Versions that did not know `sky.illuminance` followed the sun in every session, whatever was written; since then the
-/// key is always written. So a scene without it is theirs and goes on following the sun, where it knows the sun.
+/// key is always written. So a scene without it is from such a version and continues to follow the sun, if its sun
+/// position is known.
 pub fn kept_scene(text: &str) -> Option<SceneFile> {
     let mut scene = SceneFile::parse(text).ok()?;
     let table: toml::Table = text.parse().ok()?;
@@ -29,7 +30,7 @@ pub fn kept_scene(text: &str) -> Option<SceneFile> {
     Some(scene)
 }
 
-/// Lets the illuminances follow the sun, or leaves them to be typed, from what they are now.
+/// Lets the illuminances follow the sun, or makes them manual, starting from their current values.
 pub fn follow(scene: &mut SceneFile, by: IlluminanceKey) {
     let now = illuminances(&scene.sky, &scene.site).ok().flatten();
     let sky = &mut scene.sky;
@@ -44,7 +45,7 @@ pub fn follow(scene: &mut SceneFile, by: IlluminanceKey) {
     sky.illuminance = by;
 }
 
-/// The product that a scene's first aperture from the catalogue holds.
+/// Returns the selection in a scene's first aperture that is filled from the catalogue.
 pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
     scene.aperture.iter().find_map(|aperture| match &aperture.system {
         SystemKeys::Catalogue { key, state } if !key.is_empty() => {
@@ -54,7 +55,7 @@ pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
     })
 }
 
-/// What the first aperture holds where none is filled from the catalogue: an ideal system, a file.
+/// Returns the system of the first aperture if no aperture is filled from the catalogue: an ideal system or a file.
 pub fn own_system(scene: &SceneFile) -> Option<&SystemKeys> {
     let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
     let first = scene.aperture.first().map(|aperture| &aperture.system);
@@ -80,7 +81,7 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     }
 }
 
-/// Sets the rule of one aperture, or of the whole scene, which then has no other.
+/// Sets the control rule of one aperture, or of the whole scene, which then has no other.
 pub fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<ControlKeys>) {
     match aperture.and_then(|index| scene.aperture.get_mut(index)) {
         Some(aperture) => aperture.control = keys,
@@ -91,7 +92,7 @@ pub fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<Con
     }
 }
 
-/// The rule of an aperture: its own, else the scene's.
+/// Returns the control rule of an aperture: its own, else the scene's.
 pub fn rule(scene: &SceneFile, aperture: usize) -> Option<&ControlKeys> {
     scene.aperture.get(aperture).and_then(|aperture| aperture.control.as_ref()).or(scene.control.as_ref())
 }

@@ -1,4 +1,4 @@
-//! What is open in a window, as it is kept on disk while the window lives, and taken up again at the next start.
+//! Session of a window: what is open, as kept on disk while the window lives, and restored at the next start.
 
 use super::import::KeptImport;
 use super::scene::Selection;
@@ -9,29 +9,29 @@ use crate::study::scene_file::SceneFile;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Number of the layout of a kept session. A newer one is left alone.
+/// Version of the layout of a kept session. A newer one is left alone.
 const VERSION: u32 = 1;
 
-/// The program ended at a fault of its own with this open.
+/// Internal error that ended the program with this session open.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct KeptFault {
-    /// So many times in a row, each soon after it was taken up.
+    /// Number of times in a row, each soon after the session was restored.
     pub times: u32,
-    /// The report on the last one.
+    /// Path of the report on the last one.
     pub report: Option<PathBuf>,
 }
 
-/// The system file that is being typed.
+/// System file that is being typed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptSystem {
-    /// Its text.
+    /// Text of the system file.
     pub text: String,
-    /// What it names other files relative to.
+    /// Folder that relative names in the text start from.
     pub base: PathBuf,
 }
 
-/// What is open in a window.
+/// Snapshot of what is open in a window.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Snapshot {
     scene: SceneText,
@@ -45,11 +45,11 @@ pub struct Snapshot {
     settings: Settings,
 }
 
-/// A scene that has its text made when it is written.
+/// Scene that is converted to text when it is written.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct SceneText(Option<Box<SceneFile>>);
 
-/// The sheets that are opened again.
+/// Sheets that are opened again, with their keys.
 const SHEETS: [(Sheet, &str); 2] = [(Sheet::Import, "import"), (Sheet::Goniophotometer, "goniophotometer")];
 
 fn sheet_word(sheet: Option<Sheet>) -> Option<&'static str> {
@@ -57,7 +57,7 @@ fn sheet_word(sheet: Option<Sheet>) -> Option<&'static str> {
 }
 
 impl Snapshot {
-    /// Of a window as it is now.
+    /// Creates a snapshot of a window as it is now.
     pub fn of(state: &State) -> Self {
         let document = &state.document;
         Self {
@@ -74,7 +74,7 @@ impl Snapshot {
         }
     }
 
-    /// Is it what the window shows now? Asked every frame: compares without copying.
+    /// Whether the snapshot equals what the window shows now. Called in every frame: compares without copying.
     pub fn is_of(&self, state: &State) -> bool {
         let document = &state.document;
         self.scene.0.as_deref() == Some(&document.scene)
@@ -93,7 +93,7 @@ impl Snapshot {
             && self.settings == state.settings
     }
 
-    /// As it is written, with the time.
+    /// Returns the session as it is written, with the time `at`.
     pub fn kept(&self, at: String) -> Kept {
         Kept {
             version: VERSION,
@@ -113,43 +113,43 @@ impl Snapshot {
     }
 }
 
-/// A session as it lies on disk.
+/// Session as stored on disk.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Kept {
-    /// Layout.
+    /// Version of the layout.
     pub version: u32,
-    /// When it was written: UTC.
+    /// Time of writing, UTC.
     pub at: String,
-    /// The scene in TOML.
+    /// Scene in TOML.
     pub scene: String,
     /// Key of the selected product.
     pub product: String,
-    /// Key of its state.
+    /// Key of the selected state.
     pub state: String,
-    /// Where the scene was opened from or saved to.
+    /// Path that the scene was opened from or saved to.
     pub scene_path: Option<PathBuf>,
-    /// Title of the tile that fills the bench.
+    /// Title of the tile that fills the tile area.
     pub maximised: Option<String>,
-    /// An import that is not stored yet.
+    /// Import that is not stored yet.
     pub import: Option<KeptImport>,
-    /// Imports left for later.
+    /// Drafts of imports.
     pub drafts: Vec<KeptImport>,
-    /// The system file that is being typed.
+    /// System file that is being typed.
     pub system: KeptSystem,
-    /// The sheet that was open.
+    /// Key of the sheet that was open.
     pub sheet: Option<String>,
-    /// Theme, panels, folder.
+    /// Settings: theme, panels, folder.
     pub settings: Settings,
-    /// How its window ended, if at a fault.
+    /// Internal error that ended the program, if there was one.
     pub fault: Option<KeptFault>,
 }
 
 impl Kept {
-    /// Reads what was written.
+    /// Reads a stored session.
     ///
     /// # Errors
-    /// One clause on what is wrong.
+    /// Returns an error if the bytes are not a session or a newer program has written it.
     pub fn read(bytes: &[u8]) -> Result<Self, SessionError> {
         let kept: Self = serde_json::from_slice(bytes).map_err(SessionError::Text)?;
         match kept.version {
@@ -158,10 +158,10 @@ impl Kept {
         }
     }
 
-    /// Puts what was kept into a window that has just been made. The import comes back when its files are read again.
+    /// Restores the session in a new window. The import comes back when its files are read again.
     ///
     /// # Errors
-    /// The scene's own sentence where it cannot be read; everything else is put in all the same.
+    /// Returns the message of the scene if it cannot be read; everything else is restored all the same.
     pub fn put_into(&self, state: &mut State) -> Result<(), String> {
         state.settings = self.settings.clone();
         state.drafts.clone_from(&self.drafts);

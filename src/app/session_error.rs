@@ -1,4 +1,5 @@
-//! Why a session is not kept or cannot be taken up. It becomes a sentence where it is told: the keeper speaks no language.
+//! Errors of sessions that cannot be kept or restored. They become sentences where they are shown, because the writer
+//! of sessions has no language.
 
 use super::error::AppError;
 use crate::texts::shell;
@@ -9,28 +10,29 @@ fn set_aside(file: &Path, report: Option<&Path>) -> String {
     shell::set_aside(file.display(), report)
 }
 
-/// What is wrong with a session.
+/// Error of a session.
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
-    /// It is no text of a session.
+    /// Text that is not a session.
     #[error("{0}")]
     Text(serde_json::Error),
-    /// A newer program has written it: its layout, and the newest that this one reads.
+    /// Session written by a newer program: the version of its layout, and the newest version that this program reads.
     #[error("{}", shell::newer_session(.0, .1))]
     Newer(u32, u32),
-    /// Its file cannot be read.
+    /// Session file that cannot be read.
     #[error("{0}")]
     File(AppError),
-    /// It cannot be taken up.
+    /// Session that cannot be restored: its file, and the reason.
     #[error("{}", shell::unreadable(.0.display(), .1))]
     Unreadable(PathBuf, Box<Self>),
-    /// The program ended more than once soon after it had taken it up: where it lies now, and what its report is.
+    /// Session that was set aside because the program ended more than once soon after restoring it: its new path, and
+    /// its report.
     #[error("{}", set_aside(.0, .1.as_deref()))]
     SetAside(PathBuf, Option<PathBuf>),
-    /// It cannot be written.
+    /// Session that cannot be written.
     #[error("{}", shell::not_kept(.0))]
     NotKept(String),
-    /// It may be lost with the power.
+    /// Session that may be lost in a power failure.
     #[error("{}", shell::not_safe(.0))]
     NotSafe(String),
 }

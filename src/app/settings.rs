@@ -1,4 +1,4 @@
-//! What is kept from one start to the next, beside the session.
+//! Settings that are kept from one start to the next, beside the session.
 
 use super::hand_on::Choices;
 use super::language::LanguageChoice;
@@ -8,39 +8,39 @@ use crate::study::rank::Look as Choosing;
 use crate::study::year::Look;
 use std::path::PathBuf;
 
-/// Kept from one start to the next.
+/// Settings that are kept from one start to the next.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Settings {
-    /// Light, dark or as the desktop.
+    /// Theme: light, dark, or that of the desktop.
     pub theme: ThemeChoice,
-    /// In which language the window speaks.
+    /// Language of the window.
     pub language: LanguageChoice,
-    /// Catalogue panel open?
+    /// Whether the catalogue panel is open.
     pub catalogue_open: bool,
-    /// Scene panel open?
+    /// Whether the scene panel is open.
     pub scene_open: bool,
-    /// The scene as older programs kept it here, in TOML; now it is in the session.
+    /// Scene in TOML, as older programs kept it here; now it is in the session.
     pub last_scene: Option<String>,
-    /// The folder that was written to or read from last.
+    /// Folder that was written to or read from last.
     pub folder: Option<PathBuf>,
-    /// What was handed on last, and in which form.
+    /// Choices of the last export.
     pub hand_on: Choices,
-    /// Where the tiles stand; `None`: as at a first start.
+    /// Arrangement of the tiles; `None`: as at a first start.
     pub layout: Option<String>,
-    /// How the room is drawn.
+    /// Display settings of the room.
     pub room: RoomLook,
-    /// How the year is looked at.
+    /// Display settings of the annual simulation.
     pub year: Look,
-    /// How the ranking is looked at.
+    /// Display settings of the ranking.
     pub choose: Choosing,
-    /// How large text is, as a share of what the desktop wants.
+    /// Text size relative to that of the desktop.
     pub text_size: f32,
-    /// Steps of the tour that were done.
+    /// Number of finished steps of the tour.
     pub tour: usize,
-    /// Products as a gallery of pictures?
+    /// Whether products are shown as a gallery of pictures.
     pub gallery: bool,
-    /// Keys of the products that were shown last, the last first.
+    /// Keys of the products that were shown last, newest first.
     pub recent: Vec<String>,
 }
 

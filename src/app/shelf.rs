@@ -1,4 +1,4 @@
-//! What the window asks of a catalogue. A trait, so that tests can put a slow or failing one in its place.
+//! Interface from the window to a catalogue. A trait, so that tests can use a slow or failing implementation.
 
 use super::error::AppError;
 use crate::catalogue::{Collection, Subscription};
@@ -10,28 +10,28 @@ use crate::study::control::ControlQuestion;
 use crate::study::subscriptions::Report;
 use std::sync::Arc;
 
-/// A row of the list.
+/// Row of the product list.
 pub use crate::catalogue::ProductRow as Entry;
-/// What is asked for, and what was found.
+/// Search and its result.
 pub use crate::catalogue::{Found, Query};
 
-/// A product of the catalogue that the words fit.
+/// Product of the catalogue that matches the palette's text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hit {
-    /// Its key.
+    /// Key of the product.
     pub key: String,
-    /// Its name.
+    /// Name of the product.
     pub name: String,
-    /// What else is said about it: maker and kind.
+    /// Further information: maker and kind.
     pub about: String,
 }
 
-/// A product to be stored: its states, and what the user said about it.
+/// Product to be stored: its states, and the user's texts about it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Addition {
-    /// Datasets, one a state.
+    /// Datasets, one per state.
     pub datasets: Vec<Arc<Dataset>>,
-    /// Name, kind, where the data come from.
+    /// Name, kind, source of the data.
     pub product: NewProduct,
 }
 
@@ -44,78 +44,79 @@ pub struct Sets {
     pub subscriptions: Vec<Subscription>,
 }
 
-/// A catalogue as the window sees it.
+/// Catalogue as the window uses it.
 pub trait Shelf: Send + Sync {
-    /// Looks products up.
+    /// Searches products.
     fn search(&self, query: &Query) -> Result<Found, AppError>;
-    /// The dataset of a state, computed now where the catalogue does not hold it; without a key of the state that stands for
-    /// the product.
+    /// Returns the dataset of a state, computed now if the catalogue does not hold it; without a key, of the
+    /// representative state.
     fn load(&self, product: &str, state: Option<&str>) -> Result<Arc<Dataset>, AppError>;
-    /// Everything about a product but its datasets: states with their numbers, control curve.
+    /// Returns everything about a product except its datasets: states with their figures, control curve.
     fn product(&self, product: &str) -> Result<Arc<Product>, AppError>;
-    /// The state that a control picks for a product.
+    /// Returns the state that a control picks for a product.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
-    /// Stores a product; its key.
+    /// Stores a product and returns its key.
     fn add(&self, addition: &Addition) -> Result<String, AppError>;
     /// Stores all of these products, or none.
     fn add_all(&self, additions: &[Addition]) -> Result<Vec<Stored>, AppError>;
-    /// Takes all of these products out for good, or none.
+    /// Removes all of these products permanently, or none.
     fn remove_all(&self, products: &[String]) -> Result<(), AppError>;
-    /// Other words about a product.
+    /// Changes the texts of a product.
     fn describe(&self, product: &str, words: &Words) -> Result<(), AppError>;
-    /// Takes a product out of sight.
+    /// Deletes a product, restorable.
     fn delete(&self, product: &str) -> Result<(), AppError>;
-    /// Brings a product back into sight.
+    /// Restores a deleted product.
     fn restore(&self, product: &str) -> Result<(), AppError>;
-    /// Products out of sight, the last one first.
+    /// Returns the deleted products, newest first.
     fn deleted(&self) -> Result<Vec<Deleted>, AppError>;
-    /// Products in sight that were read from files of this hash.
+    /// Returns the products, not deleted, that were read from files with this hash.
     fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, AppError>;
-    /// Products in sight with a state of this content.
+    /// Returns the products, not deleted, that have a state with this content.
     fn products_holding(&self, content: &str) -> Result<Vec<Known>, AppError>;
-    /// What happened to a product, the last first.
+    /// Returns the events of a product, newest first.
     fn history(&self, product: &str) -> Result<Vec<Event>, AppError>;
-    /// Paths of the files that a product was read from.
+    /// Returns the paths of the files that a product was read from.
     fn source_paths(&self, product: &str) -> Result<Vec<String>, AppError>;
-    /// A product of the user's as it is now, data and all.
+    /// Returns one of the user's products as it is now, including its data.
     fn snapshot(&self, product: &str) -> Result<Snapshot, AppError>;
-    /// Makes a product what it was.
+    /// Restores a product to a snapshot.
     fn put_back(&self, snapshot: &Snapshot) -> Result<(), AppError>;
-    /// Other names and angles of a product's states, in their order.
+    /// Changes names and angles of a product's states, in their order.
     fn name_states(&self, product: &str, names: &[StateName]) -> Result<(), AppError>;
-    /// Other data for some states of a product.
+    /// Replaces the data of some states of a product.
     fn replace_states(&self, product: &str, list: &[Replacement]) -> Result<(), AppError>;
-    /// The folder of packages that a product comes from; `None` for others.
+    /// Returns the folder of packages that a product comes from; `None` for other products.
     fn subscribed_folder(&self, product: &str) -> Result<Option<String>, AppError>;
-    /// Collections by name.
+    /// Returns the collections by name.
     fn collections(&self) -> Result<Vec<Collection>, AppError>;
-    /// Puts products into a collection, or takes them out.
+    /// Adds products to a collection, or removes them.
     fn collect(&self, name: &str, products: &[String], put: bool) -> Result<(), AppError>;
-    /// Folders of packages that are subscribed to.
+    /// Returns the folders of packages that are subscribed to.
     fn subscriptions(&self) -> Result<Vec<Subscription>, AppError>;
     /// Subscribes to a folder of packages; its products come when it is read.
     fn subscribe(&self, folder: &str) -> Result<(), AppError>;
-    /// Ends a subscription: its products go. How many went.
+    /// Ends a subscription, which removes its products, and returns their number.
     fn unsubscribe(&self, folder: &str) -> Result<usize, AppError>;
     /// Reads the folders of packages that are subscribed to, where they have changed.
     fn sync(&self, _progress: &dyn Progress) -> Result<Report, AppError> {
         Ok(Report::default())
     }
-    /// Can the dataset of a state be given at once?
+    /// Whether the dataset of a state can be loaded without computing it.
     fn is_ready(&self, _product: &str, _state: Option<&str>) -> Result<bool, AppError> {
         Ok(true)
     }
-    /// Computes the dataset of a state and keeps it, where the catalogue does not hold it yet; who asks for one that is
-    /// being computed waits for it. Without a key the state that stands for the product.
+    /// Computes and stores the dataset of a state, if the catalogue does not hold it yet; waits if it is already being
+    /// computed. Without a key, that of the representative state.
     fn provide(&self, _product: &str, _state: Option<&str>, _progress: &dyn Progress) -> Result<(), AppError> {
         Ok(())
     }
-    /// Computes and keeps one state that nobody has asked for yet: any of the first of these products, else one that may
-    /// stand for its product, of the next of these that has one, else of any. How many such states are left, and how many
-    /// there are with all that were computed before. The others are for who asks for them.
+    /// Computes and stores one state that has not been requested yet: any state of the first of these products, else
+    /// one that may represent its product, of the next of these that has one, else of any product. Other states are
+    /// computed on request only. Returns the number of such states left, and their number with all that were computed
+    /// before.
     fn fill_one(&self, _order: &[String], _progress: &dyn Progress) -> Result<[usize; 2], AppError> {
         Ok([0; 2])
     }
-    /// Sets or takes the star.
+    /// Sets or removes the star.
     fn set_favourite(&self, product: &str, favourite: bool) -> Result<(), AppError>;
 }

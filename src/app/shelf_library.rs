@@ -1,4 +1,4 @@
-//! The systems of the window's scenes: files and closed forms from the study's library, products from the shelf.
+//! Systems of the window's scenes: files and closed forms from the study's library, products from the catalogue.
 
 use super::error::AppError;
 use super::shelf::Shelf;
@@ -12,13 +12,13 @@ use crate::study::{Library, StudyError, System, SystemLibrary};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Files and closed forms from the study's library, products from the shelf.
+/// Library of files and closed forms from the study, and of products from the catalogue.
 pub struct WindowLibrary<'a> {
-    /// Files and closed forms.
+    /// Library of files and closed forms.
     pub files: &'a Library,
-    /// Products.
+    /// Catalogue with the products.
     pub shelf: &'a dyn Shelf,
-    /// Of what has to be computed first.
+    /// Progress of data that have to be computed first.
     pub progress: &'a dyn Progress,
 }
 
@@ -58,10 +58,10 @@ impl SystemLibrary for WindowLibrary<'_> {
 }
 
 impl WindowLibrary<'_> {
-    /// A product by its key.
+    /// Returns a product by its key.
     ///
     /// # Errors
-    /// The catalogue does not have it.
+    /// Returns an error if the catalogue does not have the product.
     pub fn product(&self, key: &str) -> Result<Product, StudyError> {
         match self.shelf.product(key) {
             Ok(product) => Ok((*product).clone()),

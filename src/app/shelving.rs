@@ -1,30 +1,30 @@
-//! What can be done with the list of products beside searching it: how it is shown, collections, subscriptions.
+//! Commands of the product list beside searching: its display, collections, subscriptions.
 
 use std::path::PathBuf;
 
-/// One thing to do.
+/// Command about the product list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Shelving {
     /// Show the products as a gallery of pictures, or as a list.
     Gallery,
-    /// Choose the first product of the list, and give it the keyboard.
+    /// Select the first product of the list, and give it the keyboard.
     First,
-    /// Products that were shown last alone, or all.
+    /// Show only products that were shown last, or all.
     Recent,
-    /// Set or take the star of the selected product.
+    /// Set or remove the star of the selected product.
     Star,
-    /// Put a product (the selected one where it is `None`) into a collection, or take it out.
+    /// Add a product (the selected one if `None`) to a collection, or remove it.
     Collect {
         /// Name of the collection.
         name: String,
         /// Key of the product.
         product: Option<String>,
-        /// In, not out.
+        /// Whether the product is added.
         put: bool,
     },
-    /// Take all products out of a collection.
+    /// Remove all products from a collection.
     Disband(String),
-    /// Type the name of a new collection.
+    /// Set the name of a new collection, as typed.
     EditName(String),
     /// Ask for a folder of packages to subscribe to.
     Subscribe,

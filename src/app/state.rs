@@ -1,4 +1,4 @@
-//! What the window knows: the document that undo goes over, settings that are kept, and what is only shown.
+//! State of the window: the document that undo covers, settings that are kept, and what is only shown.
 
 use super::changes::{Change, Editing};
 use super::choose::{Figures, Pace};
@@ -33,71 +33,71 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A tile of the bench, by what it says of itself.
+/// Tile of the tile area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Tile {
-    /// Its name in files and settings.
+    /// Key of the tile in files and settings.
     pub title: &'static str,
-    /// Its name for people.
+    /// Name of the tile, translated.
     pub name: Text,
-    /// One sentence and its source.
+    /// Help text: one sentence and its source.
     pub help: Text,
 }
 
-/// What undo and redo go over.
+/// Part of the state that undo and redo cover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
-    /// Product and state.
+    /// Selected product and state.
     pub selection: Selection,
-    /// Place, time, sky, room, sensors.
+    /// Scene: place, time, sky, room, sensor points.
     pub scene: SceneFile,
     /// Numbers of the additions that are in the catalogue now; see [`State::additions`].
     pub additions: Vec<usize>,
-    /// Numbers of the changes to its products that hold now; see [`State::changes`].
+    /// Numbers of the changes to its products that are in effect; see [`State::changes`].
     pub changes: Vec<usize>,
-    /// Numbers of those changes that no figure hangs on: stars, collections, subscriptions.
+    /// Numbers of those changes that affect no figure: stars, collections, subscriptions.
     pub marks: Vec<usize>,
     /// Numbers of the imports that are discarded now; see [`State::discarded`].
     pub discarded: Vec<usize>,
-    /// Numbers of the arrangements of imports that hold now; see [`State::arranged`].
+    /// Numbers of the arrangements of imports that are in effect; see [`State::arranged`].
     pub arranged: Vec<usize>,
 }
 
 impl Document {
-    /// Does another document ask for the same figures? What is compared does not count.
+    /// Whether another document requests the same figures. The comparison does not count.
     pub fn asks_the_same(&self, other: &Self) -> bool {
         (&self.selection, &self.additions, &self.changes) == (&other.selection, &other.additions, &other.changes)
             && same_question(&self.scene, &other.scene)
     }
 }
 
-/// An addition of this session: kept so that undo can take it out and redo put it back.
+/// Addition of this session, kept so that undo can remove it and redo restore it.
 pub struct Added {
-    /// What was stored.
+    /// Product that was stored.
     pub addition: Addition,
-    /// Under which key; `None` while it is not in the catalogue.
+    /// Key in the catalogue; `None` while it is not there.
     pub key: Option<String>,
 }
 
-/// Where the catalogue stands.
+/// State of opening the catalogue.
 pub enum CatalogueState {
-    /// Being opened.
+    /// Catalogue being opened.
     Opening,
-    /// Ready.
+    /// Catalogue ready to use.
     Ready(Arc<dyn Shelf>),
-    /// Could not be opened: why.
+    /// Catalogue that could not be opened, with the reason.
     Failed(String),
 }
 
-/// A result with its age.
+/// Result, and whether it is outdated.
 pub struct Shown<T> {
-    /// The last good one.
+    /// Last valid result.
     pub value: Option<Arc<T>>,
-    /// Something that it depends on has changed since.
+    /// Whether something that the result depends on has changed since.
     pub stale: bool,
-    /// Why there is no newer one.
+    /// Reason why there is no newer result.
     pub error: Option<String>,
-    /// Another with every value: what is drawn from one is kept as long as this stays.
+    /// Number that changes with every value: what is drawn from a value can be kept while it stays.
     pub revision: u64,
 }
 
@@ -108,7 +108,7 @@ impl<T> Default for Shown<T> {
 }
 
 impl<T> Shown<T> {
-    /// Takes a new result; a failure keeps the last good one, marked stale.
+    /// Stores a new result; after a failure the last valid one stays, marked as outdated.
     pub fn take(&mut self, result: Result<T, impl std::fmt::Display>) {
         match result {
             Ok(value) => self.put(Arc::new(value)),
@@ -118,8 +118,8 @@ impl<T> Shown<T> {
 
     /// Shows a value; one that is shown already keeps its revision.
     pub fn put(&mut self, value: Arc<T>) {
-        // Counted over all of them, so that one that begins anew does not meet a number of its own past. An address would
-        // not do: the next value may lie where the last but one lay.
+        // Counted over all of them, so that a new one does not repeat a number of its own past. An address would not
+        // do: the next value may lie where the last but one lay.
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let same = self.value.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, &value));
         let revision = if same { self.revision } else { COUNT.fetch_add(1, Ordering::Relaxed) + 1 };
@@ -127,63 +127,63 @@ impl<T> Shown<T> {
     }
 }
 
-/// What was computed last.
+/// Latest results.
 #[derive(Default)]
 pub struct Results {
-    /// The first aperture as a luminaire.
+    /// LID of the first aperture.
     pub lid: Shown<LidFigures>,
-    /// The largest intensities of a LID: they take longer than it.
+    /// Largest intensities of a LID, which take longer than the LID itself.
     pub peaks: Option<(Arc<LidFigures>, Peaks)>,
-    /// The room.
+    /// Illuminances in the room.
     pub room: Shown<RoomFigures>,
-    /// The room's surfaces; asked for only while they are drawn.
+    /// Illuminances of the room's surfaces; computed only while they are drawn.
     pub surfaces: Shown<SurfaceFigures>,
-    /// What control does over the year.
+    /// Year of shading control.
     pub year: Shown<Year>,
-    /// A year of weather in the room, of the scene that it was asked for.
+    /// Annual simulation, with the scene that it was computed for.
     pub annual: Shown<Annual>,
-    /// What is known of the products that are ranked.
+    /// Results of the ranked products.
     pub rank: Shown<Figures>,
-    /// How far a ranking is that is under way.
+    /// Progress of a running ranking.
     pub rank_pace: Option<Pace>,
-    /// The weather that hours are picked from.
+    /// Weather file that hours are picked from.
     pub weather: Shown<Calendar>,
-    /// The data of one incidence in another form than as measured.
+    /// Data of one incident direction in another form than the original.
     pub form: Shown<FormResult>,
-    /// How light is interpolated between the directions of the data.
+    /// Map of interpolation schemes between the directions of the data.
     pub schemes: Shown<SchemesResult>,
-    /// Error against run time, of the scene that it was asked for.
+    /// Error against run time, with the scene that it was computed for.
     pub accuracy: Shown<Accuracy>,
-    /// Effects of obstructions, and of which scene.
+    /// Effects of obstructions, with their scene.
     pub obstructions: Shown<ObstructionEffects>,
 }
 
 impl Results {
-    /// The largest intensities of the LID that is shown; `None` while they are computed.
+    /// Returns the largest intensities of the LID that is shown; `None` while they are being computed.
     pub fn lid_peaks(&self) -> Option<&Peaks> {
         let (of, peaks) = self.peaks.as_ref()?;
         self.lid.value.as_ref().is_some_and(|lid| Arc::ptr_eq(lid, of)).then_some(peaks)
     }
 }
 
-/// Sky and sun of the moment.
+/// Sky and sun of the scene's moment.
 pub struct Daylight {
     /// Sky, ground, skyline.
     pub outside: Outside,
-    /// The same with what stands before them, as the first aperture sees them; `None` where nothing does.
+    /// Sky, ground and skyline with the obstructions, as seen from the first aperture; `None` without obstructions.
     pub seen: Option<Box<Outside>>,
-    /// Beam, if there is any.
+    /// Direct sun, if there is any.
     pub sun: Option<Sun>,
 }
 
-/// The sheet over the right edge of the bench.
+/// Sheet over the right edge of the tile area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sheet {
-    /// Files that were read.
+    /// Import of files.
     Import,
-    /// What the dataset's checks say.
+    /// Findings of the data check.
     Findings,
-    /// All keys.
+    /// List of all shortcuts.
     Keys,
     /// Error against run time.
     Accuracy,
@@ -191,21 +191,21 @@ pub enum Sheet {
     Goniophotometer,
     /// Name, maker, kind and tags of a product.
     Product,
-    /// Products out of sight.
+    /// Deleted products.
     Deleted,
     /// Collections, and those of the selected product.
     Collections,
     /// Folders of packages that are subscribed to.
     Subscriptions,
-    /// What the window said.
+    /// Messages of the window.
     Messages,
-    /// Handing on: pictures, reports, luminaires, data.
+    /// Export: pictures, reports, luminaires, data.
     HandOn,
-    /// A path to open or write.
+    /// Path to open or write.
     Path(PathUse),
 }
 
-/// What a typed path is for.
+/// Purpose of a typed path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PathUse {
     /// Open datasets or a scene.
@@ -216,18 +216,18 @@ pub enum PathUse {
     ExportLid,
     /// Write a tile as numbers (.csv).
     ExportTile(Tile),
-    /// Write what the goniophotometer computed.
+    /// Write the computed states of the goniophotometer.
     ExportMeasured,
-    /// Read a file in place of that of a product's state.
+    /// Read a file that replaces the data of a product's state.
     ReplaceState,
     /// Subscribe to a folder of packages.
     Subscribe,
-    /// Write what is handed on.
+    /// Write an export.
     HandOn,
 }
 
 impl PathUse {
-    /// Title of whatever asks for the path.
+    /// Returns the title of the dialog or sheet that asks for the path.
     pub const fn title(self) -> Text {
         match self {
             Self::Open => shell::OPEN,
@@ -242,110 +242,110 @@ impl PathUse {
     }
 }
 
-/// Everything.
+/// State of the window.
 pub struct State {
-    /// Under undo.
+    /// Document that undo covers.
     pub document: Document,
-    /// Kept.
+    /// Settings that are kept.
     pub settings: Settings,
-    /// The catalogue.
+    /// Catalogue, or the state of opening it.
     pub catalogue: CatalogueState,
-    /// What the search field and chips say.
+    /// Search as set by the search field and the chips.
     pub query: Query,
-    /// The list.
+    /// Product list.
     pub found: Arc<Found>,
-    /// Why the search failed.
+    /// Reason why the search failed.
     pub search_error: Option<String>,
-    /// The tile that fills the bench.
+    /// Tile that fills the tile area.
     pub maximised: Option<Tile>,
-    /// The sheet that is open.
+    /// Sheet that is open.
     pub sheet: Option<Sheet>,
-    /// What a sheet's path field says.
+    /// Text of a sheet's path field.
     pub path: String,
-    /// The path that was to be written and exists already: to be replaced?
+    /// Path that was to be written but exists; the user is asked whether to replace it.
     pub replace: Option<PathBuf>,
-    /// The dialog of handing on.
+    /// Export dialog.
     pub hand_on: HandOn,
-    /// Files that were read.
+    /// Import that is open.
     pub import: Option<Import>,
-    /// An import that is on its way: from its files, or into the catalogue.
+    /// Import in progress: being read from its files, or written to the catalogue.
     pub under_way: Option<KeptImport>,
-    /// The import whose products are being stored, in case they cannot be.
+    /// Import whose products are being stored, kept in case they cannot be.
     pub storing: Option<Import>,
-    /// Imports left for later.
+    /// Drafts of imports.
     pub drafts: Vec<KeptImport>,
     /// Imports and drafts that were discarded in this session.
     pub discarded: Vec<KeptImport>,
     /// Steps from one arrangement of an import to another in this session.
     pub arranged: Vec<Arranged>,
-    /// The goniophotometer's sheet.
+    /// State of the goniophotometer's sheet.
     pub goniophotometer: Bench,
     /// Additions of this session.
     pub additions: Vec<Added>,
     /// Changes of this session to products of the catalogue.
     pub changes: Vec<Change>,
-    /// The product whose sheet is open.
+    /// Sheet of the product that is being edited.
     pub editing: Option<Editing>,
-    /// Key of a product and of its state that is to get other data.
+    /// Keys of a product and of its state whose data are to be replaced.
     pub replacing: Option<(String, String)>,
-    /// Products out of sight, as last looked up.
+    /// Deleted products, as last looked up.
     pub deleted: Vec<Deleted>,
     /// Collections and subscriptions, as last looked up.
     pub sets: Sets,
     /// Name of a new collection, as typed.
     pub collection: String,
-    /// Command palette: its words while open.
+    /// Text of the command palette while it is open.
     pub palette: Option<String>,
-    /// The row of the palette that Enter takes.
+    /// Row of the palette that Enter activates.
     pub palette_row: usize,
-    /// Products of the catalogue that the palette's words fit.
+    /// Products of the catalogue that match the palette's text.
     pub palette_hits: Vec<Hit>,
-    /// The words that they are of.
+    /// Text that `palette_hits` belongs to.
     pub palette_hits_of: String,
-    /// The search field wants the keyboard, until it has it.
+    /// Whether the search field is to get the keyboard.
     pub focus_search: bool,
-    /// The sheet that was opened wants the keyboard for the field to type in, until that has it.
+    /// Whether the field of the opened sheet is to get the keyboard.
     pub wants_keyboard: bool,
-    /// Give the chosen row of the list the keyboard in the next frame.
+    /// Whether the selected row of the list gets the keyboard in the next frame.
     pub focus_list: bool,
-    /// Choose the first row as soon as the list is that of what was typed.
+    /// Whether the first row is selected as soon as the list is that of the typed search.
     pub first_due: bool,
     /// Dataset of the selection.
     pub dataset: Shown<Dataset>,
-    /// What the checks say, and about which dataset.
+    /// Findings of the data check, with their dataset.
     pub examined: Option<(Arc<Dataset>, Arc<Vec<Diagnosis>>)>,
-    /// What is being computed before there is a dataset of the selection, in words for the tiles' heads.
+    /// Computation that the dataset of the selection waits for, as text for the tiles' heads.
     pub computing: Option<String>,
-    /// The selected product: states with their numbers, control curve.
+    /// Selected product: states with their figures, control curve.
     pub product: Option<Arc<Product>>,
-    /// The incidence that the user chose; the sun's while `None` and the sun is before the façade.
+    /// Incident direction that the user chose; while `None`, the sun's if it is in front of the façade.
     pub incident: Option<Incident>,
-    /// How the BTDF tile looks at the data.
+    /// View of the BTDF tile on the data.
     pub data_look: DataLook,
-    /// Key of the state that is shown: as set by hand, or as control picked it.
+    /// Key of the state that is shown: set by hand, or picked by control.
     pub shown_state: String,
-    /// Sky and sun.
+    /// Sky and sun of the scene.
     pub daylight: Shown<Daylight>,
-    /// The scene's key that is wrong.
+    /// Key of the scene that is wrong.
     pub scene_error: Option<SkyKeyError>,
-    /// Where the scene was opened from or saved to; its relative paths start there.
+    /// Path that the scene was opened from or saved to; its relative paths start there.
     pub scene_path: Option<PathBuf>,
-    /// The aperture whose control is edited on its own; `None`: all follow the scene's.
+    /// Aperture whose control is edited on its own; `None`: the control of the scene.
     pub control_of: Option<usize>,
-    /// How the comparison is looked at.
+    /// Display settings of the comparison.
     pub compare: View,
-    /// The tour, while it is under way.
+    /// Tour, while it is under way.
     pub tour: Option<Tour>,
-    /// The tour is offered: the window was never open before.
+    /// Whether the tour is offered, because the window was never open before.
     pub tour_offered: bool,
-    /// Row that the keyboard is on.
+    /// Row of the list that the keyboard is on.
     pub row: usize,
-    /// The product that the list was last scrolled to.
+    /// Key of the product that the list was last scrolled to.
     pub scrolled_to: String,
 }
 
 impl State {
-    /// At the start, before anything was read.
+    /// Creates the state at the start, before anything was read.
     pub fn new(settings: Settings) -> Self {
         let scene = settings.last_scene.as_deref().and_then(kept_scene);
         let scene = scene.unwrap_or_else(first_scene);
@@ -410,12 +410,12 @@ impl State {
         }
     }
 
-    /// The rule that picks the state.
+    /// Returns the mode of the control rule that picks the state.
     pub fn control_mode(&self) -> ControlMode {
         self.picking_rule().map_or(ControlMode::Fixed, |control| control.mode)
     }
 
-    /// The same with all its keys; "fixed" at the state that is set by hand.
+    /// Returns the control rule with all its keys; a fixed one at the shown state if the state is set by hand.
     pub fn control_keys(&self) -> ControlKeys {
         self.picking_rule().cloned().unwrap_or_else(|| ControlKeys {
             state: Some(self.shown_state.clone()).filter(|key| !key.is_empty()),
@@ -429,33 +429,33 @@ impl State {
         rule(&document.scene, self.control_aperture()).filter(|_| controlled)
     }
 
-    /// What the year of a product hangs on; `None` without place and date.
+    /// Returns the key that the control year of a product depends on; `None` without place and date.
     pub fn year_key(&self, product: &str) -> Option<YearKey> {
         let scene = &self.document.scene;
         YearKey::new(scene, product, self.control_keys(), self.control_aperture(), self.base())
     }
 
-    /// The aperture whose control is shown and edited, from 0: the chosen one, else the first.
+    /// Returns the aperture whose control is shown and edited, from 0: the chosen one, else the first.
     pub fn control_aperture(&self) -> usize {
         self.control_of.filter(|index| *index < self.document.scene.aperture.len()).unwrap_or(0)
     }
 
-    /// What relative paths of the scene start from.
+    /// Returns the folder that relative paths of the scene start from.
     pub fn base(&self) -> PathBuf {
         self.scene_path.as_deref().and_then(std::path::Path::parent).map(PathBuf::from).unwrap_or_default()
     }
 
-    /// The files that the scene names.
+    /// Returns the files that the scene names.
     pub fn files_of_scene(&self) -> Vec<PathBuf> {
         inputs_of(&self.document.scene, &self.base())
     }
 
-    /// What results are made from: the scene and the files that it names.
+    /// Returns the files that results are made from: the scene and the files that it names.
     pub fn made_from(&self) -> Vec<PathBuf> {
         self.scene_path.iter().cloned().chain(self.files_of_scene()).collect()
     }
 
-    /// The catalogue, once it is ready.
+    /// Returns the catalogue, once it is ready.
     pub fn shelf(&self) -> Option<Arc<dyn Shelf>> {
         match &self.catalogue {
             CatalogueState::Ready(shelf) => Some(shelf.clone()),

@@ -1,5 +1,5 @@
-//! What the window remembers for the report on a fault: what was done last – commands by their names, without the paths in
-//! them –, and which faults were reported.
+//! History for the report on a fault: the last commands by their names, without the paths in them, and the faults that
+//! were reported.
 
 use super::clock;
 use super::command::Command;
@@ -8,12 +8,12 @@ use std::collections::VecDeque;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
 
-/// Steps kept.
+/// Maximum number of steps kept.
 const MOST: usize = 40;
-/// Longest text of a step. \[letters\]
+/// Maximum length of the text of a step. \[characters\]
 const LONGEST: usize = 80;
 
-/// One step, perhaps repeated: something was dragged, or a key held.
+/// Step, possibly repeated by dragging or by a key that is held.
 #[derive(Debug)]
 struct Step {
     at: String,
@@ -21,20 +21,20 @@ struct Step {
     times: usize,
 }
 
-/// What the window knows of faults.
+/// Reports on faults.
 #[derive(Debug, Default)]
 pub struct Faults {
-    /// Where reports are written.
+    /// Folder that reports are written to.
     pub folder: Option<PathBuf>,
-    /// Those that were reported, with their reports: the same again needs no second one.
+    /// Faults that were reported, with their reports: a repeated fault needs no second report.
     pub reported: Vec<(Fault, PathBuf)>,
 }
 
-/// The last steps, the newest last.
+/// Last steps, newest last.
 #[derive(Debug, Default)]
 pub struct Steps(VecDeque<Step>);
 
-/// Takes letters until there are enough, or until what a command carries begins: a whole scene may follow.
+/// Writer that stops when the text is long enough, or where the content of a command begins: a whole scene may follow.
 struct Short {
     text: String,
     name_alone: bool,
@@ -52,7 +52,7 @@ impl Write for Short {
     }
 }
 
-/// Does it carry a few words alone, and none of a person's folders?
+/// Whether the content of a command is short and contains no path.
 const fn is_short(command: &Command) -> bool {
     use Command::{
         Arrange, Cancel, Control, DataForm, Day, Hour, Incidence, Language, NextState, Outside, Repair, RoomView, Row,
@@ -83,7 +83,7 @@ const fn is_short(command: &Command) -> bool {
 }
 
 impl Steps {
-    /// Keeps a command that is about to be done.
+    /// Records a command that is about to be done.
     pub fn keep(&mut self, command: &Command) {
         let mut short = Short { text: String::new(), name_alone: !is_short(command) };
         // It stops where there is enough.
@@ -99,7 +99,7 @@ impl Steps {
         }
     }
 
-    /// One line a step, the newest last.
+    /// Returns the steps as text, one line per step, newest last.
     pub fn lines(&self) -> Vec<String> {
         let line = |step: &Step| match step.times {
             1 => format!("{} {}", step.at, step.what),

@@ -1,31 +1,31 @@
-//! How large the text is, and everything with it: in steps, and never so large that the window has no room for what it
-//! shows at its least size.
+//! Text size, and with it the size of everything: in steps, and limited so that the window keeps room for its minimum
+//! content.
 
 use egui::Vec2;
 
-/// The sizes there are, as shares of the desktop's.
+/// Text sizes that can be set, relative to that of the desktop.
 pub const SIZES: [f32; 8] = [0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0];
 
-/// The least window in which everything can be read at the desktop's own size. \[points\]
+/// Minimum size of a window in which everything can be read at the desktop's own text size. \[points\]
 pub const LEAST_WINDOW: Vec2 = Vec2::new(960.0, 600.0);
 
-/// Minimum size of the window, with text of the smallest size: that which a screen of 1366 × 768 pixels shown at 150 % leaves
-/// beside a task bar and the window's title. \[points of the desktop\]
+/// Minimum size of the window, with text of the smallest size: that which a screen of 1366 × 768 pixels shown at 150 %
+/// leaves beside a task bar and the window's title. \[points of the desktop\]
 pub const SMALLEST_WINDOW: Vec2 = Vec2::new(768.0, 440.0);
 
-/// Another text size.
+/// Change of the text size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextSize {
     /// One step larger.
     Larger,
     /// One step smaller.
     Smaller,
-    /// The desktop's.
+    /// Size of the desktop.
     Normal,
 }
 
 impl TextSize {
-    /// The size after this step.
+    /// Returns the size after this change.
     pub fn after(self, size: f32) -> f32 {
         match self {
             Self::Larger => SIZES.into_iter().find(|one| *one > size + 1e-3).unwrap_or(size),
@@ -35,8 +35,8 @@ impl TextSize {
     }
 }
 
-/// Returns the largest of the sizes up to the wanted one for which a window of this size \[points of the desktop\] has room, or
-/// else the smallest.
+/// Returns the largest of the sizes up to the wanted one for which a window of this size \[points of the desktop\] has
+/// room, or else the smallest.
 pub fn fitting(wanted: f32, window: Vec2) -> f32 {
     let most = (window / LEAST_WINDOW).min_elem();
     let fits = |size: &f32| *size <= wanted + 1e-3 && *size <= most + 1e-3;

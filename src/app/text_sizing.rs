@@ -1,17 +1,17 @@
-//! The window takes another text size.
+//! Acting on changes of the text size.
 
 use super::text_size::{TextSize, fitting};
 use super::window::App;
 use crate::texts::shell;
 use egui::Vec2;
 
-/// The window's size without regard to the size of its text. \[points of the desktop\]
+/// Returns the window's size, independent of its text size. \[points of the desktop\]
 fn window(ctx: &egui::Context) -> Vec2 {
     ctx.content_rect().size() * ctx.zoom_factor()
 }
 
 impl App {
-    /// Another size of the text, where the window has room for it.
+    /// Changes the text size, if the window has room for it.
     pub(super) fn change_text_size(&mut self, change: TextSize) {
         // From what is shown: the window may have become too small for what was wanted once.
         let room = window(&self.ctx);
@@ -24,7 +24,7 @@ impl App {
         }
     }
 
-    /// Shows text as large as is wanted and the window has room for.
+    /// Shows the text in the chosen size, or the largest that the window has room for.
     pub(super) fn follow_text_size(&self, ctx: &egui::Context) {
         let size = fitting(self.state.settings.text_size, window(ctx));
         if (size - ctx.zoom_factor()).abs() > 1e-3 {

@@ -1,4 +1,4 @@
-//! Colours, gaps, strokes and type of the window: light and dark, each designed, not one turned into the other.
+//! Colours, gaps, strokes and fonts of the window: separate designs for light and dark, neither derived from the other.
 
 use crate::drawing::font::DEJAVU;
 use crate::texts::{self, Text, commands, shell};
@@ -6,23 +6,23 @@ use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::style::NumberFormatter;
 use egui::{Color32, Context, CornerRadius, FontData, FontFamily, FontId, Margin, Stroke, TextStyle, Theme, Vec2};
 
-/// Which theme the user wants.
+/// Theme that the user chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum ThemeChoice {
-    /// What the desktop says.
+    /// Theme of the desktop.
     #[default]
     System,
-    /// Light.
+    /// Light theme.
     Light,
-    /// Dark.
+    /// Dark theme.
     Dark,
 }
 
 impl ThemeChoice {
-    /// All, in the order of the menu.
+    /// All themes, in the order of the menu.
     pub const ALL: [Self; 3] = [Self::System, Self::Light, Self::Dark];
 
-    /// In words.
+    /// Returns the label.
     pub const fn word(self) -> Text {
         match self {
             Self::System => shell::AS_THE_DESKTOP,
@@ -31,7 +31,7 @@ impl ThemeChoice {
         }
     }
 
-    /// Tells egui.
+    /// Sets the theme in egui.
     pub fn apply(self, ctx: &Context) {
         ctx.set_theme(match self {
             Self::System => egui::ThemePreference::System,
@@ -41,37 +41,37 @@ impl ThemeChoice {
     }
 }
 
-/// The colours that a theme adds to egui's own.
+/// Colours that a theme adds to egui's own.
 #[derive(Debug, Clone, Copy)]
 pub struct Palette {
-    /// Behind the bench.
+    /// Background of the tile area.
     pub ground: Color32,
-    /// A tile, a panel.
+    /// Background of a tile or panel.
     pub surface: Color32,
-    /// A field to type in, a raised chip.
+    /// Background of a text field or a raised chip.
     pub raised: Color32,
-    /// Lines between things.
+    /// Colour of separating lines.
     pub line: Color32,
-    /// Text.
+    /// Colour of text.
     pub text: Color32,
-    /// Secondary text.
+    /// Colour of secondary text.
     pub weak: Color32,
-    /// What is chosen, and what acts.
+    /// Colour of selected and active elements.
     pub accent: Color32,
-    /// Behind a chosen row.
+    /// Background of a selected row.
     pub chosen: Color32,
-    /// Worth a look.
+    /// Colour of warnings.
     pub warning: Color32,
-    /// Wrong.
+    /// Colour of errors.
     pub error: Color32,
-    /// All is well.
+    /// Colour of success.
     pub good: Color32,
-    /// The sun, a star.
+    /// Colour of the sun, and of stars.
     pub sun: Color32,
 }
 
 impl Palette {
-    /// Behind a row or card of a list.
+    /// Returns the background of a row or card of a list.
     pub fn behind(&self, chosen: bool, response: &egui::Response) -> Color32 {
         if chosen {
             self.chosen
@@ -83,7 +83,7 @@ impl Palette {
     }
 }
 
-/// Warm paper and ink.
+/// Palette of the light theme: warm paper and ink.
 pub const LIGHT: Palette = Palette {
     ground: Color32::from_rgb(0xE9, 0xEA, 0xEC),
     surface: Color32::from_rgb(0xFB, 0xFB, 0xFA),
@@ -99,7 +99,7 @@ pub const LIGHT: Palette = Palette {
     sun: Color32::from_rgb(0xC7, 0x7D, 0x00),
 };
 
-/// A dim instrument room.
+/// Palette of the dark theme: a dim instrument room.
 pub const DARK: Palette = Palette {
     ground: Color32::from_rgb(0x12, 0x15, 0x19),
     surface: Color32::from_rgb(0x1B, 0x1F, 0x25),
@@ -115,12 +115,12 @@ pub const DARK: Palette = Palette {
     sun: Color32::from_rgb(0xFF, 0xC9, 0x4D),
 };
 
-/// The palette in force.
+/// Returns the palette of the current theme.
 pub fn palette(ui: &egui::Ui) -> &'static Palette {
     palette_of(ui.visuals())
 }
 
-/// The palette that goes with egui's own colours.
+/// Returns the palette that belongs to egui's own colours.
 pub const fn palette_of(visuals: &egui::Visuals) -> &'static Palette {
     if visuals.dark_mode { &DARK } else { &LIGHT }
 }
@@ -130,12 +130,12 @@ pub const TILE_GAP: f32 = 6.0;
 /// Height of a row of the catalogue. \[points\]
 pub const ROW_HEIGHT: f32 = 52.0;
 
-/// A side panel or bar.
+/// Returns the frame of a side panel or bar.
 pub fn panel_frame(ui: &egui::Ui) -> egui::Frame {
     egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 8))
 }
 
-/// A bar of small height at the top or bottom.
+/// Returns the frame of a bar of small height at the top or bottom.
 pub fn bar_frame(ui: &egui::Ui) -> egui::Frame {
     egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 4))
 }
@@ -146,7 +146,7 @@ pub fn fallback(name: &str, data: FontData) -> FontInsert {
     FontInsert::new(name, data, vec![family(FontFamily::Proportional), family(FontFamily::Monospace)])
 }
 
-/// Sets fonts, both themes and spacing. Once, at the start.
+/// Sets fonts, both themes and spacing. Called once, at the start.
 pub fn install(ctx: &Context) {
     // Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
     ctx.add_font(fallback("fallback", FontData::from_static(DEJAVU)));
@@ -212,7 +212,7 @@ fn visuals(visuals: &mut egui::Visuals, palette: &Palette) {
     }
 }
 
-/// One line of text, cut with '…' where it is wider than `width`.
+/// Lays out one line of text, cut with '…' if it is wider than `width`.
 pub fn one_line(
     painter: &egui::Painter,
     text: &str,

@@ -1,9 +1,9 @@
-//! A tour in five steps on what is really there: each is done by doing it, none stops anything else.
+//! Tour in five steps on real content: each step is done by doing it, none blocks anything else.
 
 use crate::study::scene_file::TimeKey;
 use crate::texts::{Text, shell};
 
-/// A step of the tour.
+/// Step of the tour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
     /// Choose a product.
@@ -12,17 +12,17 @@ pub enum Stop {
     Sun,
     /// Look at LID or room.
     Light,
-    /// Compare.
+    /// Add a candidate to the comparison.
     Compare,
-    /// Hand on.
+    /// Export.
     HandOn,
 }
 
 impl Stop {
-    /// All, in order.
+    /// All steps, in order.
     pub const ALL: [Self; 5] = [Self::Product, Self::Sun, Self::Light, Self::Compare, Self::HandOn];
 
-    /// What is to be done.
+    /// Returns the instruction.
     pub const fn words(self) -> Text {
         match self {
             Self::Product => shell::TOUR_PRODUCT,
@@ -34,18 +34,18 @@ impl Stop {
     }
 }
 
-/// What can be asked of the tour.
+/// Command about the tour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TourAct {
-    /// Begin, or go on after the last step that was done.
+    /// Start, or continue after the last finished step.
     Start,
-    /// Leave it.
+    /// Leave the tour.
     Leave,
-    /// Not now: the offer goes.
+    /// Decline the offer of the tour.
     Decline,
 }
 
-/// What a step is told by.
+/// Values by which a finished step is recognised.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Seen {
     pub(super) product: String,
@@ -56,7 +56,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Was the step done between then and now?
+    /// Whether a step was done between this and `now`.
     pub(super) fn done(&self, now: &Self, stop: Stop) -> bool {
         match stop {
             Stop::Product => now.product != self.product,
@@ -68,11 +68,11 @@ impl Seen {
     }
 }
 
-/// The tour that is under way.
+/// Running tour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tour {
-    /// Where it is.
+    /// Current step.
     pub stop: Stop,
-    /// How things were in the last frame.
+    /// Values in the last frame.
     pub(super) seen: Seen,
 }

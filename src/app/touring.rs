@@ -1,4 +1,4 @@
-//! The tour goes on when its step was done.
+//! Acting on the tour, which continues when its step is done.
 
 use super::state::{Sheet, State};
 use super::tiles::{LID, ROOM, SKY};
@@ -19,7 +19,7 @@ fn seen(state: &State) -> Seen {
 }
 
 impl App {
-    /// Does what is asked of the tour.
+    /// Acts on a command about the tour.
     pub(super) fn tour(&mut self, act: TourAct) {
         self.state.tour_offered = false;
         match act {
@@ -32,7 +32,7 @@ impl App {
         }
     }
 
-    /// Brings into sight where a step is done.
+    /// Makes the place visible where a step is done.
     fn begin_stop(&mut self, stop: Stop) {
         let state = &mut self.state;
         match stop {
@@ -51,7 +51,7 @@ impl App {
         self.state.tour = Some(Tour { stop, seen: seen(&self.state) });
     }
 
-    /// Notices what was done since the last frame.
+    /// Checks whether the step was done since the last frame.
     pub(super) fn follow_tour(&mut self) {
         let Some(tour) = &self.state.tour else { return };
         // At the start of the window something is chosen that nobody chose.

@@ -21,7 +21,8 @@ pub fn typed_path(text: &str) -> PathBuf {
     }
 }
 
-/// Returns the path in the address of a file after `file://` (RFC 8089): an optional machine name and bytes in per cent.
+/// Returns the path in the address of a file after `file://` (RFC 8089): an optional machine name and percent-encoded
+/// bytes.
 fn of_address(address: &str) -> PathBuf {
     let path = address.strip_prefix("localhost").unwrap_or(address);
     let mut bytes = Vec::with_capacity(path.len());
@@ -45,7 +46,7 @@ fn of_address(address: &str) -> PathBuf {
     PathBuf::from(drive.unwrap_or(&path))
 }
 
-/// Returns a path to write to with the ending of what is proposed, if it has none.
+/// Returns a path to write to, with the extension of the proposed name if it has none.
 pub fn with_ending(state: &State, what: PathUse, path: PathBuf) -> PathBuf {
     let reads = matches!(what, PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe);
     let proposed = start_path(state, what);

@@ -1,4 +1,4 @@
-//! Dates, times of day, coordinates and numbers as people type them; what could mean two things is refused.
+//! Dates, times of day, coordinates and numbers as people type them; ambiguous input is refused.
 
 use crate::texts::{decimal, scene as texts};
 use jiff::civil::Date;
@@ -25,10 +25,10 @@ fn month_of(word: &str) -> Option<i8> {
     MONTHS.iter().position(begins).and_then(|index| i8::try_from(index + 1).ok())
 }
 
-/// A date: `21.3.`, `21 Mar`, `Mar 21`, `2026-03-21`; without a year in `year`.
+/// Reads a date: `21.3.`, `21 Mar`, `Mar 21`, `2026-03-21`; without a year it is in `year`.
 ///
 /// # Errors
-/// What would be right.
+/// Returns a message with the expected form if the text is not a date.
 pub fn read_date(text: &str, year: i16) -> Result<Date, String> {
     let text = text.trim();
     let wrong = || texts::no_date(text);
@@ -58,10 +58,10 @@ pub fn read_date(text: &str, year: i16) -> Result<Date, String> {
     Date::new(year, month, day).map_err(|_| texts::no_such_day(text))
 }
 
-/// Hour and minute of a day: `12:30`, `12.5`, `9`, `930` is refused.
+/// Reads hour and minute of a day: `12:30`, `12.5`, `9`; `930` is refused.
 ///
 /// # Errors
-/// What would be right.
+/// Returns a message with the expected form if the text is not a time.
 pub fn read_clock(text: &str) -> Result<(i8, i8), String> {
     let text = text.trim();
     let wrong = || texts::no_clock(text);
@@ -95,10 +95,10 @@ pub fn read_clock(text: &str) -> Result<(i8, i8), String> {
     if (0..24).contains(&hour) && (0..60).contains(&minute) { Ok((hour, minute)) } else { Err(wrong()) }
 }
 
-/// Latitude and longitude \[°\]: `48.78 9.18`, `48.78°N, 9.18°E`; `None` where it is no pair of numbers.
+/// Reads latitude and longitude \[°\]: `48.78 9.18`, `48.78°N, 9.18°E`; `None` if it is not a pair of numbers.
 ///
 /// # Errors
-/// A pair that lies nowhere on the globe: what would be right.
+/// Returns a message with the expected form if the pair lies outside the globe's range.
 pub fn read_coordinates(text: &str) -> Option<Result<(f64, f64), String>> {
     let parts =
         |signs: &[char]| -> Vec<&str> { text.split(signs).map(str::trim).filter(|part| !part.is_empty()).collect() };
@@ -130,7 +130,7 @@ pub fn read_coordinates(text: &str) -> Option<Result<(f64, f64), String>> {
     })
 }
 
-/// A number with a point or a comma, with or without its unit.
+/// Reads a number with a point or a comma, with or without its unit.
 pub fn read_number(text: &str, unit: &str) -> Option<f64> {
     let plain: String = text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
     let unit: String = unit.chars().filter(|c| !c.is_whitespace()).collect();

@@ -1,4 +1,4 @@
-//! The window itself: what it knows, what was computed, and what works for it.
+//! The window itself: its state, its results, and its services.
 
 use super::autosave::Autosave;
 use super::backend;
@@ -32,46 +32,46 @@ use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Opens the catalogue; runs in a job.
+/// Function that opens the catalogue; runs in a job.
 pub type OpenCatalogue = Arc<dyn Fn() -> Result<Arc<dyn Shelf>, AppError> + Send + Sync>;
 
-/// What the window needs from outside; tests put their own in.
+/// Services that the window needs from outside; tests use their own.
 pub struct Services {
-    /// Opens the catalogue.
+    /// Function that opens the catalogue.
     pub open_catalogue: OpenCatalogue,
-    /// Reads dataset files.
+    /// Function that reads dataset files.
     pub read: ReadDataset,
-    /// Asks for paths.
+    /// Dialogs that ask for paths.
     pub dialogs: Arc<dyn FileDialogs>,
-    /// Computes.
+    /// Engine for the computations.
     pub engine: Arc<dyn Engine>,
 }
 
-/// A change to the catalogue that waits for its turn.
+/// Change to the catalogue that waits for its turn.
 pub(super) type Change = Box<dyn FnOnce(&dyn Shelf) -> Outcome + Send>;
 
-/// The window.
+/// Window of the program.
 pub struct App {
-    /// What it knows.
+    /// State of the window.
     pub state: State,
-    /// What was computed.
+    /// Results of computations.
     pub results: Results,
     pub(super) services: Services,
-    /// Files and products that system files name.
+    /// Library of files and products that system files name.
     pub(super) library: Arc<Library>,
     pub(super) jobs: Jobs<Outcome>,
     pub(super) pending_changes: VecDeque<Change>,
-    /// Some built-in products wait for their data.
+    /// Whether some built-in products wait for their data.
     pub(super) fill_due: bool,
     pub(super) fill_failures: usize,
-    /// Where the LID is to be written as soon as it is that of the scene.
+    /// Path that the LID is to be written to as soon as it is that of the scene.
     pub(super) lid_to: Option<PathBuf>,
-    /// Additions that are being stored.
+    /// Numbers of the additions that are being stored.
     pub(super) adding: BTreeSet<usize>,
     pub(super) undoer: Undoer<Document>,
-    /// Did something have the keyboard when the last frame ended?
+    /// Whether something had the keyboard when the last frame ended.
     pub(super) in_field: bool,
-    /// What was asked for last, and in which language.
+    /// Document that was requested last, and its language.
     pub(super) asked: Option<(Document, Language)>,
     pub(super) asked_year: Option<YearKey>,
     pub(super) asked_weather: Option<CalendarKey>,
@@ -81,17 +81,17 @@ pub struct App {
     pub(super) choosing: Choosing,
     pub(super) due: Due,
     pub(super) export: Exports,
-    /// What was computed of the candidates in the tray.
+    /// Results of the candidates of the comparison.
     pub compare: Columns,
-    /// What it says.
+    /// Messages of the window.
     pub toasts: Messages,
     /// Files to be read once the catalogue is open.
     pub(super) waiting_files: Vec<(Vec<PathBuf>, Grouping, Option<KeptImport>)>,
-    /// Is a file being written, not only asked about?
+    /// Whether a file is being written, not only asked about.
     pub(super) writing: bool,
-    /// Keeps the session on disk, if it does.
+    /// Writer of the session on disk, if the session is kept.
     pub(super) autosave: Option<Autosave>,
-    /// What was done last.
+    /// Last steps, for reports on faults.
     pub(super) steps: Steps,
     pub(super) faults: Faults,
     pub(super) bench: Bench,
@@ -99,22 +99,23 @@ pub struct App {
     pub(super) section_view: section::State,
     pub(super) states_view: states::State,
     pub(super) weather_view: calendar::State,
-    /// What the checks said, by content.
+    /// Cache of findings of the data check, by content.
     pub(super) examined: Examined,
     /// Pictures of products.
     pub gallery: Gallery,
-    /// Looks for fonts for characters that the built-in fonts lack.
+    /// Function that searches fonts for characters that the built-in fonts lack.
     pub find_fonts: FindFonts,
     pub(super) missing_characters: Arc<MissingCharacters>,
     pub(super) ctx: egui::Context,
     pub(super) installed: bool,
     pub(super) shown_title: String,
     pub(super) opened: Opened,
-    /// What the desktop speaks.
+    /// Language of the desktop.
     pub(super) desktop_language: Language,
 }
 
-/// What lies over the window, and since which frame: a key that was pressed before is not meant for it.
+/// Sheet and palette over the window, with the frame since which each is open: a key that was pressed before is not
+/// meant for it.
 #[derive(Default)]
 pub(super) struct Opened {
     sheet: (Option<Sheet>, u64),
@@ -122,7 +123,7 @@ pub(super) struct Opened {
 }
 
 impl Opened {
-    /// Takes in what is open in a frame; true where that is another sheet than before.
+    /// Records what is open in a frame; returns whether the sheet is another than before.
     pub(super) fn take(&mut self, state: &State, frame: u64) -> bool {
         let palette = state.palette.is_some();
         if self.palette.0 != palette {
@@ -135,25 +136,25 @@ impl Opened {
         another
     }
 
-    /// Was the sheet there before this frame?
+    /// Whether the sheet was there before this frame.
     pub(super) const fn sheet_before(&self, frame: u64) -> bool {
         self.sheet.1 < frame
     }
 
-    /// Was the palette there before this frame?
+    /// Whether the palette was there before this frame.
     pub(super) const fn palette_before(&self, frame: u64) -> bool {
         self.palette.1 < frame
     }
 }
 
-/// Ends a step of undo where the document stands. What was undone before a new step is not to be redone after it, which
-/// the undoer sees only when it is fed.
+/// Ends an undo step at the current document. What was undone before a new step must not be redone after it, which the
+/// undoer notices only when it is fed.
 pub(super) fn end_step(undoer: &mut Undoer<Document>, document: &Document) {
     undoer.feed_state(0.0, document);
     undoer.add_undo(document);
 }
 
-/// A history that begins here.
+/// Returns an undo history that begins at this document.
 pub(super) fn fresh_undoer(document: &Document) -> Undoer<Document> {
     let mut undoer = Undoer::default();
     undoer.add_undo(document);
@@ -161,7 +162,7 @@ pub(super) fn fresh_undoer(document: &Document) -> Undoer<Document> {
 }
 
 impl App {
-    /// A window that is not drawn yet.
+    /// Creates a window that is not drawn yet.
     pub fn new(services: Services, settings: Settings) -> Self {
         let state = State::new(settings);
         Self {
@@ -210,12 +211,12 @@ impl App {
         }
     }
 
-    /// With a catalogue in memory and no file dialogs; nothing on disk is touched.
+    /// Creates a window with a catalogue in memory and no file dialogs; nothing on disk is touched.
     pub fn for_test(engine: Arc<dyn Engine>) -> Self {
         Self::with_shelf(engine, backend::ideals_shelf)
     }
 
-    /// With a catalogue that `open` gives, and no file dialogs.
+    /// Creates a window with the catalogue that `open` returns, and no file dialogs.
     pub fn with_shelf(engine: Arc<dyn Engine>, open: fn() -> Result<Arc<dyn Shelf>, AppError>) -> Self {
         Self::new(
             Services { open_catalogue: Arc::new(open), read: SourceFile::read, dialogs: Arc::new(NoDialogs), engine },
@@ -223,7 +224,7 @@ impl App {
         )
     }
 
-    /// Speaks the window's language on this thread until the answer is dropped.
+    /// Sets the window's language on this thread until the returned guard is dropped.
     pub(super) fn speak(&self) -> Speaking {
         speak(self.state.settings.language.language(self.desktop_language))
     }
@@ -234,17 +235,17 @@ impl App {
         self.jobs.start(lane, move || ctx.request_repaint(), work);
     }
 
-    /// Says an error.
+    /// Shows an error as a message.
     pub(super) fn tell(&mut self, error: &AppError) {
         self.toasts.error(error.to_string());
     }
 
-    /// Is something under way in a lane?
+    /// Whether a job is under way in a lane.
     pub fn works_in(&self, lane: Lane) -> bool {
         self.jobs.busy(lane)
     }
 
-    /// Is something still being read or computed?
+    /// Whether something is still being read or computed.
     pub fn busy(&self) -> bool {
         !self.jobs.views().is_empty() || !self.pending_changes.is_empty() || self.fill_due || self.lid_to.is_some()
     }

@@ -1,17 +1,17 @@
-//! Where the window was when it was closed last: what no desktop of today can show is dropped before it is opened.
+//! Saved place of the window: values that no current desktop can show are dropped before it is opened.
 
 use super::disk::write_whole;
 use std::path::Path;
 
-/// Zoom factors that a window can be opened with; the program's own text sizes lie well within.
+/// Range of zoom factors that a window can be opened with; the program's own text sizes lie well within.
 const ZOOM: std::ops::RangeInclusive<f32> = 0.2..=5.0;
-/// Of a window, at least so much of each side must lie on a monitor to be taken hold of. \[px\]
+/// Minimum length of each side of a window that must lie on a monitor, so that it can be grabbed. \[px\]
 const LEAST_SHOWN: i64 = 64;
 
 /// Place and size of a window or monitor: left, top, width, height. \[px\]
 type Area = [i64; 4];
 
-/// Puts the zoom factor of a saved window right if it is out of range; what cannot be read stays as it is.
+/// Corrects the zoom factor in a saved window if it is out of range; what cannot be read stays as it is.
 pub(super) fn mend_saved(file: &Path) {
     let Ok(saved) = std::fs::read_to_string(file) else { return };
     if let Some(mended) = with_sound_zoom(&saved) {

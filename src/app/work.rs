@@ -1,4 +1,4 @@
-//! What runs in jobs, and what jobs bring back.
+//! Work that runs in jobs, and the results of jobs.
 
 use super::changes::{Change, Looked, Reread};
 use super::compare::Part;
@@ -44,46 +44,46 @@ use std::time::{Duration, Instant};
 
 pub use crate::study::intake::ReadDataset;
 
-/// How long data of built-in products are computed before it is asked anew which come first.
+/// Time for which data of built-in products are computed before their order is determined again.
 const FILLING: Duration = Duration::from_millis(500);
 
-/// A picture on its way into the clipboard: width, height, and red, green and blue of its pixels row by row.
+/// Picture for the clipboard: width, height, and red, green and blue of its pixels row by row.
 pub type Pixels = (usize, usize, Vec<u8>);
 
-/// What jobs bring back.
+/// Result of a job.
 #[expect(clippy::large_enum_variant, reason = "a few a second, each moved once")]
 pub enum Outcome {
-    /// The catalogue is open.
+    /// Catalogue that was opened.
     Opened(Result<Arc<dyn Shelf>, AppError>),
-    /// A list.
+    /// Product list.
     Found(Result<Found, AppError>),
-    /// What the palette's words fit in the catalogue.
+    /// Products of the catalogue that match the palette's text.
     Hits(Result<Found, AppError>),
     /// Product, state and dataset of the selection, and sky and sun.
     Scene(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
-    /// What control does over the year.
+    /// Year of shading control.
     Year(Result<Year, StudyError>),
-    /// A year of weather in the room.
+    /// Annual simulation of the room.
     Annual(Result<Box<Annual>, AppError>),
-    /// A ranking has come to its end; what it found was shown as it came.
+    /// End of a ranking; its results were shown as they came.
     Ranked(Result<(), AppError>),
-    /// The weather that hours are picked from.
+    /// Weather file that hours are picked from.
     Weather(Result<Box<Calendar>, StudyError>),
-    /// A weather file was opened.
+    /// Weather file that was opened.
     OpenedWeather(PathBuf),
-    /// The LID.
+    /// LID of the first aperture.
     Lid(Result<LidFigures, AppError>),
-    /// The largest intensities of a LID.
+    /// Largest intensities of a LID.
     Peaks(Arc<LidFigures>, Peaks),
-    /// The room.
+    /// Illuminances in the room.
     Room(Result<RoomFigures, AppError>),
-    /// A part of what is known of a candidate, by its number.
+    /// Part of the results of a candidate, by its number.
     Compared(u64, Box<Compared>),
-    /// The room's surfaces.
+    /// Illuminances of the room's surfaces.
     Surfaces(Result<SurfaceFigures, AppError>),
-    /// The data of one incidence in another form.
+    /// Data of one incident direction in another form.
     DataForm(FormResult),
-    /// How light is interpolated between the directions of the data.
+    /// Map of interpolation schemes between the directions of the data.
     Schemes(SchemesResult),
     /// Error against run time.
     Accuracy(Result<Accuracy, AppError>),
@@ -91,71 +91,72 @@ pub enum Outcome {
     Obstructions(ObstructionEffects),
     /// Files that the user chose.
     Chosen(Result<Vec<PathBuf>, AppError>),
-    /// Where to write.
+    /// Path to write to.
     Target(PathUse, Result<Option<PathBuf>, AppError>),
-    /// Files were read.
+    /// Files that were read.
     Read(Box<Import>),
-    /// The files of an import were arranged otherwise; names of the products before, by their files.
+    /// Import with its files in another arrangement; names of the products before, by their files.
     Rearranged(Box<Import>, Vec<(Vec<String>, String)>),
-    /// What the checks say about a dataset.
+    /// Findings of the data check about a dataset.
     Examined(Arc<Dataset>, Arc<Vec<Diagnosis>>),
-    /// Several at once, in order.
+    /// Several results, in order.
     Several(Vec<Outcome>),
-    /// A product that was read, known by its files, with the repairs that were wished: its datasets, what is said about
-    /// them, and the repairs; or why not.
+    /// Imported product, identified by its files, with the requested repairs made: its datasets, their findings, and
+    /// the repairs; or the reason why not.
     Mended(Vec<String>, Result<Box<Proposed>, AppError>),
-    /// A system file was read: its text and folder.
+    /// System file that was read: its text and folder.
     ReadSystem(Result<(String, PathBuf), AppError>),
-    /// A state of a system was measured; the keys of all.
+    /// Computed state of a system, with the keys of all its states.
     Measured(Result<Box<(Vec<String>, Finished)>, AppError>),
-    /// A scene was read.
+    /// Scene that was read.
     ReadScene(PathBuf, Result<Box<SceneFile>, AppError>),
-    /// A control curve was read.
+    /// Control curve that was read.
     ReadCurve(Result<Vec<[f64; 2]>, AppError>),
-    /// Additions of these numbers are in the catalogue, each with whether it is new there; or why none is.
+    /// Stored additions with these numbers, each with whether it is new in the catalogue; or the reason why none is
+    /// stored.
     Added(Vec<usize>, Result<Vec<(bool, Arc<Product>)>, AppError>),
-    /// A product to be chosen was looked up.
+    /// Product that was looked up to be selected.
     Choice(Result<Arc<Product>, AppError>),
-    /// A change of this session was made in the catalogue, or taken back.
+    /// Change of this session that was made in the catalogue, or reverted.
     Changed(usize, bool, Result<(), AppError>),
-    /// A product whose sheet is to be opened.
+    /// Product whose sheet is to be opened.
     Editing(Result<Looked, AppError>),
-    /// A file was read that takes the place of a state's.
+    /// Change that replaces the data of a state by a file that was read.
     ToReplace(Result<Change, AppError>),
-    /// The files of a product were read again.
+    /// Differences found by reading the files of a product again.
     Reread(Result<Reread, AppError>),
-    /// The folders of packages that are subscribed to were read.
+    /// Report on reading the folders of packages that are subscribed to.
     Synced(Result<Report, AppError>),
-    /// Whether what was chosen is a folder of packages to subscribe to: its path, or why not.
+    /// Path of a chosen folder of packages to subscribe to, or the reason why it is not one.
     Folder(Result<String, String>),
     /// Collections and subscriptions.
     Sets(Result<Sets, AppError>),
     /// Pictures of products.
     Pictures(Vec<Made>),
-    /// Products out of sight.
+    /// Deleted products.
     Deleted(Result<Vec<Deleted>, AppError>),
-    /// Something else in the catalogue was changed.
+    /// End of another change of the catalogue.
     Stored(Result<(), AppError>),
-    /// The data of the chosen state are in the catalogue.
+    /// End of storing the data of the chosen state in the catalogue.
     Provided(Result<(), AppError>),
-    /// Some more data of built-in products are in the catalogue; how many states are left.
+    /// Number of built-in states left to compute, after some more were stored.
     Builtin(Result<usize, AppError>),
-    /// A path that is to be written to: is a file there already?
+    /// Path that is to be written to, and whether a file exists there.
     There(PathUse, PathBuf, bool),
-    /// What would be handed on.
+    /// Preview of an export.
     Preview(Result<Preview, AppError>),
-    /// A tile was drawn for the clipboard.
+    /// Picture of a tile for the clipboard.
     Copied(Tile, Result<Pixels, AppError>),
-    /// A file was written.
+    /// File that was written.
     Written(PathUse, Result<PathBuf, AppError>),
-    /// A message about what was made.
+    /// Warning about a file that was written.
     Warning(String),
     /// Fonts of the system by name, and characters that none of them has.
     Fonts(Vec<(String, egui::FontData)>, Vec<char>),
 }
 
 impl Outcome {
-    /// Adds a warning, if there is one.
+    /// Returns the outcome followed by a warning, if there is one.
     pub fn with_warning(self, warning: Option<String>) -> Self {
         match warning {
             Some(warning) => Self::Several(vec![self, Self::Warning(warning)]),
@@ -164,43 +165,43 @@ impl Outcome {
     }
 }
 
-/// A part of what is known of a candidate.
+/// Part of the results of a candidate.
 #[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
 pub enum Compared {
     /// Product, state and dataset, and sky and sun.
     Shelf(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
-    /// State and dataset of a system that is no product of the catalogue, and sky and sun.
+    /// State and dataset of a system that is not a product of the catalogue, and sky and sun.
     Own(Result<(String, Arc<Dataset>), AppError>, Result<Daylight, SkyKeyError>),
-    /// The LID.
+    /// LID of the first aperture.
     Lid(Result<LidFigures, AppError>),
-    /// Its largest intensities.
+    /// Largest intensities of the LID.
     Peaks(Arc<LidFigures>, Peaks),
-    /// The room.
+    /// Illuminances in the room.
     Room(Result<RoomFigures, AppError>),
-    /// The room's surfaces.
+    /// Illuminances of the room's surfaces.
     Surfaces(Result<SurfaceFigures, AppError>),
-    /// What control does over the year.
+    /// Year of shading control.
     Year(Result<Year, StudyError>),
     /// Figures of the dataset; `None` without a transmission.
     Data(Option<DataFacts>),
-    /// A fault of the program.
+    /// Internal error.
     Failed(Part, String),
 }
 
-/// What the catalogue holds of the selection.
+/// Product, state and dataset of the selection in the catalogue.
 pub struct Shelved {
-    /// Product.
+    /// Selected product.
     pub product: Arc<Product>,
-    /// Key of the state, picked by the scene's control where it is left to it.
+    /// Key of the state, picked by the scene's control if the state is controlled.
     pub state: String,
-    /// Its dataset; `None` while it is still to be computed.
+    /// Dataset of the state; `None` while it is still to be computed.
     pub dataset: Option<Arc<Dataset>>,
 }
 
-/// Computes data that nobody has asked for yet, those of the first of these products first, until it is time to ask anew
-/// which come first; how many states are left.
+/// Computes data in advance, starting with the first of these products, until the order is to be determined again;
+/// returns the number of states left.
 pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState) -> Result<usize, AppError> {
-    // Threads of its own, so that what is in sight never waits behind this; one core stays free for the window.
+    // A separate thread pool, so that visible results never wait behind this; one core stays free for the window.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build()?;
     let start = Instant::now();
@@ -213,7 +214,7 @@ pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState
     }
 }
 
-/// Sky and sun of a scene, as they are and as its first aperture sees them.
+/// Returns sky and sun of a scene, as they are and as seen from its first aperture.
 pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) -> Result<Daylight, SkyKeyError> {
     let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base)?;
     // What is wrong with boxes the room's tile says; what was withdrawn nobody looks at.
@@ -221,13 +222,13 @@ pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) 
     Ok(Daylight { outside, seen, sun })
 }
 
-/// Effects of a scene's obstructions.
+/// Computes the effects of a scene's obstructions.
 pub(super) fn obstructions(scene: SceneFile, base: &Path, progress: &dyn Progress) -> ObstructionEffects {
     let effects = obstruction_effects(&scene, base, progress).map_err(|error| error.to_string());
     (scene, effects)
 }
 
-/// The selection's product, state and dataset.
+/// Returns product, state and dataset of the selection.
 pub(super) fn take_from_shelf(
     shelf: &dyn Shelf,
     selection: &Selection,

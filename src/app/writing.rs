@@ -14,7 +14,7 @@ use crate::texts::hand_on as texts;
 use std::path::{Path, PathBuf};
 
 impl App {
-    /// Asks for files: the path field at once, the desktop's dialog beside it.
+    /// Asks for files: in the path field at once, with the desktop's dialog beside it.
     pub(super) fn ask_paths(&mut self) {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
@@ -22,7 +22,7 @@ impl App {
         self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open()));
     }
 
-    /// Asks for a folder: the path field at once, the desktop's dialog beside it.
+    /// Asks for a folder: in the path field at once, with the desktop's dialog beside it.
     pub(super) fn ask_folder(&mut self) {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
@@ -39,7 +39,7 @@ impl App {
         self.start(Lane::Dialog, move |_| Outcome::Target(what, dialogs.save(what, &start)));
     }
 
-    /// Writes where nothing is yet; else the sheet asks.
+    /// Writes to a path if there is no file yet; otherwise the sheet asks.
     pub(super) fn write_new(&mut self, what: PathUse, path: PathBuf) {
         let path = with_ending(&self.state, what, path);
         if matches!(what, PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe) {
@@ -70,14 +70,14 @@ impl App {
         }
     }
 
-    /// The next dialog begins in the folder of a file that was just read or written.
+    /// Stores the folder of a file that was just read or written, so that the next dialog begins there.
     pub(super) fn remember_folder(&mut self, path: &Path) {
         if let Some(folder) = path.parent().filter(|folder| folder.is_absolute()) {
             self.state.settings.folder = Some(folder.to_owned());
         }
     }
 
-    /// Starts to write a file; what is under way is waited for when the window closes.
+    /// Starts writing a file; a closing window waits until it is finished.
     fn start_writing(&mut self, work: impl FnOnce() -> Outcome + Send + 'static) {
         self.writing = true;
         self.start(Lane::Export, move |_| work());
@@ -132,13 +132,13 @@ impl App {
         }
     }
 
-    /// Asks a tile for its numbers, for the clipboard.
+    /// Requests a tile's numbers for the clipboard.
     pub(super) fn copy_tile(&mut self, tile: Tile) {
         self.export.ask_copy(tile);
         self.bring_up(tile);
     }
 
-    /// Writes what tiles gave since the last frame.
+    /// Writes the numbers that tiles gave since the last frame.
     pub(super) fn write_exports(&mut self) {
         self.take_numbers();
         if self.jobs.busy(Lane::Export) {

@@ -1,5 +1,5 @@
-//! What is asked about a year and its weather, the weather as hours are picked from it, and the year that a scene without
-//! one is given.
+//! Annual simulation in the window: its commands, the weather file as hours are picked from it, and the default year of
+//! a scene without one.
 
 use crate::compute::weather::{Closure, Record, Station};
 use crate::drawing::hour_map::HourMap;
@@ -13,55 +13,55 @@ use crate::texts::{fixed, year as say};
 use jiff::civil::DateTime;
 use std::path::{Path, PathBuf};
 
-/// What is asked about a year.
+/// Command about the annual simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum YearAct {
-    /// Compute the year of the present scene; a scene without one is given one first.
+    /// Compute the year of the current scene; a scene without one gets the default year first.
     Compute,
-    /// Look at something else of it.
+    /// Change the display settings of the annual simulation.
     Look(Look),
-    /// Show a step of the year that is shown in every tile; `true`: on a walk by keys.
+    /// Show a step of the annual simulation in every tile; `true` while stepping with keys.
     Show(usize, bool),
-    /// Take a year of weather: for the scene's year, where it has one or the tile is asked, else as its sky.
+    /// Set the weather file: of the scene's year if it has one, and of its sky.
     Weather(PathBuf),
-    /// The same for the year alone.
+    /// Set the weather file of the scene's year alone.
     WeatherOfYear(PathBuf),
-    /// The sky of a record of the weather; `true`: on a walk by keys.
+    /// Set the sky to a record of the weather file; `true` while stepping with keys.
     Pick(DateTime, bool),
 }
 
 impl YearAct {
-    /// Is what it changes in the document a step of its own for undo? Not every hour that is walked over.
+    /// Whether the change of the document is an undo step of its own. Hours that are stepped through are not.
     pub const fn is_step(&self) -> bool {
         !matches!(self, Self::Look(_) | Self::Show(_, true) | Self::Pick(_, true))
     }
 }
 
-/// A weather file as hours are picked from it.
+/// Weather file as hours are picked from it.
 #[derive(Debug, Clone)]
 pub struct Calendar {
-    /// As scenes name it, and what relative names start from.
+    /// Key of the weather file: its name in scenes, folder and reading options.
     pub key: CalendarKey,
-    /// Where it is from.
+    /// Station of the weather file.
     pub station: Station,
-    /// Test of its clock, where there is one.
+    /// Test of the file's clock, if there is one.
     pub closure: Option<Closure>,
-    /// Codes of its warnings.
+    /// Codes of the file's warnings.
     pub warnings: Vec<&'static str>,
-    /// Direct normal, and diffuse horizontal.
+    /// Direct normal and diffuse horizontal values by hour.
     pub maps: [HourMap; 2],
-    /// Begin of every record in local standard time, in the file's order.
+    /// Start of every record in local standard time, in the file's order.
     pub starts: Vec<DateTime>,
 }
 
-/// What a calendar hangs on: the weather's name, the folder that it starts from, and how it is read.
+/// Key of a calendar: the weather file's name, the folder that it starts from, and how the file is read.
 pub type CalendarKey = (PathBuf, PathBuf, LightKey, OffsetKey);
 
 impl Calendar {
-    /// Reads it.
+    /// Reads the weather file.
     ///
     /// # Errors
-    /// A file that cannot be read, or a clock that cannot be tested.
+    /// Returns an error if the file cannot be read or its clock cannot be tested.
     pub fn read(key: CalendarKey) -> Result<Self, StudyError> {
         let kept = kept(&key.0, &key.1)?;
         let weather = &kept.weather;
@@ -76,12 +76,12 @@ impl Calendar {
     }
 }
 
-/// The weather that the scene speaks of: of its sky, else of its year.
+/// Returns the weather file of a scene: of its sky, else of its year.
 pub fn weather_of(scene: &SceneFile) -> Option<&Path> {
     scene.sky.weather.as_deref().or_else(|| scene.year.as_ref().map(|year| &*year.weather))
 }
 
-/// The weather of the scene's year; of one that it would be given, that of the nearest place.
+/// Returns the weather file of the scene's year; without a year, that of the nearest place.
 pub fn weather_of_year(scene: &SceneFile) -> PathBuf {
     if let Some(keys) = &scene.year {
         return keys.weather.clone();
@@ -93,7 +93,8 @@ pub fn weather_of_year(scene: &SceneFile) -> PathBuf {
     })
 }
 
-/// A year for a scene without one: its weather, an eye in the middle of the room that looks at the façade, and usual lamps.
+/// Returns the default year of a scene without one: its weather file, an observer in the middle of the room who faces
+/// the façade, and default electric lighting.
 pub fn usual_year(scene: &SceneFile) -> YearKeys {
     YearKeys {
         weather: weather_of_year(scene),
@@ -111,13 +112,13 @@ pub fn usual_year(scene: &SceneFile) -> YearKeys {
     }
 }
 
-/// Half way into the room, at the height of who sits, looking at the façade.
+/// Returns the default observer: half way into the room, at the eye height of a seated person, facing the façade.
 pub fn usual_eye(scene: &SceneFile) -> EyeKeys {
     let room = &scene.room;
     EyeKeys { point: [0.5 * room.width, 0.5 * room.depth, 1.2_f64.min(room.height)], direction: [0.0, -1.0, 0.0] }
 }
 
-/// Lamps as they are usual over desks.
+/// Returns the default electric lighting, as usual over desks.
 pub const fn usual_lamps() -> LightingKeys {
     LightingKeys {
         power: 8.0,
@@ -132,7 +133,7 @@ pub const fn usual_lamps() -> LightingKeys {
     }
 }
 
-/// The sky of a record of a weather; what stands before it stays.
+/// Sets the sky of a scene to a record of a weather file; its turbidity, obstruction and skyline stay.
 pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
     let year = scene.year.as_ref().filter(|year| year.weather == weather);
     let same = scene.sky.weather.as_deref() == Some(weather);
@@ -157,7 +158,7 @@ pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
     };
 }
 
-/// Place and clock of a station in words.
+/// Returns place and clock of a station as text.
 pub fn station_words(station: &Station) -> String {
     let place = crate::study::scene_words::coordinates(station.latitude, station.longitude);
     let name = if station.name.is_empty() { fixed(station.elevation, 0) } else { station.name.clone() };

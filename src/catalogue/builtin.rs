@@ -1,8 +1,7 @@
-//! The products that come with the program: two that are defined by a sentence, and those of the descriptions under
-//! `assets/systems`.
+//! Built-in products: two ideal systems without a description, and those of the descriptions under `assets/systems`.
 //!
 //! A file gets all of them when it is opened, with the figures of a table that comes with the program. Their data are
-//! computed when they are asked for, by layers above ([`Catalogue::to_compute`], [`Catalogue::put_state`]).
+//! computed at their first use, by layers above ([`Catalogue::to_compute`], [`Catalogue::put_state`]).
 
 use super::described::{METHODS, method, product_of, with_builtins};
 use super::history::{RESTORED, note};
@@ -21,22 +20,22 @@ use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior};
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
-/// Raised whenever the built-in products change otherwise than by their descriptions; a file with a lower number gets
-/// all of them anew.
+/// Version of the built-in products, raised whenever they change otherwise than by their descriptions. In a file with a
+/// lower number all of them are replaced.
 pub const BUILTIN_VERSION: i64 = 4;
 /// Error target of the built-in products, absolute in τ and ρ.
 pub const BUILTIN_ERROR: f64 = 0.003;
-/// How names of description files end.
+/// Ending of the names of description files.
 const SYSTEM_SUFFIX: &str = ".system.toml";
 
-/// The figures of all states, in the form of [`crate::formats::figures_table`]. Written by `cfs catalogue build --table
-/// assets/builtin-figures.csv` on a new catalogue; the tests say when that is due.
+/// Figures of all states, in the form of [`crate::formats::figures_table`]. Written by `cfs catalogue build --table
+/// assets/builtin-figures.csv` on a new catalogue; a test fails when that is due.
 pub const TABLE: &str = include_str!("../../assets/builtin-figures.csv");
 
-/// Keys of the systems that are defined by a sentence.
+/// Keys of the ideal systems, which have no description.
 const IDEALS: [&str; 2] = ["open-aperture", "ideal-diffuser"];
 
-/// Systems that are defined by a sentence.
+/// Returns the ideal systems with their datasets.
 fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
     let open = Band {
         transmission_front: Some(Btdf::ideal_transparent(1.0)),
@@ -83,12 +82,12 @@ fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
     ]
 }
 
-/// Rank of a built-in description, by its place in the list; the ideal systems come before all.
+/// Returns the rank of a built-in description, by its place in the list; the ideal systems precede all.
 fn rank(name: &str) -> i64 {
     100 + SYSTEMS.iter().position(|(file, _)| *file == name).unwrap_or(SYSTEMS.len()) as i64
 }
 
-/// Stores a product in place of its older self and of another process's copy.
+/// Stores a product in place of its older version and of another process's copy.
 fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE builtin = 1 AND key = ?", [&record.product.key])?;
     record.product.builtin = true;
@@ -96,24 +95,24 @@ fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), Catalo
     store::insert(tx, &record, rank)
 }
 
-/// How built-in products are computed.
+/// Returns the method by which built-in products are computed, as a text.
 pub fn builtin_method(file: &SystemFile) -> String {
     method(&file.system, BUILTIN_ERROR, [front_basis().len(); 2])
 }
 
-/// Key of the product of a built-in description, by the name of its file.
+/// Returns the key of the product of a built-in description, from the name of its file.
 pub fn key_of_builtin(name: &str) -> &str {
     name.strip_suffix(SYSTEM_SUFFIX).unwrap_or(name)
 }
 
-/// Stands for everything that the data of a built-in product are computed from: its description with all layers in its
-/// own text, the methods, the error target.
+/// Returns a hash of everything that the data of a built-in product are computed from: its description with all layers
+/// in its own text, the version of the methods, the error target.
 pub fn fingerprint(description: &str) -> String {
     let all = format!("{description}\0methods {METHODS}\0error {BUILTIN_ERROR}");
     blake3::hash(all.as_bytes()).to_hex()[..16].to_owned()
 }
 
-/// The described products by the names of their files, with the figures of the table and without data. A description that
+/// Described products by the names of their files, with the figures of the table and without data. A description that
 /// changed since the table was written has no figures: better none than wrong ones.
 ///
 /// # Panics
@@ -156,13 +155,13 @@ fn with_figures(state: State, row: &FigureRow) -> State {
     }
 }
 
-/// Is this the key of a product that comes with the program?
+/// Whether `key` is the key of a built-in product.
 pub(super) fn is_builtin(key: &str) -> bool {
     IDEALS.contains(&key) || PRODUCTS.iter().any(|(_, product)| product.key == key)
 }
 
-/// Is what results hang on of a built-in product other than this program brings it? One of another program's description is
-/// not judged.
+/// Whether the part of a built-in product that results depend on differs from the version in this program. `false` for
+/// a product of another program's description, which cannot be judged.
 pub(super) fn differs(product: &Product) -> bool {
     PRODUCTS.iter().map(|(_, own)| own).any(|own| {
         own.provenance.source_hash == product.provenance.source_hash
@@ -176,7 +175,7 @@ pub(super) fn differs(product: &Product) -> bool {
     })
 }
 
-/// Whether a damaged row is one of a product that comes with the program. The mark that says so may be what is damaged.
+/// Whether a damaged row belongs to a built-in product. The mark that says so may itself be damaged.
 pub(super) fn is_row_of_builtin(db: &Connection, id: i64) -> Result<bool, CatalogueError> {
     let (builtin, rank, key): (bool, i64, Vec<u8>) = db
         .prepare_cached("SELECT builtin, rank, CAST(key AS BLOB) FROM product WHERE id = ?")?
@@ -185,7 +184,7 @@ pub(super) fn is_row_of_builtin(db: &Connection, id: i64) -> Result<bool, Catalo
     Ok((builtin && ranked) || ((builtin || ranked) && str::from_utf8(&key).is_ok_and(is_builtin)))
 }
 
-/// Names of the built-in descriptions whose products are not in the file as they are now.
+/// Returns the names of the built-in descriptions whose products in the file are missing or of another description.
 fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
     let mut ask = db.prepare_cached("SELECT source_hash FROM product WHERE builtin = 1")?;
     let there: HashSet<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
@@ -205,10 +204,10 @@ pub(super) fn is_version_lost(db: &Connection) -> Result<bool, CatalogueError> {
     Ok(version(db)? < 1 && db.query_row(any, [], |row| row.get(0))?)
 }
 
-/// Is there anything for [`renew`] to do?
+/// Whether [`renew`] has anything to do.
 fn is_due(db: &Connection) -> Result<bool, CatalogueError> {
     let found = version(db)?;
-    // Older programs knew no figures of how light leaves.
+    // Older programs stored no figures of how light leaves.
     let bare = "SELECT EXISTS (SELECT 1 FROM state s JOIN product p ON p.id = s.product
                                WHERE p.builtin = 1 AND s.sun_blocked IS NULL)";
     Ok(found < BUILTIN_VERSION
@@ -218,9 +217,9 @@ fn is_due(db: &Connection) -> Result<bool, CatalogueError> {
                 || db.query_row(bare, [], |row| row.get(0))?)))
 }
 
-/// Puts those of this program's built-in products into a file that it lacks, in one transaction: with their figures, and
-/// without data, which are computed when they are asked for. The products of an older program go. Rows of the user's and
-/// favourites stay. A file that a newer program filled is left as it is.
+/// Adds the built-in products of this program that a file lacks, in one transaction: with their figures, and without
+/// data, which are computed at their first use. Removes the products of an older program. Keeps the user's rows and
+/// favourites. Leaves a file that a newer program filled as it is.
 pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     if !is_due(&catalogue.db)? {
         return Ok(());
@@ -254,8 +253,8 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     Ok(())
 }
 
-/// Restores the built-in products whose rows are damaged from what this program contains; their data are computed when
-/// they are asked for. `false` where there are none, or where a newer program filled the file.
+/// Restores the built-in products whose rows are damaged from what this program contains; their data are computed at
+/// their next use. Returns `false` where none is damaged, or where a newer program filled the file.
 ///
 /// # Errors
 /// Returns an error if nothing can be written.
@@ -272,13 +271,13 @@ pub(super) fn restore_damaged(catalogue: &Catalogue) -> Result<bool, CatalogueEr
     Ok(true)
 }
 
-/// Ids of the damaged rows of built-in products.
+/// Returns the ids of the damaged rows of built-in products.
 fn damaged_rows(db: &Connection) -> Result<Vec<i64>, CatalogueError> {
     let damaged = damaged_products(db, &mut |_, _, _| {})?.into_iter();
     Ok(damaged.filter(|id| is_row_of_builtin(db, *id).unwrap_or(false)).collect())
 }
 
-/// Removes damaged rows of built-in products and notes that in their histories; their keys.
+/// Removes damaged rows of built-in products and records that in their histories. Returns their keys.
 fn take_out(tx: &Transaction<'_>, ids: &[i64]) -> Result<Vec<String>, CatalogueError> {
     let mut keys = Vec::new();
     for id in ids {
@@ -309,7 +308,7 @@ fn put_missing(tx: &Transaction<'_>, ideals: Vec<Record>) -> Result<(), Catalogu
     store::sweep(tx)
 }
 
-/// Gives the states of an older file's product, computed from the same description, the figures that they lack.
+/// Adds missing figures to the states of an older file's product that was computed from the same description.
 fn light_up(tx: &Transaction<'_>, product: &Product) -> Result<(), CatalogueError> {
     let mut ask = tx.prepare_cached(
         "SELECT s.product, s.position FROM state s JOIN product p ON p.id = s.product
@@ -331,7 +330,7 @@ fn light_up(tx: &Transaction<'_>, product: &Product) -> Result<(), CatalogueErro
     Ok(())
 }
 
-/// Version of the built-in products in the file; 0 without any.
+/// Returns the version of the built-in products in the file; 0 without any.
 fn version(db: &Connection) -> Result<i64, CatalogueError> {
     let text: Option<String> =
         db.query_row("SELECT value FROM meta WHERE key = 'builtin_version'", [], |row| row.get(0)).optional()?;

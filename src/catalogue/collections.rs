@@ -4,26 +4,27 @@
 use super::{Catalogue, CatalogueError};
 use rusqlite::Connection;
 
-/// A collection.
+/// Collection of products.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Collection {
-    /// Its name.
+    /// Name of the collection.
     pub name: String,
     /// Keys of its products, sorted.
     pub products: Vec<String>,
 }
 
-/// Takes a product that is gone for good out of all: another one may get its key.
+/// Removes a product from all collections when it is removed permanently, because another one may get its key.
 pub(super) fn leave_all(db: &Connection, key: &str) -> Result<(), CatalogueError> {
     db.execute("DELETE FROM collection WHERE product_key = ?", [key])?;
     Ok(())
 }
 
 impl Catalogue {
-    /// Puts products into a collection, or takes them out of it; all in one step. What is so already stays so.
+    /// Adds products to a collection (`put`), or removes them from it; all in one step. Products that are already as
+    /// requested stay so.
     ///
     /// # Errors
-    /// A product that is not there, or a collection without a name; then nothing changes.
+    /// Returns an error if a product does not exist, or the collection has no name; nothing changes then.
     pub fn collect(&mut self, name: &str, products: &[String], put: bool) -> Result<(), CatalogueError> {
         let name = name.trim();
         if name.is_empty() {
@@ -45,10 +46,10 @@ impl Catalogue {
         Ok(())
     }
 
-    /// All collections by name, with the products in them that are in sight.
+    /// Returns all collections by name, with the visible products in them.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn collections(&self) -> Result<Vec<Collection>, CatalogueError> {
         let mut ask = self.db.prepare_cached(
             "SELECT name, product_key FROM collection

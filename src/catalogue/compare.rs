@@ -1,4 +1,4 @@
-//! Packages compared and merged, without a catalogue.
+//! Comparison and merging of packages, without a catalogue.
 
 use super::CatalogueError;
 use crate::compute::btdf::Btdf;
@@ -7,40 +7,40 @@ use crate::formats::dataset_blob::decode;
 use crate::formats::package::{Package, PackageProduct, PackageState};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How two packages differ. Empty lists: they hold the same.
+/// Differences between two packages. All lists are empty if they hold the same.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PackageDiff {
-    /// Keys of products that the first alone holds.
+    /// Keys of products that only the first holds.
     pub only_first: Vec<String>,
-    /// Keys of products that the second alone holds.
+    /// Keys of products that only the second holds.
     pub only_second: Vec<String>,
-    /// Products of both that differ.
+    /// Products that both hold and that differ.
     pub changed: Vec<ProductDiff>,
 }
 
-/// How a product differs between two packages.
+/// Differences of a product between two packages.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ProductDiff {
-    /// Its key.
+    /// Key of the product.
     pub key: String,
     /// Fields that differ beside the states: name, first value, second value.
     pub fields: Vec<(String, String, String)>,
-    /// Keys of states that the first alone holds.
+    /// Keys of states that only the first holds.
     pub only_first: Vec<String>,
-    /// Keys of states that the second alone holds.
+    /// Keys of states that only the second holds.
     pub only_second: Vec<String>,
     /// States of both whose data differ.
     pub states: Vec<StateDiff>,
 }
 
-/// How the data of a state differ.
+/// Differences between the data of a state in two packages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateDiff {
-    /// Its key.
+    /// Key of the state.
     pub key: String,
     /// Hashes of the two datasets.
     pub hashes: [String; 2],
-    /// τ for uniform light of both, outside to inside; `None` where a dataset holds no transmission.
+    /// Hemispherical transmittances of both, outside to inside; `None` where a dataset holds no transmission.
     pub tau_hemispherical: [Option<f64>; 2],
     /// Largest difference of τ over incident directions every 10° of θ and 30° of φ; `None` unless both transmit.
     pub tau_change: Option<f64>,
@@ -53,11 +53,11 @@ impl PackageDiff {
     }
 }
 
-/// Compares two packages product by product and state by state. The order of products does not count, that of states
+/// Compares two packages product by product and state by state. The order of products does not matter, that of states
 /// does.
 ///
 /// # Errors
-/// Keys that are not distinct; a dataset that differs and cannot be read.
+/// Returns an error if keys are not distinct, or a dataset that differs cannot be read.
 pub fn diff_packages(first: &Package, second: &Package) -> Result<PackageDiff, CatalogueError> {
     let (a, b) = (by_key(first)?, by_key(second)?);
     let mut diff = PackageDiff::default();
@@ -138,7 +138,7 @@ fn diff_products(
                 diff.fields.push((format!("states.{}.{name}", one.key), x, y));
             }
         }
-        // The hash tells; only datasets that differ are worth the time of being decoded.
+        // The hash decides; only datasets that differ are decoded, which takes time.
         if one.dataset != other.dataset {
             diff.states.push(diff_states(one, other, first, second)?);
         }
@@ -182,10 +182,10 @@ fn largest_change(a: &Btdf, b: &Btdf) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Two packages in one.
+/// Two packages merged into one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Merged {
-    /// All products, by key; the same content whichever package came first, but for keys that were given anew.
+    /// All products, by key. Apart from renamed keys the content does not depend on the order of the two packages.
     pub package: Package,
     /// Keys that both packages held with the same content.
     pub same: Vec<String>,
@@ -198,7 +198,7 @@ pub struct Merged {
 /// both kept, the second one's under the first free key of KEY-2, KEY-3, …
 ///
 /// # Errors
-/// Keys that are not distinct within a package.
+/// Returns an error if keys are not distinct within a package.
 pub fn merge_packages(first: &Package, second: &Package) -> Result<Merged, CatalogueError> {
     let (a, b) = (by_key(first)?, by_key(second)?);
     let mut taken: BTreeSet<String> = a.keys().chain(b.keys()).map(|key| (*key).to_owned()).collect();
@@ -225,8 +225,8 @@ pub fn merge_packages(first: &Package, second: &Package) -> Result<Merged, Catal
     Ok(Merged { package: Package { products, datasets }, same, renamed })
 }
 
-/// KEY-2, KEY-3, …: the first that is free, or under which the first package holds this very product since an earlier
-/// merge.
+/// Returns the first of KEY-2, KEY-3, … that is free, or under which the first package holds this very product since an
+/// earlier merge.
 fn free_key(
     key: &str,
     product: &PackageProduct,

@@ -1,4 +1,4 @@
-//! A connection to a catalogue's file, as every other file of this folder uses it.
+//! Connection to a catalogue's file, used by all other files of this folder.
 
 use super::CatalogueError;
 use super::index::Index;
@@ -8,15 +8,15 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// One connection to a catalogue. May move between threads; for use from several threads open one each.
+/// Connection to a catalogue. It can move between threads; for use from several threads open one each.
 #[derive(Debug)]
 pub struct Catalogue {
     pub(super) db: Connection,
-    /// The datasets used last, decoded, newest at the end.
+    /// Datasets used most recently, decoded, newest at the end.
     pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
     /// Computed states that cannot be kept where the file lies, by the keys of product and state.
     pub(super) held: RefCell<Vec<([String; 2], Arc<Dataset>)>>,
-    /// What the search looks through, with the state of the file that it was made of.
+    /// Search index, with the state of the file that it was made from.
     pub(super) index: RefCell<Option<(Stamp, Arc<Index>)>>,
     /// Keys of the built-in products that were damaged, and that this connection has restored.
     pub(super) restored: RefCell<Vec<String>>,

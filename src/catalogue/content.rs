@@ -1,9 +1,9 @@
-//! What a dataset holds, whatever it is called: by this the same data are known under other names and in other files.
+//! Content of a dataset without its names: identifies the same data under other names and in other files.
 
 use crate::compute::btdf::Dataset;
 use crate::formats::dataset_blob::{content_hash, encode_with_wordless};
 
-/// Hash of a dataset's functions and figures, of no word about it: 64 hexadecimal digits.
+/// Returns the hash of a dataset's functions and figures, without any of its texts: 64 hexadecimal digits.
 pub fn content_of(dataset: &Dataset) -> String {
     let [_, wordless] = encode_with_wordless(dataset);
     content_hash(&wordless)

@@ -1,4 +1,4 @@
-//! A described system as a product: where its data come from, how its states are named, its control curve.
+//! Described systems as products: source of the data, names of the states, control curve.
 
 use super::systems::{blind_of, builtin_system};
 use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
@@ -20,9 +20,9 @@ const ELEVATION: f64 = 0.611;
 /// Step of the curves over the profile angle. \[°\]
 const STEP: u32 = 5;
 
-/// What the catalogue is told about the datasets of a described system. `text`: the description's own text, whose hash
-/// stands for the inputs; `method`: how the datasets were computed. The product keeps the description that the datasets
-/// carry, which holds the layers of a stack; without one the text as it is.
+/// Returns the product data for the datasets of a described system. `text`: text of the description, whose hash
+/// represents the inputs; `method`: method by which the datasets were computed. The product keeps the description that
+/// the datasets carry, which holds the layers of a stack; without one the text unchanged.
 pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dataset]) -> NewProduct {
     let system = &file.system;
     NewProduct {
@@ -46,7 +46,7 @@ pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dat
     }
 }
 
-/// The description of all the datasets, each a state of it; `None` where one has another or none.
+/// Returns the description that all datasets share, each being a state of it; `None` where one has another or none.
 pub(super) fn common_description(datasets: &[Dataset]) -> Option<String> {
     let mut all = datasets.iter().map(|dataset| {
         let own = dataset.described.as_ref()?;
@@ -56,7 +56,7 @@ pub(super) fn common_description(datasets: &[Dataset]) -> Option<String> {
     all.all(|other| other == Some(first)).then(|| first.clone())
 }
 
-/// The description that goes with a dataset of a product. Stacks of older catalogues name built-in files.
+/// Returns the description that belongs to a dataset of a product. Stacks of older catalogues name built-in files.
 pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedState> {
     if system.is_empty() {
         return None;
@@ -64,8 +64,8 @@ pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedStat
     system_toml::described(&with_builtins(system, 0)?, state)
 }
 
-/// Share of light at normal incidence that goes straight on, by the description itself; `None` where it cannot be read or
-/// names layers that only its author has.
+/// Returns the normal–normal transmittance by the description itself; `None` where it cannot be read or names layers
+/// that only its author has.
 pub(super) fn view(described: &DescribedState) -> Option<f64> {
     let specimen = specimen(&described.text, &described.state, 0)?;
     Some(specimen.straight(Dir::from_unit(glam::DVec3::Z), Side::Front).clamp(0.0, 1.0))
@@ -84,7 +84,7 @@ fn specimen(text: &str, state: &str, depth: usize) -> Option<Box<dyn Specimen>> 
     Some(Box::new(Stack::new(layers?)))
 }
 
-/// A built-in description with its layers in its own text, which is what its data carry.
+/// Returns a built-in description with its layers in its own text, as its data carry it.
 pub(super) fn with_builtins(text: &str, depth: usize) -> Option<String> {
     system_toml::self_contained(text, &mut |source| match source {
         LayerSource::File(name) if depth < MOST_NESTED => with_builtins(builtin_system(name)?.1, depth + 1),
@@ -92,18 +92,19 @@ pub(super) fn with_builtins(text: &str, depth: usize) -> Option<String> {
     })
 }
 
-/// Version of the methods that compute data from descriptions: raised whenever computed values change, so that what was kept
-/// from an older program is not mistaken.
+/// Version of the methods that compute data from descriptions. It is raised whenever computed values change, so that
+/// data stored by an older program are not mistaken for current ones.
 pub const METHODS: u32 = 3;
 
-/// How the values of a described system come to be: the program, its method, what it was asked.
+/// Returns the method of a described system as a text: the program, its method, the settings.
 pub fn method(system: &SystemDescription, error: f64, [incident, emergent]: [usize; 2]) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let words = system.family().method();
     format!("Numerical goniophotometer of cfs {version}: {words}; error target {error}, {incident} × {emergent} cells")
 }
 
-/// A computed state as a dataset, with what is known about its quality. `error`: the target that was asked for.
+/// Creates the dataset of a computed state, with what is known about its quality. `error`: error target of the
+/// computation.
 pub fn described_dataset(file: &SystemFile, state: String, visible: Band, quality: &Quality, error: f64) -> Dataset {
     let system = &file.system;
     let reciprocity = match quality.reciprocity {
@@ -133,11 +134,11 @@ pub fn described_dataset(file: &SystemFile, state: String, visible: Band, qualit
     }
 }
 
-/// How [`described_dataset`] begins the words about the error that was reached.
+/// Beginning of the text of [`described_dataset`] about the error that was reached.
 const ERROR_WORDS: &str = "estimated error of τ and ρ at most ";
 
-/// How far transmittances of a dataset may be off, absolute: nothing for a definition, what was reached for computed data;
-/// `None` where the data do not say, as measured ones.
+/// Returns the absolute uncertainty of a dataset's transmittances: 0 for a definition, the error that was reached for
+/// computed data; `None` where the data do not state it, as measured ones.
 pub fn stated_error(dataset: &Dataset) -> Option<f64> {
     let transmission = dataset.transmission()?;
     if matches!(transmission.scattered, None | Some(Scattered::Lambert(_))) && dataset.described.is_none() {
@@ -156,8 +157,8 @@ fn state_name(dataset: &Dataset) -> StateName {
     }
 }
 
-/// The control curve of slats by the word of its rule: `cut-off` keeps the sun out, `retro` throws it back, `redirect`
-/// sends it to the ceiling; none for other words. Values are held within the states' range.
+/// Returns the control curve of slats for the key of a rule: `cut-off` blocks the sun, `retro` reflects it back,
+/// `redirect` sends it to the ceiling; empty for other keys. Values are limited to the range of the states.
 pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
     let range = blind.angles.iter().fold([FRAC_PI_2, -FRAC_PI_2], |[low, high], &a| [low.min(a), high.max(a)]);
     let Some(section) = SlatRow::of(blind) else { return Vec::new() };

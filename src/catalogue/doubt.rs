@@ -1,20 +1,20 @@
-//! What cannot be told from files alone, so that the user is asked: whether they are states of one product.
+//! Questions about files that their contents do not answer: whether they are states of one product.
 
 use super::numbered::Pattern;
 use super::source_file::SourceFile;
 use crate::texts::take_in as text;
 
-/// A question about a product that files make.
+/// Question about a product made from files.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Doubt {
-    /// Taken for states of one product because of numbers in the names of files, and for nothing else.
+    /// Files taken for states of one product because of numbers in their names, and for no other reason.
     NumbersAlone,
-    /// Kept apart, though names differ from those of these other files by a number alone.
+    /// File kept separate although its name differs from those of these other files by a number alone.
     PerhapsStates(Vec<String>),
 }
 
 impl Doubt {
-    /// The question in one sentence.
+    /// Returns the question in one sentence.
     pub fn question(&self) -> String {
         match self {
             Self::NumbersAlone => text::ASK_NUMBERS.into(),
@@ -30,26 +30,26 @@ impl Doubt {
 /// Beginnings of words that only systems with moving parts have in their names.
 const MOVING: [&str; 9] = ["blind", "venet", "slat", "lamel", "jalous", "raff", "louv", "persian", "shutter"];
 
-/// Do the words of a text speak of slats?
+/// Whether the words of a text refer to slats.
 pub(super) fn speaks_of_slats(text: &str) -> bool {
     let text = text.to_lowercase();
     text.split(|c: char| !c.is_alphabetic())
         .any(|word| word == "ven" || MOVING.iter().any(|known| word.starts_with(known)))
 }
 
-/// How much light a file's system lets through.
+/// Returns the hemispherical transmittance of a file's system; `None` for several datasets or no transmission.
 fn light(file: &SourceFile) -> Option<f64> {
     let [dataset] = file.datasets.as_slice() else { return None };
     let visible = &dataset.visible;
     visible.transmission_front.as_ref().or(visible.transmission_back.as_ref()).map(|btdf| btdf.tau_hemispherical())
 }
 
-/// What light does as slats turn away from the horizontal.
+/// Trend of the transmittance as slats turn away from the horizontal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Trend {
-    /// From step to step less of it comes through, as between slats.
+    /// Transmittance that falls from step to step, as between slats.
     Falls,
-    /// From step to step more, as through cloth of more and more openness.
+    /// Transmittance that rises from step to step, as through fabric of increasing openness.
     Rises,
     Neither,
 }
@@ -73,7 +73,7 @@ fn trend(files: &[&SourceFile], family: &[(usize, f64)]) -> Trend {
     }
 }
 
-/// Do the names that the files give their products hold the same angles, and differ by them?
+/// Whether the product names inside the files contain the same angles, and differ by them.
 fn told_inside(files: &[&SourceFile], family: &[(usize, f64)]) -> bool {
     let names: Vec<&str> =
         family.iter().map(|(place, _)| files[*place].datasets.first().map_or("", |one| one.name.as_str())).collect();
@@ -86,8 +86,8 @@ fn told_inside(files: &[&SourceFile], family: &[(usize, f64)]) -> bool {
     all && names.iter().any(|name| *name != names[0])
 }
 
-/// Does anything beside numbers in their names say that files are states of one product? `skeleton`: what the names have
-/// in common; `marked`: a word in them calls the number an angle.
+/// Whether anything besides numbers in their names confirms that files are states of one product. `skeleton`: common
+/// part of the names; `marked`: whether a word in them calls the number an angle.
 pub(super) fn confirmed(files: &[&SourceFile], family: &[(usize, f64)], skeleton: &str, marked: bool) -> bool {
     let moving = |place: usize| {
         let file = files[place];

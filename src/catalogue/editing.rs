@@ -1,4 +1,4 @@
-//! States of products that are stored: other names and angles, other data; and products as they were before.
+//! Editing of stored products: new names and angles of states, new data, and undo by snapshots.
 
 use super::history::{forget, note, paths_of};
 use super::record::{Record, prepare};
@@ -7,36 +7,36 @@ use super::{Catalogue, CatalogueError, NewProduct, Product, StateName};
 use crate::compute::btdf::Dataset;
 use rusqlite::Transaction;
 
-/// A product with its data as it was at one moment; [`Catalogue::put_back`] makes it so again.
+/// Product with its data at one moment; [`Catalogue::put_back`] restores it.
 #[derive(Debug, Clone)]
 pub struct Snapshot(Record);
 
 impl Snapshot {
-    /// The product.
+    /// Returns the product.
     pub const fn product(&self) -> &Product {
         &self.0.product
     }
 
-    /// Contents of its states as they were read, see [`super::content_of`]; empty where they are not known.
+    /// Returns the contents of its states as they were read, see [`super::content_of`]; empty where they are not known.
     pub fn contents(&self) -> &[String] {
         &self.0.contents
     }
 }
 
-/// Other data for a state.
+/// New data for a state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replacement {
     /// Key of the state.
     pub state: String,
-    /// Its data, as they are to be kept.
+    /// Dataset of the state, in the form to be stored.
     pub dataset: Dataset,
-    /// What was read, see [`super::content_of`].
+    /// Content hash of what was read, see [`super::content_of`].
     pub content: String,
-    /// Name of the file.
+    /// Name of the file that the data were read from.
     pub file: String,
 }
 
-/// The user's own product of a key.
+/// Returns the product of a key. Returns an error if it is not the user's own.
 fn own(tx: &Transaction<'_>, key: &str) -> Result<Record, CatalogueError> {
     super::subscribed::refuse_subscribed(tx, key)?;
     if read_product(tx, key)?.builtin {
@@ -52,19 +52,19 @@ fn tau(value: Option<f64>) -> String {
 }
 
 impl Catalogue {
-    /// A product of the user's as it is now.
+    /// Returns a product of the user as it is now.
     ///
     /// # Errors
-    /// No such product, or one that is not the user's own.
+    /// Returns an error if there is no such product, or it is not the user's own.
     pub fn snapshot(&mut self, key: &str) -> Result<Snapshot, CatalogueError> {
         let tx = self.change()?;
         Ok(Snapshot(own(&tx, key)?))
     }
 
-    /// Makes a product what it was, data and all.
+    /// Restores a product to a snapshot, including its data.
     ///
     /// # Errors
-    /// The product is gone.
+    /// Returns an error if the product no longer exists.
     pub fn put_back(&mut self, snapshot: &Snapshot) -> Result<(), CatalogueError> {
         let key = &snapshot.0.product.key;
         let tx = self.change()?;
@@ -75,10 +75,11 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Other names and angles of a product's states, in their order. Keys stay, so that scenes go on finding them.
+    /// Changes the names and angles of a product's states, in their order. Keys stay, so that scenes still find the
+    /// states.
     ///
     /// # Errors
-    /// Not the user's own product; another number of states.
+    /// Returns an error if the product is not the user's own, or if the number of states differs.
     pub fn name_states(&mut self, key: &str, names: &[StateName]) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         let mut record = own(&tx, key)?;
@@ -110,10 +111,11 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Other data for some states of a product, all in one step. Names and angles stay.
+    /// Replaces the data of some states of a product, all in one step. Names and angles stay.
     ///
     /// # Errors
-    /// Not the user's own product, no such state, or data that cannot be stored; then nothing changes.
+    /// Returns an error if the product is not the user's own, has no such state, or if the data cannot be stored;
+    /// nothing changes then.
     pub fn replace_states(&mut self, key: &str, list: &[Replacement]) -> Result<(), CatalogueError> {
         let mut fresh = Vec::new();
         for one in list {
@@ -162,10 +164,10 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Takes products of the user's out for good, all in one step.
+    /// Removes products of the user permanently, all in one step.
     ///
     /// # Errors
-    /// One that is not there, or not the user's own; then all stay.
+    /// Returns an error if one does not exist or is not the user's own; then all stay.
     pub fn remove_products(&mut self, keys: &[String]) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         for key in keys {

@@ -1,99 +1,99 @@
-//! What can go wrong with the catalogue.
+//! Errors of the catalogue.
 
 use super::told::{REMEDY, of_place, told};
 use crate::formats::dataset_blob::BlobError;
 use crate::formats::package::PackageError;
 use std::path::PathBuf;
 
-/// Why the catalogue could not do what it was asked.
+/// Error of an operation on the catalogue.
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogueError {
-    /// The file cannot be opened or made.
+    /// File that cannot be opened or created.
     #[error("catalogue {}: {}", path.display(), told(cause))]
     Open {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
-        /// What SQLite says. Not a source: it is part of the sentence.
+        /// SQLite's error. Not a `source`: it is part of the sentence.
         cause: rusqlite::Error,
     },
-    /// The folder of the file cannot be made.
+    /// Folder of the file that cannot be created.
     #[error("catalogue folder {} cannot be made ({cause}); check path and rights", path.display())]
     Folder {
-        /// Which folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// What the system says.
+        /// Error of the operating system.
         cause: std::io::Error,
     },
-    /// A layout that no program writes.
+    /// Layout number that no program writes.
     #[error(
         "the catalogue {path} is damaged: its layout has the number {found}, programs write 1 to {known}; {REMEDY}"
     )]
     Layout {
-        /// Which file.
+        /// Path of the file.
         path: String,
-        /// Layout that the file names.
+        /// Layout number in the file.
         found: i64,
-        /// Newest layout this program knows.
+        /// Newest layout that this program knows.
         known: i64,
     },
-    /// Written by an older program, where nothing can be written.
+    /// File of an older program that lies where nothing can be written.
     #[error(
         "the catalogue {path} has the layout {found} of an older version of cfs and lies where it cannot be brought to layout \
          {known}; copy it to a place that can be written"
     )]
     Older {
-        /// Which file.
+        /// Path of the file.
         path: String,
-        /// Layout of the file.
+        /// Layout number in the file.
         found: i64,
         /// Layout that this program reads.
         known: i64,
     },
-    /// Changes wait in a file beside it, which can be read only where something can be written.
+    /// Recent changes in a file beside the catalogue, which can be read only where something can be written.
     #[error(
         "the catalogue {} lies where nothing can be written, and its last changes in {}-wal cannot be read there; copy both to \
          another place",
         path.display(), path.display()
     )]
     Waiting {
-        /// Which file.
+        /// Path of the file.
         path: PathBuf,
     },
-    /// What is stored is not what was stored.
+    /// Stored data that differ from what was stored.
     #[error("the catalogue is damaged: {0}; {REMEDY}")]
     Damaged(String),
-    /// The system names no folder for a user's data.
+    /// Missing folder for user data: the system names none.
     #[error("no folder for the catalogue is known; name a file with CFS_CATALOGUE or --catalogue")]
     NoHome,
-    /// A database of something else.
+    /// Database of another program.
     #[error("{0} is a database, but no catalogue")]
     NotACatalogue(String),
-    /// Written by a newer program.
+    /// File written by a newer program.
     #[error(
         "the catalogue {path} was written by a newer version of cfs (layout {found}; this program reads up to {known})"
     )]
     Newer {
-        /// Which file.
+        /// Path of the file.
         path: String,
-        /// Layout of the file.
+        /// Layout number in the file.
         found: i64,
-        /// Newest layout this program knows.
+        /// Newest layout that this program knows.
         known: i64,
     },
-    /// No product of this key.
+    /// Key without a product.
     #[error("no product \"{0}\" in the catalogue")]
     NoProduct(String),
-    /// The product has no state of this key, or several and none was named.
+    /// Missing state: the product has none with this key, or it has several and none was named.
     #[error("product \"{product}\": {what}; its states are: {states}")]
     NoState {
         /// Key of the product.
         product: String,
-        /// What is wrong with the request.
+        /// Reason why the request cannot be met.
         what: String,
-        /// The keys there are.
+        /// Keys of the product's states.
         states: String,
     },
-    /// A state of a built-in product whose data nobody has asked for yet.
+    /// State of a built-in product whose data are not computed yet.
     #[error(
         "the data of \"{product}\"{} are not computed yet; `cfs catalogue build` computes those of all products",
         if state.is_empty() { String::new() } else { format!(", state \"{state}\",") }
@@ -107,58 +107,58 @@ pub enum CatalogueError {
     /// Data that cannot be stored.
     #[error("cannot import: {0}")]
     Import(String),
-    /// Built-in products stay.
+    /// Attempt to remove a built-in product.
     #[error(
         "product \"{0}\" is built in and cannot be removed for good; it can be deleted, which takes it out of sight"
     )]
     BuiltIn(String),
-    /// Built-in products keep their names.
+    /// Attempt to change the descriptive texts of a built-in product.
     #[error(
         "product \"{0}\" is built in and keeps its name, kind and tags; export and import it to have one of your own"
     )]
     BuiltInWords(String),
-    /// Products of subscribed folders are not changed here.
+    /// Attempt to change a product of a subscribed folder.
     #[error(
         "product \"{product}\" comes from {folder}, which is subscribed to and only read; export and import it to have one of your own"
     )]
     Subscribed {
         /// Key of the product.
         product: String,
-        /// The folder of packages.
+        /// Path of the folder of packages.
         folder: String,
     },
-    /// No such subscription.
+    /// Folder without a subscription.
     #[error("{0} is not subscribed to; `cfs catalogue subscriptions` lists the folders that are")]
     NotSubscribed(String),
-    /// A product without a name.
+    /// Empty name of a product.
     #[error("product \"{0}\" needs a name")]
     NoName(String),
-    /// A collection without a name.
+    /// Empty name of a collection.
     #[error("a collection needs a name")]
     NoCollectionName,
-    /// It is out of sight already.
+    /// Product that is hidden already.
     #[error("product \"{0}\" is deleted already")]
     Deleted(String),
-    /// It is in sight.
+    /// Product that is not hidden.
     #[error("product \"{0}\" is not deleted")]
     NotDeleted(String),
-    /// A stored or packed dataset cannot be read.
+    /// Stored or packed dataset that cannot be read.
     #[error("dataset {hash}: {cause}")]
     Dataset {
-        /// Its hash.
+        /// Hash of the dataset.
         hash: String,
-        /// Why.
+        /// Error of the dataset reader.
         cause: BlobError,
     },
-    /// A package cannot be read or written.
+    /// Package that cannot be read or written.
     #[error(transparent)]
     Package(#[from] PackageError),
-    /// SQLite.
+    /// Database error.
     #[error("catalogue: {}", told(.0))]
     Sql(rusqlite::Error),
 }
 
-// Not as a source: the sentence has it already, and a chain of causes would say it twice.
+// Not as a `source`: the sentence contains it already, and a chain of causes would repeat it.
 impl From<rusqlite::Error> for CatalogueError {
     fn from(error: rusqlite::Error) -> Self {
         Self::Sql(error)
@@ -166,7 +166,7 @@ impl From<rusqlite::Error> for CatalogueError {
 }
 
 impl CatalogueError {
-    /// Is it the place of the file that refuses to be written to?
+    /// Whether the error means that the place of the file cannot be written to.
     pub fn of_place(&self) -> bool {
         match self {
             Self::Open { cause, .. } | Self::Sql(cause) => of_place(cause),

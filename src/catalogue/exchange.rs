@@ -1,4 +1,4 @@
-//! Products into the catalogue, and packages of them in and out.
+//! Import of products into the catalogue, and import and export of packages.
 
 use super::collections::leave_all;
 use super::described::described_state;
@@ -17,7 +17,7 @@ use rusqlite::{Connection, Transaction};
 use std::collections::HashMap;
 
 impl Catalogue {
-    /// Adds a product whose states are the given datasets, in order. Fails without a trace.
+    /// Adds a product whose states are the given datasets, in order. Changes nothing on failure.
     pub fn import(&mut self, datasets: &[Dataset], meta: NewProduct) -> Result<Imported, CatalogueError> {
         let record = prepare(datasets, meta)?;
         let tx = self.change()?;
@@ -26,7 +26,7 @@ impl Catalogue {
         Ok(imported)
     }
 
-    /// The bytes of a package with these products.
+    /// Returns the bytes of a package with the given products.
     pub fn export_package(&self, keys: &[String]) -> Result<Vec<u8>, CatalogueError> {
         let snapshot = self.db.unchecked_transaction()?;
         let mut package = Package::default();
@@ -38,14 +38,14 @@ impl Catalogue {
         Ok(package::write(&package)?)
     }
 
-    /// Adds all products of a package, or none. What their datasets contain is checked anew. A product that is there
-    /// already, with the same key and the same datasets, stays as it is.
+    /// Adds all products of a package, or none. Checks their datasets again. A product that is there already, with the
+    /// same key and the same datasets, stays as it is.
     pub fn import_package(&mut self, bytes: &[u8]) -> Result<Vec<Imported>, CatalogueError> {
         Ok(self.import_all(unpack(bytes)?)?.into_iter().map(|one| one.imported).collect())
     }
 
-    /// Adds all of these products, or none: datasets, and what is told about them. One that asks for the key of a product
-    /// which holds the same datasets is there already, and stays as it is.
+    /// Adds all of the given products, or none, each as datasets and product data. A product whose requested key is
+    /// taken by one with the same datasets is there already, and stays as it is.
     pub fn import_all(&mut self, products: Vec<(Vec<Dataset>, NewProduct)>) -> Result<Vec<Stored>, CatalogueError> {
         let mut records = Vec::new();
         for (datasets, meta) in products {
@@ -57,13 +57,13 @@ impl Catalogue {
         for (asked, record) in records {
             let key = record.product.key.clone();
             list.push(if asked && is_there(&tx, &record.product)? {
-                // The same again mends what was damaged since.
+                // Importing the same data again repairs what was damaged since.
                 record.datasets.iter().try_for_each(|(hash, blob)| put_blob(&tx, hash, blob))?;
                 let held = read_product(&tx, &key)?;
                 if !held.builtin && matches!(sealed(&tx, held), Err(CatalogueError::Damaged(_))) {
                     replace(&tx, &record)?;
                 }
-                // What is imported is wanted in sight.
+                // An imported product is to be visible.
                 bring_back(&tx, &key)?;
                 Stored { imported: Imported { same_content_as: vec![key.clone()], key }, new: false }
             } else if asked && adopt(&tx, &record)? {
@@ -79,19 +79,19 @@ impl Catalogue {
     }
 }
 
-/// What became of a product that was to be stored.
+/// Outcome for a product that was to be stored.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stored {
-    /// Its key, and who holds the same data.
+    /// Key of the product, and the products that hold the same data.
     pub imported: Imported,
-    /// False: it was there already, and is not this import's to take out again.
+    /// Whether the product was added. `false`: it was there already, so undoing this import must not remove it.
     pub new: bool,
 }
 
-/// The products of a package, checked as [`package::read`] does: their datasets, and what is told about them.
+/// Returns the products of a package as datasets and product data, checked as [`package::read`] does.
 ///
 /// # Errors
-/// No package, or one with something in it that is not as it should be.
+/// Returns an error if the bytes are not a package, or something in it is invalid.
 pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, CatalogueError> {
     let package = package::read(bytes)?;
     let mut list = Vec::new();
@@ -123,7 +123,7 @@ pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, Catalogue
     Ok(list)
 }
 
-/// Stores a prepared product of the user's under a free key and tells which others share its content.
+/// Stores a prepared product of the user under a free key. Returns the key and the products that share its content.
 pub(super) fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError> {
     let mut same_content_as = Vec::new();
     for (hash, _) in &record.datasets {
@@ -150,7 +150,7 @@ pub(super) fn add(tx: &Transaction, mut record: Record) -> Result<Imported, Cata
     Ok(Imported { key: record.product.key, same_content_as })
 }
 
-/// Does the file hold this product: its key, its states and their datasets?
+/// Whether the file holds this product: its key, its states and their datasets.
 pub(super) fn is_there(db: &Connection, product: &Product) -> Result<bool, CatalogueError> {
     let mut ask = db.prepare_cached(
         "SELECT s.key, s.dataset FROM state s JOIN product p ON s.product = p.id WHERE p.key = ? ORDER BY s.position",

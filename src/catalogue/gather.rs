@@ -1,4 +1,4 @@
-//! From dataset files to products: which files belong together, what they say about themselves.
+//! Products from dataset files: which files belong together, and the product data that they contain.
 
 use super::doubt::Doubt;
 use super::grouping::{Grouping, propose};
@@ -7,25 +7,25 @@ use super::{NewProduct, Origin, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::formats::{CatalogueFields, Format, merge_sides};
 
-/// A product as files tell it: what to import, state by state.
+/// Product as its files describe it, to be imported state by state.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Gathered {
-    /// Name, maker, kind, tags and provenance as far as told. The name may be empty.
+    /// Name, maker, kind, tags and provenance as far as specified. The name may be empty.
     pub meta: NewProduct,
-    /// One a state.
+    /// Datasets, one per state.
     pub datasets: Vec<Dataset>,
-    /// The file that each dataset came from; empty where it was joined from several.
+    /// File that each dataset came from; empty where it was joined from several.
     pub sources: Vec<String>,
-    /// The files of each dataset, by their places among those of the product.
+    /// Files of each dataset, by their indices among those of the product.
     pub parts: Vec<Vec<usize>>,
-    /// The first file's name without its extension, for products without a name.
+    /// Name of the first file without its extension, for products without a name.
     pub file_stem: String,
-    /// What is to be asked before it is stored.
+    /// Question for the user before the product is stored, if any.
     pub doubt: Option<Doubt>,
 }
 
-/// Files as products: those that are states of one product together, as [`Grouping`] says. States are named by their
-/// angles where names tell them, else, where there are several, after their files.
+/// Groups files into products according to `grouping`. States are named by their angles where the names contain them;
+/// else, where there are several, after their files.
 pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
     let files: Vec<&SourceFile> = files.iter().collect();
     let product = |one: super::Proposal| {
@@ -35,13 +35,13 @@ pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
     propose(&files, grouping).into_iter().map(product).collect()
 }
 
-/// An angle as the key of a state: without needless digits. \[°\]
+/// Returns the key of a state for an angle \[°\], without needless digits.
 pub fn key_of_angle(angle: f64) -> String {
     // −0 is 0.
     format!("{}", angle + 0.0)
 }
 
-/// All these files as one product; `angles`: of every file, where they are known. \[°\]
+/// Joins all files into one product; `angles`: angle of every file, where they are known. \[°\]
 pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
     let stems: Vec<String> = files.iter().map(|file| Format::stem(&file.name).to_owned()).collect();
     let meta = NewProduct { name: name(files, &stems), ..meta(files) };
@@ -80,13 +80,14 @@ pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
     Gathered { sources: named(&parts), parts, meta, datasets, file_stem, doubt: None }
 }
 
-/// What a dataset says of itself, unless it is what a template of the format says.
+/// Returns what a dataset says of itself; empty if that is the text of the format's template.
 fn told(text: &str, template: &str) -> String {
     let text = text.trim();
     if text == template { String::new() } else { text.to_owned() }
 }
 
-/// The product's name: what all its files say; else, where they are named by their states, what their names begin with.
+/// Returns the product's name: the one in all its files; else, where they are named by their states, the common
+/// beginning of the names.
 fn name(files: &[&SourceFile], stems: &[String]) -> String {
     let names: Vec<String> =
         files.iter().flat_map(|file| &file.datasets).map(|dataset| told(&dataset.name, "Name")).collect();
@@ -109,7 +110,7 @@ fn name(files: &[&SourceFile], stems: &[String]) -> String {
     [begin(&names), begin(stems), folder].into_iter().find(|text| text.chars().count() > 2).unwrap_or(first)
 }
 
-/// Is `part` this dataset, or one of the functions that it was joined from?
+/// Whether `part` is this dataset, or one of the functions that it was joined from.
 fn holds(dataset: &Dataset, part: &Dataset) -> bool {
     dataset.state == part.state
         && dataset.name == part.name

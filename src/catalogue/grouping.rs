@@ -1,7 +1,8 @@
-//! Which files are states of one product: those whose names, or what they say about themselves, differ by an angle alone.
+//! Grouping of files into products: states of one product have names or contents that differ by an angle alone.
 //!
-//! In doubt every file is a product of its own: two products that are taken for one are wrong everywhere afterwards, one
-//! that is taken for two is seen at once. Where numbers might be angles the user is asked, see [`Doubt`].
+//! When in doubt, every file is a product of its own: two products that are taken for one are wrong everywhere
+//! afterwards, one that is taken for two is seen at once. Where numbers might be angles the user is asked, see
+//! [`Doubt`].
 
 use super::doubt::{Doubt, confirmed, speaks_of_slats};
 use super::numbered::{Pattern, distinct, plausible, unclear, wordless};
@@ -9,51 +10,52 @@ use super::source_file::SourceFile;
 use crate::formats::{Format, is_one_function};
 use std::collections::BTreeMap;
 
-/// How files that are given together are taken.
+/// Rule by which files that are given together become products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Grouping {
-    /// As names and contents say.
+    /// Grouping by names and contents.
     #[default]
     Proposed,
-    /// Each file a product of its own; functions of one state that lie in files of their own stay together.
+    /// Each file as a product of its own; functions of one state that lie in separate files stay together.
     Each,
-    /// All files are the states of one product.
+    /// All files as the states of one product.
     One,
 }
 
-/// Files of one product, by their places in the list that was asked about.
+/// Files of one product, by their indices in the given list.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proposal {
-    /// In the order of the states.
+    /// Indices of the files, in the order of the states.
     pub files: Vec<usize>,
-    /// The angle of every file, as the names tell; `None` where files name their states themselves. \[°\]
+    /// Angle of every file according to its name; `None` where files name their states themselves. \[°\]
     pub angles: Option<Vec<f64>>,
-    /// What is to be asked.
+    /// Question for the user about this grouping, if any.
     pub doubt: Option<Doubt>,
 }
 
-/// Places of a family's files, and their angles where names tell them.
+/// Indices of a family's files, with their angles where the names contain them.
 type Member = (Vec<usize>, Option<Vec<f64>>);
 
-/// A file's place, what it has in common with its family, and its name's pattern.
+/// Index of a file, its common properties with its family, and the pattern of its name.
 type Named<K> = (usize, K, Pattern);
 
-/// Files that differ by a number, as one name of each tells.
+/// Files whose names differ by a number.
 struct Series {
-    /// Places with the number of each.
+    /// Indices of the files, with the number of each.
     members: Vec<(usize, f64)>,
-    /// What the names have in common.
+    /// Common part of the names.
     skeleton: String,
-    /// A word calls the number an angle.
+    /// Whether a word in the names calls the number an angle.
     marked: bool,
-    /// The numbers may count or measure something rather than being angles.
+    /// Whether the numbers may count or measure something rather than being angles.
     unclear: bool,
-    /// All numbers are different, and could be angles or are called so.
+    /// Whether all numbers differ, and could be angles or are called so.
     family: bool,
 }
 
-/// Files of one skeleton whose other numbers agree. `marked_alone`: only numbers that are called angles count.
+/// Returns the files of one skeleton whose other numbers agree. `marked_alone`: only numbers that are called angles
+/// count.
 fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
     let mut by_skeleton: BTreeMap<(&K, &str), Vec<&Named<K>>> = BTreeMap::new();
     for entry in names {
@@ -82,14 +84,14 @@ fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
     found
 }
 
-/// Which places hold files of one family, with their angles; by the patterns of one name of each.
+/// Returns the families among files with their angles, by the patterns of one name of each file.
 fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f64)>> {
     let all = series(names, marked_alone).into_iter();
     all.filter(|one| one.family).map(|one| one.members).collect()
 }
 
-/// Could files of a series that are no family be states all the same? Numbers that no angle has, and two or three samples
-/// with theirs, raise no question.
+/// Whether files of a series that is not a family could still be states. Numbers that cannot be angles, and two or
+/// three samples with their numbers, raise no question.
 fn worth_asking(one: &Series) -> bool {
     let mut values: Vec<f64> = one.members.iter().map(|(_, value)| *value).collect();
     values.sort_by(f64::total_cmp);
@@ -103,13 +105,13 @@ fn worth_asking(one: &Series) -> bool {
     angles && (twice || one.marked || values.len() > 2 || speaks_of_slats(&one.skeleton))
 }
 
-/// The name that a file of a format of one function a file gives its product.
+/// Returns the product name in a file of a format with one function per file.
 fn one_function_name(file: &SourceFile) -> Option<&str> {
     let own = file.datasets.iter().all(|dataset| is_one_function(dataset) && !dataset.name.is_empty());
     own.then(|| file.datasets.first().map(|dataset| dataset.name.as_str())).flatten()
 }
 
-/// What files of one product have in common besides their names: folder, maker, words of the name, bases.
+/// Returns the common properties of files of one product besides their names: folder, maker, words of the name, bases.
 fn common(file: &SourceFile) -> Option<[String; 5]> {
     let [dataset] = file.datasets.as_slice() else { return None };
     Some([
@@ -121,21 +123,21 @@ fn common(file: &SourceFile) -> Option<[String; 5]> {
     ])
 }
 
-/// A family by rising angle.
+/// Returns a family sorted by rising angle.
 fn in_order(mut family: Vec<(usize, f64)>) -> Member {
     family.sort_by(|a, b| a.1.total_cmp(&b.1));
     let (places, angles) = family.into_iter().unzip();
     (places, Some(angles))
 }
 
-/// Do all files hold the same functions?
+/// Whether all files hold the same functions.
 fn one_side(files: &[&SourceFile], places: &[usize]) -> bool {
     let functions =
         |place: usize| -> Vec<_> { files[place].datasets.iter().map(|dataset| dataset.visible.components()).collect() };
     places.iter().all(|&place| files[place].datasets.len() == 1 && functions(place) == functions(places[0]))
 }
 
-/// Families of files that name product and state themselves; their places are marked as taken.
+/// Returns the families of files that name product and state themselves, and marks their indices as taken.
 fn self_named(files: &[&SourceFile], taken: &mut [bool]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
     let mut named: BTreeMap<Vec<String>, Vec<usize>> = BTreeMap::new();
@@ -156,7 +158,7 @@ fn self_named(files: &[&SourceFile], taken: &mut [bool]) -> Vec<Member> {
         let one_function = one_function_name(files[places[0]]).is_some();
         let nameless = places.len() > 1 && states.iter().all(|state| state.is_empty());
         if one_function && nameless && one_side(files, &places) {
-            // States that only the names of their files tell apart.
+            // States that only the names of their files distinguish.
             let names: Vec<Named<()>> =
                 places.iter().map(|&place| (place, (), Pattern::of(Format::stem(&files[place].name)))).collect();
             if let Some(family) = families(&names, false).into_iter().find(|family| family.len() == places.len()) {
@@ -174,7 +176,7 @@ fn self_named(files: &[&SourceFile], taken: &mut [bool]) -> Vec<Member> {
     list
 }
 
-/// Families among files: places with angles, or with no angle where the files name their states themselves.
+/// Returns the families among files, with angles, or without them where the files name their states themselves.
 fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
     let mut taken = vec![false; files.len()];
     let mut list: Vec<Proposal> = self_named(files, &mut taken).into_iter().map(Proposal::from).collect();
@@ -214,7 +216,7 @@ fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
     list
 }
 
-/// Files called as those of a family beside them that hold something else: another basis, another maker.
+/// Adds to `asked` the files named like those of a family but with other contents: another basis, another maker.
 fn strays(files: &[&SourceFile], list: &[Proposal], taken: &[bool], asked: &mut BTreeMap<usize, Vec<usize>>) {
     let skeleton = |place: usize| Pattern::of(Format::stem(&files[place].name)).skeleton;
     for family in list.iter().filter(|family| family.angles.is_some()) {
@@ -239,7 +241,7 @@ impl From<Member> for Proposal {
     }
 }
 
-/// All as one: with angles where the names of all have them.
+/// Returns all files as one product, with angles where all names contain them.
 fn joined(files: &[&SourceFile]) -> Member {
     let nameless = |file: &&SourceFile| matches!(file.datasets.as_slice(), [one] if one.state.is_empty());
     let names: Vec<Named<()>> =
@@ -251,7 +253,7 @@ fn joined(files: &[&SourceFile]) -> Member {
     }
 }
 
-/// Each file for itself, but for the functions of one state.
+/// Returns each file as a product of its own, except that functions of one state stay together.
 fn apart(files: &[&SourceFile]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
     let key = |place: usize| {
@@ -267,7 +269,7 @@ fn apart(files: &[&SourceFile]) -> Vec<Member> {
     list
 }
 
-/// Which of the files make a product together, in the order in which their first files were given.
+/// Returns the groups of files that make a product, in the order of their first files.
 pub fn propose(files: &[&SourceFile], grouping: Grouping) -> Vec<Proposal> {
     if files.is_empty() {
         return Vec::new();
@@ -363,7 +365,8 @@ mod tests {
         assert_eq!(one.angles, Some(vec![0.0, 30.0]));
     }
 
-    /// Places of every product with what is asked about it, of files with these names, names of products and transmittances.
+    /// Places of every product with what is asked about it, of files with these names, names of products and
+    /// transmittances.
     fn asked(files: &[(&str, &str, f64)]) -> Vec<(Vec<usize>, Option<Doubt>)> {
         let made: Vec<SourceFile> = files
             .iter()
@@ -433,7 +436,7 @@ mod tests {
         for names in [["slat 1deg.xml", "slat 2deg.xml"], ["rot0.xml", "rot90.xml"], ["slat15.xml", "slat60.xml"]] {
             assert_eq!(asked(&names.map(|name| (name, "", 0.5))), [(vec![0, 1], None)], "{names:?}");
         }
-        // Samples, contents of cloth and numbers of articles are no question.
+        // Samples, contents of fabrics and article numbers raise no question.
         for names in [
             ["s1.xml", "s2.xml", "s3.xml"],
             ["cl_0.6.xml", "cl_0.7.xml", "cl_0.9.xml"],

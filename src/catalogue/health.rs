@@ -1,4 +1,4 @@
-//! A catalogue that doubts itself: is the file what was stored in it, and what of it can be made anew?
+//! Check and repair of a catalogue's file: whether it holds what was stored in it, and what can be restored.
 
 use super::builtin::{differs, is_row_of_builtin, is_version_lost, restore_damaged};
 use super::history::RESTORED;
@@ -14,57 +14,57 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Broken pages that are told one by one.
+/// Maximum number of broken pages that are listed one by one.
 const MOST_TOLD: usize = 20;
-/// Pages that are put back in one step.
+/// Number of pages that SQLite's backup writes in one step.
 const PAGES: i32 = 1000;
 
-/// What is damaged.
+/// Place of a damage in the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
-    /// The marks by which the file is known for a catalogue of a certain layout.
+    /// Marks that identify the file as a catalogue of a certain layout.
     Layout,
     /// Pages of the file.
     Pages,
-    /// What a product is, beside its data.
+    /// Rows of a product, beside its datasets.
     Product {
-        /// Its key.
+        /// Key of the product.
         key: String,
-        /// Comes with the program.
+        /// Whether the product comes with the program.
         builtin: bool,
     },
-    /// The data of a state.
+    /// Dataset of a state.
     Data {
         /// Key of the product.
         product: String,
         /// Key of the state.
         state: String,
-        /// Hash of the data as they were stored.
+        /// Hash of the dataset as it was stored.
         hash: String,
-        /// Comes with the program.
+        /// Whether the product comes with the program.
         builtin: bool,
     },
 }
 
-/// Something that is not as it was stored.
+/// Damage: something that is not as it was stored.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
-    /// Where.
+    /// Place of the damage.
     pub place: Place,
-    /// What, in a sentence.
+    /// Description of the damage, in a sentence.
     pub message: String,
 }
 
-/// What a look at a catalogue's file found.
+/// Result of the check of a catalogue's file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Health {
-    /// Products that were looked at.
+    /// Number of products that were checked.
     pub products: usize,
-    /// States with data that were looked at.
+    /// Number of states with data that were checked.
     pub datasets: usize,
-    /// What is wrong.
+    /// Damages that were found.
     pub damages: Vec<Damage>,
-    /// Keys of built-in products that were damaged and have been restored, with the times. \[UTC\]
+    /// Keys of built-in products that were damaged and have been restored, each with the time. \[UTC\]
     pub restored: Vec<(String, String)>,
 }
 
@@ -74,10 +74,10 @@ impl Health {
     }
 }
 
-/// Looks at a file without changing it: its marks, its pages, every product by its seal and every dataset by its hash.
+/// Checks a file without changing it: its marks, its pages, every product by its seal, every dataset by its hash.
 ///
 /// # Errors
-/// No such file, no database, one of another program or of a newer version.
+/// Returns an error if the file does not exist, is not a database, or is one of another program or of a newer version.
 pub fn check_file(path: &Path) -> Result<Health, CatalogueError> {
     let located = |cause| CatalogueError::Open { path: path.to_owned(), cause };
     let db = Connection::open_with_flags(path, READING).map_err(located)?;
@@ -127,7 +127,7 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
         Ok(())
     });
     match looked_at {
-        // Told already.
+        // The damage is listed already.
         Err(CatalogueError::Sql(_)) if broken || !health.damages.is_empty() => {}
         other => other?,
     }
@@ -192,7 +192,7 @@ fn read_through(db: &Connection) -> rusqlite::Result<()> {
     Ok(())
 }
 
-/// Built-in products that were restored when the file was opened.
+/// Returns the built-in products that were restored when the file was opened, each with the time.
 fn restored(db: &Connection) -> Result<Vec<(String, String)>, CatalogueError> {
     if !db.table_exists(None, "history")? {
         return Ok(Vec::new());
@@ -201,7 +201,7 @@ fn restored(db: &Connection) -> Result<Vec<(String, String)>, CatalogueError> {
     Ok(ask.query_map([RESTORED], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?)
 }
 
-/// Looks at every product with its data.
+/// Checks every product with its data and adds what is damaged to `health`.
 fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> {
     let mut ask = db.prepare("SELECT id, CAST(key AS BLOB) FROM product ORDER BY rank, key")?;
     let keys: Vec<(i64, Vec<u8>)> =
@@ -251,10 +251,10 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
     Ok(())
 }
 
-/// Copies a file, with the changes that wait beside it, to a name that is free; that name.
+/// Copies a file, with the changes that wait beside it, to a free name. Returns that name.
 ///
 /// # Errors
-/// Of the system.
+/// Returns an error if the system cannot copy the files.
 pub fn copy_aside(path: &Path) -> std::io::Result<PathBuf> {
     let with = |path: &Path, ending: &str| {
         let mut name = path.as_os_str().to_owned();
@@ -275,11 +275,11 @@ pub fn copy_aside(path: &Path) -> std::io::Result<PathBuf> {
     Ok(copy)
 }
 
-/// Mends what the file itself and the program know: marks, indices, broken pages as far as their rows can be read, built-in
-/// products and their data, which are computed when they are asked for next. What was lost, in sentences.
+/// Repairs what the file itself and the program know: marks, indices, broken pages as far as their rows can be read,
+/// built-in products and their data, which are computed at their next use. Returns sentences about what was lost.
 ///
 /// # Errors
-/// As [`check_file`]; what cannot be written.
+/// Returns an error under the conditions of [`check_file`], or if something cannot be written.
 pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, CatalogueError> {
     let located = |cause| CatalogueError::Open { path: path.to_owned(), cause };
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
@@ -288,7 +288,8 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     let mut lost = Vec::new();
     let holds = |health: &Health, place: &Place| health.damages.iter().any(|damage| damage.place == *place);
     if holds(health, &Place::Pages) {
-        // An index is made of its table, on pages that may be of another kind: those are known when all are written anew.
+        // An index is made of its table, on pages that may be of another kind: those are known when all pages have been
+        // rewritten.
         let mended = db.execute_batch("REINDEX; VACUUM").is_ok()
             && broken_pages(&db).is_ok_and(|pages| pages.is_empty())
             && layout_of(&db)?.is_some();
@@ -303,7 +304,7 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
         db.pragma_update(None, "user_version", layout)?;
         db.pragma_update(None, "application_id", APPLICATION)?;
     }
-    // Pages that are whole again may hold less than was told of them.
+    // Pages that are whole again may hold less than the damages listed before suggest.
     let rest = check(&db, path)?;
     db.pragma_update(None, "foreign_keys", true)?;
     let tx = db.transaction()?;
@@ -353,18 +354,18 @@ fn is_described(db: &Connection, key: &str) -> Result<bool, CatalogueError> {
     Ok(db.query_row("SELECT system <> '' FROM product WHERE key = ?", [key], |row| row.get(0))?)
 }
 
-/// Takes a built-in product out, so that it comes again when the file is opened.
+/// Removes a built-in product, so that it is added again when the file is opened.
 fn come_anew(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE key = ? AND builtin = 1", [key])?;
     Ok(())
 }
 
 impl Catalogue {
-    /// Puts the bytes of a dataset back that a state names and that are damaged or gone. False: they are not the bytes that
-    /// were stored, or no state names them.
+    /// Writes the bytes of a dataset back that a state names and that are damaged or missing. Returns `false` if the
+    /// bytes are not those that were stored, or no state names them.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read or written.
     pub fn put_bytes(&mut self, hash: &str, blob: &[u8]) -> Result<bool, CatalogueError> {
         if content_hash(blob) != hash {
             return Ok(false);
@@ -379,7 +380,7 @@ impl Catalogue {
         Ok(named)
     }
 
-    /// The hash under which a dataset is stored, and its bytes.
+    /// Returns the hash under which a dataset is stored, and its bytes.
     pub fn bytes_of(dataset: &crate::compute::btdf::Dataset) -> (String, Vec<u8>) {
         let blob = crate::formats::dataset_blob::encode(dataset);
         (content_hash(&blob), blob)

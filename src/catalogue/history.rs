@@ -1,21 +1,21 @@
-//! What happened to products, and which files they came from.
+//! History of products, and the files that they were read from.
 
 use super::{Catalogue, CatalogueError};
 use rusqlite::{Connection, Transaction};
 
-/// Something that happened to a product.
+/// Event in the history of a product.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Event {
-    /// When: UTC, `YYYY-MM-DDThh:mm:ssZ`.
+    /// Time of the event: UTC, `YYYY-MM-DDThh:mm:ssZ`.
     pub at: String,
-    /// What, in a sentence.
+    /// Description of the event, in a sentence.
     pub what: String,
 }
 
-/// What the history says of a built-in product that was damaged.
+/// Text of the event that a built-in product was damaged and restored.
 pub(super) const RESTORED: &str = "was damaged in the file, and restored from what the program contains";
 
-/// Writes down what happens to a product, with the change itself.
+/// Records an event of a product, in the transaction of the change itself.
 pub(super) fn note(tx: &Transaction<'_>, key: &str, what: &str) -> Result<(), CatalogueError> {
     tx.prepare_cached(
         "INSERT INTO history (product_key, at, what) VALUES (?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?)",
@@ -24,14 +24,14 @@ pub(super) fn note(tx: &Transaction<'_>, key: &str, what: &str) -> Result<(), Ca
     Ok(())
 }
 
-/// Forgets a product that is gone for good: another one may get its key.
+/// Deletes the history of a product that was removed permanently, because another one may get its key.
 pub(super) fn forget(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM history WHERE product_key = ?", [key])?;
     tx.execute("DELETE FROM source WHERE product_key = ?", [key])?;
     Ok(())
 }
 
-/// Writes down from which files a product was read.
+/// Records the files that a product was read from.
 pub(super) fn set_paths(tx: &Transaction<'_>, key: &str, paths: &[String]) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM source WHERE product_key = ?", [key])?;
     for (position, path) in paths.iter().enumerate() {
@@ -46,10 +46,10 @@ pub(super) fn paths_of(db: &Connection, key: &str) -> Result<Vec<String>, Catalo
 }
 
 impl Catalogue {
-    /// What happened to a product, the last first.
+    /// Returns the history of a product, newest event at the top.
     ///
     /// # Errors
-    /// No such product.
+    /// Returns an error if there is no such product.
     pub fn history(&self, key: &str) -> Result<Vec<Event>, CatalogueError> {
         self.product(key)?;
         let mut ask = self.db.prepare_cached("SELECT at, what FROM history WHERE product_key = ? ORDER BY id DESC")?;
@@ -57,10 +57,10 @@ impl Catalogue {
         Ok(ask.query_map([key], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// Paths of the files that a product was read from; empty where they are not known.
+    /// Returns the paths of the files that a product was read from; empty where they are not known.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn source_paths(&self, key: &str) -> Result<Vec<String>, CatalogueError> {
         paths_of(&self.db, key)
     }

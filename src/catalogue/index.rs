@@ -1,10 +1,10 @@
-//! What the search looks through, in memory: every word of every product, and for every answer the counts of what could
-//! be chosen next.
+//! Search index in memory: every word of every product, and with every answer the counts of the values that could be
+//! chosen next.
 //!
 //! A typed word is compared with all different words of the catalogue, not with all products: as the whole, the
-//! beginning or (from three letters) a part of one; where nothing has it so, as one with a typing error or two. What is
-//! written apart is also found written together ("lasercut"). A match weighs by where it was (name before kind before
-//! tags before description) and by how well it fits.
+//! beginning or (from three letters) a part of one; if there is no such word, as one with a typing error or two.
+//! Separately written words are also found written together ("lasercut"). A match is weighted by its place (name before
+//! kind before tags before description) and by how well it fits.
 
 use super::ProductRow;
 use super::index_words::{Numbered, place, places, words_of};
@@ -16,46 +16,47 @@ use super::words::{self, distance, forgiven, letters, without_written_marks};
 use crate::texts::{ascii_words, folded, is_syllable};
 use std::sync::Arc;
 
-/// What was found.
+/// Result of a search.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
-    /// Products in order.
+    /// Products in the requested order.
     pub entries: Vec<Arc<ProductRow>>,
-    /// Products in the catalogue altogether.
+    /// Number of products in the whole catalogue.
     pub total: usize,
-    /// What else could be chosen.
+    /// Values that could be chosen next, with counts.
     pub facets: Facets,
-    /// Where nothing was found: filters (and words, one by one) without which there is something, and how many.
+    /// Filters and single words whose removal would give results, each with the number of products. Empty unless
+    /// nothing was found.
     pub without: Vec<(Filter, usize)>,
-    /// Words that occur nowhere, and what they were read as.
+    /// Typed words that occur nowhere, each with the word that it was read as.
     pub read_as: Vec<(String, String)>,
-    /// Characters of the longest name among the entries.
+    /// Length of the longest name among the entries, in characters.
     pub longest_name: usize,
     /// Keys of the products that are not listed because they are damaged.
     pub damaged: Vec<String>,
     /// Keys of the built-in products that were damaged, and restored since the catalogue was opened.
     pub restored: Vec<String>,
-    /// How far the entries are from the product that they are to be like, where one was named and is there.
+    /// Distances of the entries from the product named in [`Query::like`], where it is in the catalogue.
     pub like: Option<Likeness>,
 }
 
-/// What words are worth that were put together.
+/// Weight of a match in words joined from neighbours, relative to a match in a single word.
 const JOINED: f32 = 0.9;
-/// Shortest part of a word that is looked for.
+/// Length of the shortest part of a word that is searched for, in characters.
 const SHORTEST_PART: usize = 3;
 
-/// A word of the catalogue.
+/// Word of the catalogue.
 #[derive(Debug)]
 struct Word {
     text: String,
-    /// Which letters it has, and how many.
+    /// Set of the letters and digits of the word, one bit each.
     letters: u64,
     length: usize,
-    /// Products that have it, with the weight of the best place.
+    /// Products that contain the word, with the weight of the best place.
     products: Vec<(u32, f32)>,
 }
 
-/// A product in the index.
+/// Product in the index.
 #[derive(Debug)]
 struct Item {
     row: Arc<ProductRow>,
@@ -63,13 +64,13 @@ struct Item {
     manufacturer: usize,
     tags: Vec<usize>,
     collections: Vec<usize>,
-    /// Places among all names, makers and kinds in order.
+    /// Positions of the product when all are sorted by name, by maker and by kind.
     order: [usize; 3],
-    /// Names of few words come before longer ones that fit as well.
+    /// Addition to the score for names of few words, which precede longer ones that fit equally well.
     brevity: f32,
 }
 
-/// All products with their words: answers any number of queries.
+/// Index of all products with their words: answers any number of queries.
 #[derive(Debug, Default)]
 pub struct Index {
     items: Vec<Item>,
@@ -84,17 +85,17 @@ pub struct Index {
     pub(super) restored: Vec<String>,
 }
 
-/// How well the typed words fit each product.
+/// Quality of the fit of the typed words to each product.
 struct Fit {
-    /// Sum over the words; products that lack one have it too.
+    /// Sum of the weights over the words; also set for products that lack a word.
     score: Vec<f32>,
-    /// Places of the query's words that a product lacks: how many, and the last.
+    /// Number of the query's words that each product lacks, and the index of the last of them.
     lacks: Vec<(u16, usize)>,
     read_as: Vec<(String, String)>,
 }
 
 impl Index {
-    /// Of a list of products, whose order is that of equally good ones.
+    /// Creates the index of a list of products. Products that fit equally well keep the order of the list.
     pub fn new(products: Vec<Sought>) -> Self {
         let mut all = Numbered::default();
         let mut found_in: Vec<Vec<(u32, f32)>> = Vec::new();
@@ -153,7 +154,7 @@ impl Index {
         Self { items, words, kinds, manufacturers, tags, collections, damaged: Vec::new(), restored: Vec::new() }
     }
 
-    /// Answers a query.
+    /// Returns the answer to a query.
     pub fn find(&self, query: &Query) -> Found {
         let fit = self.fit(query);
         let misses: Vec<u16> = (0..self.items.len()).map(|number| self.misses(query, &fit, number)).collect();
@@ -209,7 +210,8 @@ impl Index {
         fit
     }
 
-    /// Words of the catalogue that fit a typed one, and how well, up to 1; what it was read as where it occurs nowhere.
+    /// Returns the words of the catalogue that fit a typed one, each with the quality of the fit, up to 1; also the
+    /// word that it was read as where it occurs nowhere.
     fn matches(&self, typed: &str) -> (Vec<(usize, f32)>, Option<String>) {
         let spelt: Vec<char> = typed.chars().collect();
         let plain = without_written_marks(typed).map(|plain| (letters(&plain.chars().collect::<Vec<char>>()), plain));
@@ -260,7 +262,7 @@ impl Index {
         (near.into_iter().map(|(at, errors, longer)| (at, worth(errors, longer))).collect(), read_as)
     }
 
-    /// Filters that a product does not pass, a bit each.
+    /// Returns the filters that a product does not pass, one bit each.
     fn misses(&self, query: &Query, fit: &Fit, number: usize) -> u16 {
         let row = &*self.items[number].row;
         let in_list = |list: &[String], value: &str| list.is_empty() || list.iter().any(|one| one == value);
@@ -320,8 +322,8 @@ impl Index {
         }
     }
 
-    /// How far products are from one of them, which itself is left out, as those are of which nothing is known; nearest
-    /// first unless the query says otherwise.
+    /// Sorts the products by distance from the product with the key `key`, nearest at the top unless the query says
+    /// otherwise. Leaves out that product itself and those without a known distance.
     fn like(&self, key: &str, order: &mut Vec<usize>, query: &Query) -> Option<Likeness> {
         let other = &self.items.iter().find(|item| item.row.key == key)?.row;
         let of = |number: usize| {
@@ -409,7 +411,7 @@ impl Index {
         }
     }
 
-    /// What would be found without one of the filters or one of the words, most first.
+    /// Returns the number of results without each of the filters and each of the words, largest at the top.
     fn without(&self, query: &Query, fit: &Fit, misses: &[u16]) -> Vec<(Filter, usize)> {
         let mut list: Vec<(Filter, usize)> = Filter::all()
             .filter(|filter| query.has(*filter))
@@ -430,7 +432,7 @@ impl Index {
     }
 }
 
-/// Place of a filter among the bits of what a product misses.
+/// Returns the bit of a filter among those of `misses`.
 fn bit(filter: Filter) -> u16 {
     Filter::all().position(|one| one == filter).map_or(0, |place| 1 << place)
 }

@@ -1,11 +1,11 @@
-//! Tools of the index: words of texts, numbers for texts, places in an order, weights.
+//! Helper functions of the search index: words of texts, numbers for texts, positions in an order, weights.
 
 use super::rows::Sought;
 use super::words::{self, parts, runs};
 use crate::texts::folded;
 use std::collections::HashMap;
 
-/// Where a word stands, by weight.
+/// Weights of a match by the place of the word in the product.
 pub(super) mod place {
     pub const NAME: f32 = 10.0;
     pub const KIND: f32 = 6.0;
@@ -16,7 +16,7 @@ pub(super) mod place {
     pub const DESCRIPTION: f32 = 1.0;
 }
 
-/// Numbers for texts, in the order of their first use.
+/// Texts with consecutive numbers, in the order of their first use.
 #[derive(Default)]
 pub(super) struct Numbered {
     pub(super) texts: Vec<String>,
@@ -34,7 +34,7 @@ impl Numbered {
     }
 }
 
-/// A text so that numbers in it sort by their size: "blind 80" before "blind 100".
+/// Returns a text in which numbers sort by their size: "blind 80" before "blind 100".
 fn by_numbers(text: &str) -> String {
     let mut key = String::with_capacity(text.len() + 8);
     let mut rest = text;
@@ -49,7 +49,7 @@ fn by_numbers(text: &str) -> String {
     key
 }
 
-/// Places of products in the order of a text.
+/// Returns the position of every product in the order of a text.
 pub(super) fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec<usize> {
     let texts: Vec<String> = products.iter().map(|product| by_numbers(&of(product))).collect();
     let mut order: Vec<usize> = (0..products.len()).collect();
@@ -66,7 +66,8 @@ pub(super) fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec
     places
 }
 
-/// Words of a text, their parts, and (where asked for) neighbours written together; the latter told apart.
+/// Calls `put` for the words of a text, their parts, and (with `join`) neighbours written together; only for the latter
+/// with `true`.
 pub(super) fn words_of(text: &str, join: bool, put: &mut dyn FnMut(&str, bool)) {
     let folded = folded(text);
     let short = |word: &str| word.chars().count() <= words::LONGEST;

@@ -1,4 +1,4 @@
-//! What becomes of products after they are stored: other words about them, out of sight and back, found again by content.
+//! Stored products: changing their descriptive texts, hiding and restoring them, finding them by content.
 
 use super::history::note;
 use super::sight::{bring_back, is_deleted};
@@ -9,7 +9,7 @@ use super::{Catalogue, CatalogueError, Product};
 use crate::texts::composed;
 use rusqlite::Connection;
 
-/// What the user says about a product.
+/// Descriptive texts of a product that the user can change.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Words {
     /// Name; not empty.
@@ -18,35 +18,35 @@ pub struct Words {
     pub manufacturer: String,
     /// Kind, e.g. `venetian`; may be empty.
     pub kind: String,
-    /// Words to find it by.
+    /// Tags to find the product by.
     pub tags: Vec<String>,
-    /// On which terms the data may be passed on; may be empty.
+    /// Licence of the data; may be empty.
     pub license: String,
 }
 
-/// A product out of sight.
+/// Hidden product.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deleted {
-    /// Its key, by which it is restored.
+    /// Key by which the product is restored.
     pub key: String,
-    /// Its name.
+    /// Name of the product.
     pub name: String,
-    /// Since when: UTC, `YYYY-MM-DDThh:mm:ssZ`.
+    /// Time at which it was hidden: UTC, `YYYY-MM-DDThh:mm:ssZ`.
     pub at: String,
-    /// Comes with the program.
+    /// Whether the product comes with the program.
     pub builtin: bool,
 }
 
-/// A product of the catalogue by key and name.
+/// Key and name of a product of the catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Known {
-    /// Its key.
+    /// Key of the product.
     pub key: String,
-    /// Its name.
+    /// Name of the product.
     pub name: String,
 }
 
-/// A change of words in words; empty where nothing changed.
+/// Returns a sentence about the texts that changed; empty where nothing changed.
 fn words_changed(before: &Product, after: &Words) -> String {
     let [tags, new_tags] = [before.tags.join(", "), after.tags.join(", ")];
     let fields = [
@@ -61,17 +61,17 @@ fn words_changed(before: &Product, after: &Words) -> String {
     words.join("; ")
 }
 
-/// The product of a key with its name, or with its key for a name where the product is damaged.
+/// Returns key and name of a product; the key stands for the name where the product is damaged.
 fn named(db: &Connection, key: String) -> Known {
     let product = read_product(db, &key).and_then(|product| sealed(db, product));
     Known { name: product.map_or_else(|_| key.clone(), |product| product.name), key }
 }
 
 impl Catalogue {
-    /// Other words about a product; its key stays, so that scenes go on finding it.
+    /// Changes the descriptive texts of a product. Its key stays, so that scenes still find it.
     ///
     /// # Errors
-    /// No such product, a built-in one, or no name.
+    /// Returns an error if there is no such product, if it is built in, or if the name is empty.
     pub fn describe(&mut self, key: &str, words: &Words) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         let product = read_product(&tx, key)?;
@@ -79,7 +79,7 @@ impl Catalogue {
             return Err(CatalogueError::BuiltInWords(key.to_owned()));
         }
         refuse_subscribed(&tx, key)?;
-        // What is damaged beside these words would be sealed with them.
+        // The new seal would also cover damage elsewhere in the product.
         let product = sealed(&tx, product)?;
         let [name, manufacturer, kind, license] =
             [&words.name, &words.manufacturer, &words.kind, &words.license].map(|text| composed(text.trim()));
@@ -109,10 +109,10 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Takes a product out of sight. Scenes that name it go on working; [`Catalogue::restore_product`] brings it back.
+    /// Hides a product. Scenes that name it still work; [`Catalogue::restore_product`] makes it visible again.
     ///
     /// # Errors
-    /// No such product, or one that is out of sight already.
+    /// Returns an error if there is no such product or it is hidden already.
     pub fn delete_product(&mut self, key: &str) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         read_product(&tx, key)?;
@@ -125,10 +125,10 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Brings a product back into sight.
+    /// Makes a hidden product visible again.
     ///
     /// # Errors
-    /// No such product, or one that is in sight.
+    /// Returns an error if there is no such product or it is not hidden.
     pub fn restore_product(&mut self, key: &str) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         read_product(&tx, key)?;
@@ -141,10 +141,10 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Products out of sight, the last one first.
+    /// Returns the hidden products, newest at the top.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn deleted_products(&self) -> Result<Vec<Deleted>, CatalogueError> {
         let mut statement = self.db.prepare_cached(
             "SELECT p.key, d.at, p.builtin FROM deleted d JOIN product p ON p.key = d.product_key
@@ -157,10 +157,10 @@ impl Catalogue {
         Ok(statement.query_map([], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// Products in sight that were read from a file, or files, of this hash: [`super::Provenance::source_hash`].
+    /// Returns the visible products that were read from files with this hash, see [`super::Provenance::source_hash`].
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn products_from(&self, source_hash: &str) -> Result<Vec<Known>, CatalogueError> {
         let mut statement = self.db.prepare_cached(
             "SELECT key FROM product
@@ -170,11 +170,11 @@ impl Catalogue {
         Ok(statement.query_map([source_hash], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// Products in sight, with a state of this content: see [`super::content_of`]. Those that were stored by programs that did not
-    /// ask for contents are not found.
+    /// Returns the visible products with a state of this content, see [`super::content_of`]. Products stored by older
+    /// programs, which kept no contents, are not found.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn products_holding(&self, content: &str) -> Result<Vec<Known>, CatalogueError> {
         let mut statement = self.db.prepare_cached(
             "SELECT DISTINCT p.key FROM product p JOIN state s ON s.product = p.id

@@ -1,4 +1,4 @@
-//! The catalogue of products: one SQLite file with full-text search, in which datasets lie in compact binary form.
+//! Catalogue of products: one SQLite file with full-text search, in which datasets lie in compact binary form.
 //!
 //! ```no_run
 //! use cfs_catalogue::{Catalogue, Query};

@@ -1,53 +1,54 @@
-//! Products like another one, by what they do to light and not by how they are called.
+//! Similarity of products, by their effect on light and not by their names.
 //!
-//! The distance of two products is the root of the mean square of five differences, all shares of the light that falls on
-//! the window, so that 0.01 is one per cent of it done otherwise:
+//! The distance of two products is the root mean square of five differences, all as shares of the light that falls on
+//! the window: 0.01 is a difference of one per cent of that light.
 //!
 //! | term | difference of |
 //! | --- | --- |
 //! | τ | the transmittance under uniform luminance |
-//! | profile | the transmittances at [`PROFILE_ANGLES`]: root of their mean square, weighted by what the façade receives (cos ψ dψ) |
+//! | profile | the transmittances at [`PROFILE_ANGLES`]: root mean square, weighted by the light received (cos ψ dψ) |
 //! | ceiling | the light that leaves upwards: its share of the transmitted light times τ |
-//! | sun | the share of a high sun that is kept out |
-//! | view | the share at normal incidence that goes straight on |
+//! | sun | the share of direct sun that is blocked at 45° solar altitude |
+//! | view | the normal–normal transmittance |
 //!
-//! All count the same: two products that one would exchange for each other have to agree in how much light they pass, from
-//! where, to where, and in what is seen through them; none of the five follows from the others. A term that one of the
-//! two does not know is left out. Moving products are taken by the state that stands for them
+//! All terms have the same weight: two products that can replace each other must agree in how much light they transmit,
+//! from where, to where, and in the view through them; none of the five follows from the others. A term that is unknown
+//! for one of the two is left out. Products with several states are compared by the state that represents them
 //! ([`representative`](super::representative())).
 
 use super::{PROFILE_ANGLES, ProductRow};
 use crate::texts::{Text, catalogue as text, fixed};
 
-/// Words of the terms, in the order of [`Apart::terms`].
+/// Labels of the terms, in the order of [`Apart::terms`].
 const TERMS: [Text; 5] = [text::APART_TAU, text::APART_PROFILE, text::APART_CEILING, text::APART_SUN, text::APART_VIEW];
-/// Differences that two decimals show.
+/// Smallest difference that is visible with two decimals.
 const SHOWN: f64 = 0.005;
-/// Most terms that are told.
+/// Maximum number of terms in the text.
 const MOST_TOLD: usize = 3;
 
-/// How far a product is from another.
+/// Distance of a product from another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Apart {
-    /// Root of the mean square of the terms that are known of both.
+    /// Root mean square of the terms that are known for both.
     pub distance: f64,
-    /// τ, profile (never negative), ceiling, sun blocked, view: this product less the other; `None` where not known.
+    /// Differences, this product minus the other: τ, profile (never negative), ceiling, sun blocked, view; `None` where
+    /// unknown.
     pub terms: [Option<f64>; 5],
 }
 
-/// Products by how far they are from one of them.
+/// Distances of products from one of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Likeness {
-    /// Key of the product that the others are like.
+    /// Key of the product that the others are compared with.
     pub key: String,
-    /// Its name.
+    /// Name of that product.
     pub name: String,
-    /// How far each entry is from it, in the order of the entries.
+    /// Distance of each entry from that product, in the order of the entries.
     pub apart: Vec<Apart>,
 }
 
 impl Apart {
-    /// Of one product from another; `None` where nothing is known of both.
+    /// Returns the distance of one product from another; `None` where no term is known for both.
     pub fn of(one: &ProductRow, other: &ProductRow) -> Option<Self> {
         let less = |a: Option<f64>, b: Option<f64>| Some(a? - b?);
         let upwards = |row: &ProductRow| match (row.to_ceiling, row.tau_hemispherical) {
@@ -68,7 +69,7 @@ impl Apart {
         (count > 0).then(|| Self { distance: (sum / f64::from(count)).sqrt(), terms })
     }
 
-    /// `0.03 apart: ceiling +0.06, τ −0.01`: the terms that matter most, greatest first.
+    /// Returns a text such as `0.03 apart: ceiling +0.06, τ −0.01`, with the largest terms in falling order.
     pub fn words(&self) -> String {
         let mut told: Vec<(Text, f64)> =
             TERMS.into_iter().zip(self.terms).filter_map(|(word, term)| Some((word, term?))).collect();
@@ -88,7 +89,7 @@ impl Apart {
     }
 }
 
-/// Root of the mean square of the differences of two profiles.
+/// Returns the root mean square of the differences of two profiles.
 fn profile(one: &[f64], other: &[f64]) -> Option<f64> {
     let last = PROFILE_ANGLES.len() - 1;
     if one.len() != last + 1 || other.len() != last + 1 {

@@ -1,28 +1,28 @@
 //! Names with numbers in them: what they have in common, and which number may be the angle of a state.
 
-/// Words before a number that call it the angle of the state, unless it counts something.
+/// Words before a number that mark it as the angle of the state, unless it counts something.
 const TURNS: [&str; 5] = ["tilt", "angle", "rot", "rotation", "winkel"];
-/// Words before a number that may be the angle of what they name, or its width.
+/// Words before a number that may be the angle of the named thing, or its width.
 const THINGS: [&str; 3] = ["slat", "lamella", "lamelle"];
 /// Widths of slats on the market. \[mm\]
 const WIDTHS: [f64; 13] = [16.0, 25.0, 35.0, 50.0, 60.0, 65.0, 70.0, 80.0, 90.0, 93.0, 100.0, 120.0, 150.0];
-/// Words after a number that say so.
+/// Words after a number that mark it as an angle in degrees.
 const AFTER: [&str; 3] = ["deg", "°", "grad"];
-/// Words after a number that say that it is something else.
+/// Words after a number that mark it as another quantity.
 const UNITS: [&str; 8] = ["pct", "perc", "proz", "%", "mm", "cm", "nm", "lx"];
 
-/// How sure a word makes it that a number is an angle.
+/// Kind of word that suggests that a number is an angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Called {
-    /// Degrees.
+    /// Unit of degrees.
     Degrees,
-    /// Something that turns.
+    /// Word for a rotation.
     Turn,
-    /// Something that has an angle and a width.
+    /// Word for a thing that has an angle and a width.
     Thing,
 }
 
-/// Could numbers be something other than angles, such as counts and widths?
+/// Whether numbers could be something other than angles, such as counts or widths.
 pub(super) fn unclear(values: &[f64], called: Option<Called>) -> bool {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -37,23 +37,23 @@ pub(super) fn unclear(values: &[f64], called: Option<Called>) -> bool {
     }
 }
 
-/// A name with its numbers taken out.
+/// Pattern of a name: its text without the numbers, and the numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pattern {
-    /// Lower case, `#` for every number.
+    /// Name in lower case, with `#` in place of every number.
     pub skeleton: String,
-    /// In the order of the name.
+    /// Numbers in the order of the name.
     pub numbers: Vec<f64>,
-    /// Which number is said to be the angle.
+    /// Index of the number that a word marks as the angle.
     pub marked: Option<usize>,
-    /// By what.
+    /// Kind of the word that marks it.
     pub called: Option<Called>,
-    /// Which have another unit.
+    /// Indices of the numbers with another unit.
     pub other: Vec<usize>,
 }
 
 impl Pattern {
-    /// Of a name without its extension.
+    /// Creates the pattern of a name without its extension.
     pub fn of(name: &str) -> Self {
         let letters: Vec<char> = name.to_lowercase().chars().collect();
         let mut pattern =
@@ -84,7 +84,7 @@ impl Pattern {
         pattern
     }
 
-    /// Takes a number in: its sign from what stands before it, its meaning from the words on both sides.
+    /// Adds a number: its sign from the text before it, its meaning from the words on both sides.
     fn take(&mut self, size: f64, after: &str) {
         let mut before = self.skeleton.chars().rev();
         let minus =
@@ -98,7 +98,7 @@ impl Pattern {
         let called = if AFTER.iter().any(|known| after.starts_with(known)) {
             Some(Called::Degrees)
         } else if UNITS.iter().any(|known| after.starts_with(known)) {
-            // A unit says more than the word before: "slat 80 mm" is no angle.
+            // A unit counts more than the word before: "slat 80 mm" gives a width, not an angle.
             self.other.push(number);
             None
         } else if ends(&TURNS) {
@@ -113,25 +113,26 @@ impl Pattern {
         self.skeleton.push('#');
     }
 
-    /// The numbers but one, for comparing.
+    /// Returns the bits of all numbers except the one at index `one`, for comparison.
     pub fn others(&self, one: usize) -> Vec<u64> {
         self.numbers.iter().enumerate().filter(|(i, _)| *i != one).map(|(_, value)| value.to_bits()).collect()
     }
 }
 
-/// What is left of a name without numbers, for telling whether two files speak of one product.
+/// Returns the words of a name without numbers, for deciding whether two files describe one product.
 pub(super) fn wordless(name: &str) -> String {
     let skeleton = Pattern::of(name).skeleton;
     skeleton.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// Could numbers that nothing calls angles be angles? Slats stand at multiples of 2.5°, and some of them are tilted.
+/// Whether numbers without a marking word could be angles: multiples of 2.5° up to ±90°, of which at least one is 5° or
+/// more.
 pub(super) fn plausible(values: &[f64]) -> bool {
     let even = |value: &f64| value.abs() <= 90.0 && (value / 2.5).fract() == 0.0;
     values.iter().all(even) && values.iter().any(|value| value.abs() >= 5.0)
 }
 
-/// Is no number there twice?
+/// Whether all numbers differ.
 pub(super) fn distinct(values: &[f64]) -> bool {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -7,7 +7,7 @@ use rusqlite::{Connection, OpenFlags, TransactionBehavior};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The steps from an empty file to the present layout; `PRAGMA user_version` counts those done.
+/// Migrations from an empty file to the current layout; `PRAGMA user_version` counts those done.
 const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0001_products.sql"),
     include_str!("../../migrations/0002_system.sql"),
@@ -20,19 +20,19 @@ const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0009_shown_seal.sql"),
 ];
 
-/// How a file is opened that may be changed, and made.
+/// Flags for opening a file that may be changed or created.
 const WRITING: OpenFlags =
     OpenFlags::SQLITE_OPEN_READ_WRITE.union(OpenFlags::SQLITE_OPEN_CREATE).union(OpenFlags::SQLITE_OPEN_NO_MUTEX);
-/// How a file is opened that is only read.
+/// Flags for opening a file that is only read.
 pub(super) const READING: OpenFlags = OpenFlags::SQLITE_OPEN_READ_ONLY.union(OpenFlags::SQLITE_OPEN_NO_MUTEX);
 
 /// `PRAGMA application_id` of a catalogue: "CFSX". Set by the first migration.
 pub(super) const APPLICATION: i64 = 0x4346_5358;
 
-/// How long a connection waits for another one to finish writing.
+/// Maximum time that a connection waits for another one to finish writing.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// The same error with the file's name.
+/// Returns the error with the file's name added.
 fn located(error: CatalogueError, path: &Path) -> CatalogueError {
     let shown = || path.display().to_string();
     match error {
@@ -45,7 +45,7 @@ fn located(error: CatalogueError, path: &Path) -> CatalogueError {
     }
 }
 
-/// A file's name that tells SQLite that nobody changes it.
+/// Returns a file's name in the form that makes SQLite assume that nobody changes the file.
 fn unchanging(path: &Path) -> String {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut name = String::from("file:");
@@ -64,7 +64,8 @@ fn unchanging(path: &Path) -> String {
     name + "?immutable=1"
 }
 
-/// The user's catalogue: `CFS_CATALOGUE` when set, else `catalogue.sqlite` in the user's folder for data.
+/// Returns the path of the user's catalogue: `CFS_CATALOGUE` when set, else `catalogue.sqlite` in the user's folder for
+/// data.
 pub fn default_path() -> Result<PathBuf, CatalogueError> {
     if let Some(path) = std::env::var_os("CFS_CATALOGUE").filter(|path| !path.is_empty()) {
         return Ok(path.into());
@@ -74,9 +75,9 @@ pub fn default_path() -> Result<PathBuf, CatalogueError> {
 }
 
 impl Catalogue {
-    /// Opens a catalogue file, makes it when missing, brings it to the present layout and its built-in products to
-    /// this program's version. Nothing is computed here: of built-in products the figures are known, and their data
-    /// come when they are asked for.
+    /// Opens a catalogue file, creates it when missing, and brings it to the current layout and its built-in products
+    /// to this program's version. Nothing is computed here: the figures of built-in products are known, and their data
+    /// are computed at their first use.
     ///
     /// Where nothing can be written – a read-only place, a full disk – it is opened for reading.
     pub fn open(path: &Path) -> Result<Self, CatalogueError> {
@@ -95,7 +96,7 @@ impl Catalogue {
         }
     }
 
-    /// Opens a file that is there, and writes nothing, not even beside it.
+    /// Opens an existing file for reading and writes nothing, not even beside it.
     pub(super) fn open_for_reading(path: &Path) -> Result<Self, CatalogueError> {
         let mut wal = path.as_os_str().to_owned();
         wal.push("-wal");
@@ -119,17 +120,17 @@ impl Catalogue {
         }
     }
 
-    /// The user's own catalogue, see [`default_path`].
+    /// Opens the user's own catalogue, see [`default_path`].
     pub fn open_default() -> Result<Self, CatalogueError> {
         Self::open(&default_path()?)
     }
 
-    /// A catalogue that is gone with the value, with the built-in products.
+    /// Creates a catalogue in memory, with the built-in products.
     pub fn in_memory() -> Result<Self, CatalogueError> {
         Self::prepare(Connection::open_in_memory()?)
     }
 
-    /// The same without any product.
+    /// Creates a catalogue in memory, without any product.
     pub fn empty_in_memory() -> Result<Self, CatalogueError> {
         Self::laid_out(Connection::open_in_memory()?)
     }
@@ -147,7 +148,7 @@ impl Catalogue {
         // Judged before anything is written: a foreign file stays as it is.
         let found = catalogue.judge()?;
         let known = known_layout();
-        // A step that is taken twice takes away what later ones brought.
+        // A migration that is applied twice would delete what later ones added.
         if (1..known).contains(&found) && layout_of(&catalogue.db)? != Some(found) && catalogue.judge()? == found {
             return Err(CatalogueError::Layout { path: String::new(), found, known });
         }
@@ -156,7 +157,7 @@ impl Catalogue {
         Ok(catalogue)
     }
 
-    /// Write-ahead logging, so that readers and a writer do not wait for each other. Two connections that both
+    /// Turns on write-ahead logging, so that readers and a writer do not wait for each other. Two connections that both
     /// change the mode of a new file may meet; SQLite then answers "busy" without waiting.
     fn write_ahead(&self) -> Result<(), CatalogueError> {
         let mut tries = 0;
@@ -178,7 +179,7 @@ impl Catalogue {
         Ok(db.pragma_query_value(None, "user_version", |row| row.get(0))?)
     }
 
-    /// Refuses files of other programs and of newer ones, and layouts that there are not; the layout.
+    /// Returns the layout of the file. Refuses files of other programs and of newer ones, and unknown layouts.
     fn judge(&self) -> Result<i64, CatalogueError> {
         // One look at all three: another program may be making the file at this moment.
         let look = self.db.unchecked_transaction()?;
@@ -203,7 +204,7 @@ impl Catalogue {
         Ok(found)
     }
 
-    /// Takes the missing steps, each in one transaction.
+    /// Applies the missing migrations, each in one transaction.
     fn migrate(&mut self, steps: &[&str]) -> Result<(), CatalogueError> {
         while Self::version(&self.db)? < steps.len() as i64 {
             let step = self.db.transaction_with_behavior(TransactionBehavior::Immediate)?;
@@ -230,12 +231,12 @@ impl Catalogue {
     }
 }
 
-/// The newest layout that this program knows.
+/// Returns the newest layout that this program knows.
 pub(super) const fn known_layout() -> i64 {
     MIGRATIONS.len() as i64
 }
 
-/// Tables with their columns.
+/// Returns the tables with their columns.
 fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
     let sql = "SELECT t.name, (SELECT group_concat(c.name) FROM pragma_table_info(t.name) c) FROM sqlite_schema t
                WHERE t.type = 'table' AND t.name NOT LIKE 'sqlite!_%' ESCAPE '!' ORDER BY t.name";
@@ -244,7 +245,8 @@ fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
         .collect()
 }
 
-/// The layout that a file has, whatever number it names: by its tables. `None`: of none that this program knows.
+/// Returns the layout of a file according to its tables, whatever number it names. `None`: no layout that this program
+/// knows.
 pub(super) fn layout_of(db: &Connection) -> Result<Option<i64>, CatalogueError> {
     let found = shape(db)?;
     let mut known = Catalogue::of(Connection::open_in_memory()?);

@@ -1,23 +1,23 @@
-//! Products as the rest of the program sees them.
+//! Products in the form in which the rest of the program uses them.
 
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
 use crate::texts::{Text, ascii_letters, catalogue as text};
 
-/// How data came to be.
+/// Origin of data: measured or computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Origin {
-    /// By an instrument.
+    /// Measured with an instrument.
     Measured,
-    /// By a formula or a simulation.
+    /// Computed by a formula or a simulation.
     Computed,
-    /// Not told.
+    /// Not specified.
     #[default]
     Unknown,
 }
 
 impl Origin {
-    /// The word used in the catalogue, in packages and in JSON.
+    /// Returns the key used in the catalogue, in packages and in JSON.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Measured => "measured",
@@ -26,7 +26,7 @@ impl Origin {
         }
     }
 
-    /// In words.
+    /// Returns the translated label.
     pub const fn words(self) -> Text {
         match self {
             Self::Measured => text::MEASURED,
@@ -35,7 +35,7 @@ impl Origin {
         }
     }
 
-    /// The origin of a word; anything else is unknown.
+    /// Returns the origin of a key; any other text gives [`Self::Unknown`].
     pub fn from_word(word: &str) -> Self {
         match word {
             "measured" => Self::Measured,
@@ -45,52 +45,52 @@ impl Origin {
     }
 }
 
-/// Where data come from. Empty texts: not told.
+/// Source of the data. An empty text means: not specified.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Provenance {
-    /// Measured or computed.
+    /// Origin, measured or computed.
     pub origin: Origin,
-    /// By whom.
+    /// Author of the data.
     pub author: String,
-    /// How: device or formula, with its source.
+    /// Method with its source: device or formula.
     pub method: String,
-    /// When, as the source gives it.
+    /// Date as the source gives it.
     pub date: String,
-    /// Name of the file the data were read from.
+    /// Name of the file from which the data were read.
     pub source_file: String,
     /// BLAKE3 hash of that file, 64 hexadecimal digits.
     pub source_hash: String,
-    /// Which face looks into the room.
+    /// Face of the system that looks into the room.
     pub inside_face: String,
 }
 
-/// One state of a product, in the order of its family.
+/// State of a product, in the order of its family.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// Key by which scenes name it; empty for the only state of a system without states.
+    /// Key that scenes use; empty for the only state of a product without states.
     pub key: String,
-    /// Text for people.
+    /// Label of the state for people.
     pub label: String,
-    /// Angle \[°\] or another number of the state.
+    /// Number of the state: an angle \[°\] or another number.
     pub value: Option<f64>,
     /// BLAKE3 hash of its dataset in compact form; `None`: still to be computed from the product's description.
     pub dataset: Option<String>,
     /// Visible transmittance of light from outside at normal incidence.
     pub tau_normal: Option<f64>,
-    /// The same under uniform luminance.
+    /// Visible transmittance of light from outside under uniform luminance.
     pub tau_hemispherical: Option<f64>,
-    /// The same in the vertical plane, at the profile angles [`PROFILE_ANGLES`]; empty when unknown.
+    /// Visible transmittances in the vertical plane at the profile angles [`PROFILE_ANGLES`]; empty when unknown.
     pub tau_profile: Vec<f64>,
-    /// Where light goes; `None` when unknown.
+    /// Figures of the direction in which light leaves; `None` when unknown.
     pub light: Option<LightFigures>,
 }
 
-/// Profile angles of [`State::tau_profile`] and [`super::ProductRow::tau_profile`], rising from light from below to light from
-/// above. \[°\]
+/// Profile angles of [`State::tau_profile`] and [`super::ProductRow::tau_profile`], rising from light from below to
+/// light from above. \[°\]
 pub const PROFILE_ANGLES: [f64; 13] =
     [-85.0, -75.0, -60.0, -45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0];
 
-/// Transmittances for light in the vertical plane through the normal, at [`PROFILE_ANGLES`].
+/// Returns the transmittances for light in the vertical plane through the normal, at [`PROFILE_ANGLES`].
 pub fn profile_transmittances(btdf: &Btdf) -> Vec<f64> {
     PROFILE_ANGLES
         .iter()
@@ -101,32 +101,32 @@ pub fn profile_transmittances(btdf: &Btdf) -> Vec<f64> {
         .collect()
 }
 
-/// A point of a control curve.
+/// Point of a control curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
     /// Profile angle of the sun. \[°\]
     pub profile_angle: f64,
-    /// Number of the state asked for, e.g. the slat angle. \[°\]
+    /// Number of the requested state, e.g. the slat angle. \[°\]
     pub value: f64,
 }
 
-/// A finding about one state of a product.
+/// Finding about one state of a product.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProductFinding {
     /// Key of the state.
     pub state: String,
-    /// How much it matters.
+    /// Severity of the finding.
     pub severity: Severity,
     /// Stable identifier in kebab case.
     pub code: String,
-    /// What was found.
+    /// Text of the finding.
     pub message: String,
 }
 
-/// Everything about a product but its datasets.
+/// Product with everything but its datasets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {
-    /// Key by which scenes name it.
+    /// Key that scenes use.
     pub key: String,
     /// Name.
     pub name: String,
@@ -136,67 +136,68 @@ pub struct Product {
     pub kind: String,
     /// Free text.
     pub description: String,
-    /// Where the data come from.
+    /// Source of the data.
     pub provenance: Provenance,
-    /// On which terms the data may be passed on, e.g. `CC BY 4.0`; may be empty.
+    /// Licence of the data, e.g. `CC BY 4.0`; may be empty.
     pub license: String,
-    /// Words to find it by, sorted.
+    /// Tags to find the product by, sorted.
     pub tags: Vec<String>,
     /// States in order, at least one.
     pub states: Vec<State>,
     /// Points of the control curve, profile angle rising; empty without one.
     pub control_curve: Vec<CurvePoint>,
-    /// What readers and checks had to say on import.
+    /// Findings of readers and checks on import.
     pub findings: Vec<ProductFinding>,
-    /// Text of the description that it was computed from; empty for others.
+    /// Text of the system description from which the data were computed; empty for other products.
     pub system: String,
-    /// Marked by the user.
+    /// Whether the user marked it as a favourite.
     pub favourite: bool,
-    /// Comes with the program.
+    /// Whether the product comes with the program.
     pub builtin: bool,
 }
 
-/// Text and number of a state on import.
+/// Label and number of a state on import.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StateName {
-    /// Text for people.
+    /// Label of the state for people.
     pub label: String,
-    /// Angle \[°\] or another number.
+    /// Number of the state: an angle \[°\] or another number.
     pub value: Option<f64>,
 }
 
-/// What is told about a product on import, beside its datasets.
+/// Product data for an import, beside the datasets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NewProduct {
-    /// Key wanted; `None`: made from the name. Made unique either way.
+    /// Requested key; `None`: made from the name. It is made unique in either case.
     pub key: Option<String>,
-    /// Name; empty: the first dataset's own.
+    /// Name; empty: that of the first dataset.
     pub name: String,
-    /// Maker; empty: the first dataset's own.
+    /// Maker; empty: that of the first dataset.
     pub manufacturer: String,
     /// Kind, e.g. `venetian`; may be empty.
     pub kind: String,
-    /// Free text; empty: the first dataset's own.
+    /// Free text; empty: that of the first dataset.
     pub description: String,
-    /// Where the data come from.
+    /// Source of the data.
     pub provenance: Provenance,
-    /// On which terms the data may be passed on, e.g. `CC BY 4.0`; may be empty.
+    /// Licence of the data, e.g. `CC BY 4.0`; may be empty.
     pub license: String,
-    /// Words to find it by.
+    /// Tags to find the product by.
     pub tags: Vec<String>,
     /// Names of the states, in the order of the datasets; empty: made from the datasets' state keys.
     pub states: Vec<StateName>,
     /// Points of the control curve.
     pub control_curve: Vec<CurvePoint>,
-    /// Text of the description that it was computed from; empty for others.
+    /// Text of the system description from which the data were computed; empty for other products.
     pub system: String,
-    /// Contents of the states as they were read, in their order, see [`super::content_of`]; empty: those of what is stored.
+    /// Content hashes of the states as they were read, in their order, see [`super::content_of`]; empty: those of the
+    /// stored data.
     pub contents: Vec<String>,
-    /// Paths of the files that it was read from, for reading them again.
+    /// Paths of the files that the product was read from, for reading them again.
     pub paths: Vec<String>,
 }
 
-/// What an import did.
+/// Result of an import.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Imported {
     /// Key of the new product.
@@ -205,8 +206,8 @@ pub struct Imported {
     pub same_content_as: Vec<String>,
 }
 
-/// Returns a key from a name: lower-case ASCII letters and digits, other runs as one hyphen, other scripts by their sound.
-/// Of a name without letters the key is that of the maker with a hash of the name.
+/// Returns a key from a name: lower-case ASCII letters and digits, other runs as one hyphen, other scripts by their
+/// sound. Of a name without letters the key is that of the maker with a hash of the name.
 pub(crate) fn slug(name: &str, maker: &str) -> String {
     let key = plain(name);
     if !key.is_empty() {

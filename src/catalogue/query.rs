@@ -1,30 +1,30 @@
-//! What is looked for in a catalogue: words, filters, order.
+//! Query of a catalogue: search text, filters and order.
 
 use super::Origin;
 use crate::texts::{Text, catalogue as text, fixed, folded};
 
-/// A figure of a product, of the state that stands for it.
+/// Figure of a product, taken from the state that represents it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Figure {
     /// Visible transmittance of light from outside at normal incidence.
     TauNormal,
-    /// The same under uniform luminance.
+    /// Visible transmittance of light from outside under uniform luminance.
     TauHemispherical,
-    /// Share of the transmitted light that goes up, to the ceiling.
+    /// Share of the transmitted light that leaves upwards, to the ceiling.
     ToCeiling,
-    /// Share of direct sun that is kept out.
+    /// Share of direct sun blocked, 1 − τ, at 45° solar altitude, perpendicular to the façade in plan.
     SunBlocked,
-    /// How much of the view to the outside is left.
+    /// Share of light at normal incidence that is transmitted undeviated (normal–normal transmittance).
     View,
 }
 
 impl Figure {
-    /// All, in the order of lists.
+    /// All figures, in the order of lists.
     pub const ALL: [Self; 5] = [Self::TauNormal, Self::TauHemispherical, Self::ToCeiling, Self::SunBlocked, Self::View];
-    /// Limits of the ranges that are counted, from below; what is above the last belongs to the last range.
+    /// Lower limits of the ranges that are counted, rising. The last range has no upper limit.
     pub const LIMITS: [f64; 6] = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8];
 
-    /// In words, sentence case.
+    /// Returns the translated label, in sentence case.
     pub fn words(self) -> &'static str {
         let text = match self {
             Self::TauNormal => text::TAU_NORMAL,
@@ -36,7 +36,7 @@ impl Figure {
         text.get()
     }
 
-    /// The word on the command line and in JSON.
+    /// Returns the key on the command line and in JSON.
     pub const fn word(self) -> &'static str {
         match self {
             Self::TauNormal => "tau-normal",
@@ -47,31 +47,31 @@ impl Figure {
         }
     }
 
-    /// The range that is counted under a place of [`Figure::LIMITS`].
+    /// Returns the counted range that begins at `LIMITS[place]`.
     pub fn range(self, place: usize) -> Within {
         let high = Self::LIMITS.get(place + 1).copied().unwrap_or(f64::INFINITY);
         Within { figure: self, low: Self::LIMITS[place], high }
     }
 }
 
-/// A range of a figure.
+/// Range of a figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Within {
-    /// Of what.
+    /// Figure that the range limits.
     pub figure: Figure,
-    /// Least value that belongs to it.
+    /// Smallest value inside the range.
     pub low: f64,
-    /// Least value above that does not.
+    /// Smallest value above the range, which is outside it.
     pub high: f64,
 }
 
 impl Within {
-    /// Does a value belong to it?
+    /// Whether `value` is inside the range.
     pub fn holds(&self, value: f64) -> bool {
         value >= self.low && value < self.high
     }
 
-    /// In words, without the figure's name: `0.20 to 0.40`.
+    /// Returns the range as a translated text without the figure's name: `0.20 to 0.40`.
     pub fn words(&self) -> String {
         match (self.low > 0.0, self.high.is_finite()) {
             (true, true) => text::between(fixed(self.low, 2), fixed(self.high, 2)),
@@ -82,32 +82,32 @@ impl Within {
     }
 }
 
-/// By what a list is ordered.
+/// Order of a list of products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Sort {
-    /// Best match first; without words as the catalogue orders them, built-in products first.
+    /// Best match first. Without words: the order of the catalogue, built-in products first.
     #[default]
     Match,
-    /// By name.
+    /// Name.
     Name,
-    /// By maker, then name.
+    /// Maker, then name.
     Maker,
-    /// By kind, then name.
+    /// Kind, then name.
     Kind,
-    /// By the number of states.
+    /// Number of states.
     States,
-    /// By a figure.
+    /// Value of a figure.
     By(Figure),
 }
 
 impl Sort {
-    /// All, in the order of menus.
+    /// Returns all orders, as menus list them.
     pub fn all() -> impl Iterator<Item = Self> {
         let words = [Self::Match, Self::Name, Self::Maker, Self::Kind, Self::States];
         words.into_iter().chain(Figure::ALL.into_iter().map(Self::By))
     }
 
-    /// In words, sentence case.
+    /// Returns the translated label, in sentence case.
     pub fn words(self) -> &'static str {
         let text = match self {
             Self::Match => text::BEST_MATCH,
@@ -120,7 +120,7 @@ impl Sort {
         text.get()
     }
 
-    /// The word on the command line.
+    /// Returns the key on the command line.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Match => "match",
@@ -133,49 +133,49 @@ impl Sort {
     }
 }
 
-/// What is looked for. Everything that is set must hold; the default finds all products.
+/// Search for products. All filters that are set must hold; the default finds all products.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Query {
-    /// Words, each of which must occur in name, maker, kind, tags, key or description, whole or in part; German words for
-    /// kinds and tags count. A word that occurs nowhere is read as the nearest one that does. Any input is safe.
+    /// Words, each of which must occur in name, maker, kind, tags, key or description, whole or in part; German words
+    /// for kinds and tags count. A word that occurs nowhere is read as the nearest one that does. Any input is safe.
     pub text: String,
-    /// One of these kinds; empty: any.
+    /// Kinds, one of which the product must have. Empty: any kind.
     pub kinds: Vec<String>,
-    /// One of these makers; empty: any.
+    /// Makers, one of which the product must have. Empty: any maker.
     pub manufacturers: Vec<String>,
-    /// All of these tags.
+    /// Tags, all of which the product must have.
     pub tags: Vec<String>,
-    /// In one of these collections; empty: whatever it is in.
+    /// Collections, one of which must contain the product. Empty: no restriction.
     pub collections: Vec<String>,
-    /// Products of [`Query::shown`] alone.
+    /// Whether only products of [`Query::shown`] are found.
     pub recent: bool,
-    /// Keys of the products that were shown last, the last first: no filter, but what [`Query::recent`] and its count go by.
+    /// Keys of the products shown most recently, newest first. No filter: [`Query::recent`] and its count use it.
     pub shown: Vec<String>,
-    /// Favourites alone, or all others.
+    /// Favourites only (`true`) or all others (`false`). `None`: both.
     pub favourite: Option<bool>,
-    /// Measured or computed.
+    /// Origin that the data must have, measured or computed. `None`: any.
     pub origin: Option<Origin>,
-    /// Built-in products alone, or the user's.
+    /// Built-in products only (`true`) or the user's only (`false`). `None`: both.
     pub builtin: Option<bool>,
-    /// Products of several states alone, or those of one.
+    /// Products with several states only (`true`) or with one state (`false`). `None`: both.
     pub moving: Option<bool>,
-    /// Ranges of figures: of one figure any, of different figures all must hold.
+    /// Ranges of figures. Of one figure any range may hold, of different figures all must hold.
     pub ranges: Vec<Within>,
-    /// By what the list is ordered.
+    /// Order of the list.
     pub sort: Sort,
-    /// In falling order; of [`Sort::Match`] the worst first.
+    /// Whether the order is reversed: falling values; with [`Sort::Match`] the poorest match comes at the top.
     pub descending: bool,
-    /// Key of a product that the others are to be like: they are found by what they do to light, nearest first where
-    /// [`Sort::Match`] orders them.
+    /// Key of a product to which similar ones are found, by their effect on light. With [`Sort::Match`] the nearest
+    /// come at the top.
     pub like: Option<String>,
 }
 
-/// One filter of a query.
+/// Filter of a query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Filter {
-    /// All the words.
+    /// All words of the text.
     Words,
-    /// One of several words, by its place.
+    /// Word of the text, by its index.
     Word(usize),
     /// Kinds.
     Kinds,
@@ -185,22 +185,22 @@ pub enum Filter {
     Tags,
     /// Collections.
     Collections,
-    /// Shown last.
+    /// Products shown most recently.
     Recent,
     /// Favourites.
     Favourite,
-    /// Measured or computed.
+    /// Origin of the data, measured or computed.
     Origin,
-    /// Built in or the user's.
+    /// Built-in products or the user's.
     Builtin,
-    /// Moving or fixed.
+    /// Products with several states or with one.
     Moving,
     /// Ranges of one figure.
     Range(Figure),
 }
 
 impl Filter {
-    /// All but single words.
+    /// Returns all filters except single words.
     pub fn all() -> impl Iterator<Item = Self> {
         use Filter::*;
         let plain = [Words, Kinds, Manufacturers, Tags, Collections, Recent, Favourite, Origin, Builtin, Moving];
@@ -208,13 +208,13 @@ impl Filter {
     }
 }
 
-/// What is typed between two spaces.
+/// Splits a text at white space.
 fn typed(text: &str) -> impl Iterator<Item = &str> {
     text.split_whitespace()
 }
 
 impl Query {
-    /// Is a filter set?
+    /// Whether `filter` is set.
     pub fn has(&self, filter: Filter) -> bool {
         match filter {
             Filter::Words => !self.text.trim().is_empty(),
@@ -232,7 +232,7 @@ impl Query {
         }
     }
 
-    /// The same without a filter.
+    /// Returns a copy in which `filter` is not set.
     #[must_use]
     pub fn without(&self, filter: Filter) -> Self {
         let mut query = self.clone();
@@ -256,7 +256,7 @@ impl Query {
         query
     }
 
-    /// The same with its words alone, in its order.
+    /// Returns a copy that keeps only the words and the order.
     #[must_use]
     pub fn words_alone(&self) -> Self {
         Self {
@@ -268,12 +268,12 @@ impl Query {
         }
     }
 
-    /// Filters that are set, without the words.
+    /// Returns the filters that are set, except the words.
     pub fn filters(&self) -> impl Iterator<Item = Filter> {
         Filter::all().filter(|filter| *filter != Filter::Words && self.has(*filter))
     }
 
-    /// What a filter asks for, in words: `moving`, `venetian or woven`, `τ normal 0.20 to 0.40`.
+    /// Returns the condition of a filter as a translated text: `moving`, `venetian or woven`, `τ normal 0.20 to 0.40`.
     pub fn words_of(&self, filter: Filter) -> String {
         let either = |list: &[String]| {
             let words: Vec<&str> =
@@ -305,9 +305,10 @@ impl Query {
         }
     }
 
-    /// Words as they are compared one by one, with the place of what was typed between spaces.
+    /// Returns the typed words in the form in which they are compared, each with the index of the text between spaces
+    /// it came from.
     pub(super) fn typed_words(&self) -> Vec<(usize, String)> {
-        // Sixteen words tell products apart; more would only cost time.
+        // Sixteen words are enough to distinguish products; more would only cost time.
         const MOST: usize = 16;
         let of = |(place, text): (usize, &str)| {
             let folded = folded(text);

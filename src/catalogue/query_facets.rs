@@ -1,42 +1,42 @@
-//! What could be chosen next, with counts.
+//! Facets of a search: values that can be chosen next, with the number of products of each.
 
 use super::Figure;
 
-/// One value of a facet with the number of products that have it.
+/// Value of a facet with the number of products that have it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Facet {
-    /// The value.
+    /// Value to filter by.
     pub value: String,
-    /// How many products.
+    /// Number of products that have the value.
     pub count: usize,
 }
 
-/// Values to filter by, most frequent first. Every count is what choosing the value would find with all other filters as
-/// they are.
+/// Values to filter by, most frequent ones at the top. Every count is what choosing the value would find with all other
+/// filters unchanged.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Facets {
-    /// Kinds; an empty one for products that tell none.
+    /// Kinds; empty text for products without a kind.
     pub kinds: Vec<Facet>,
-    /// Makers, those without left out.
+    /// Makers; products without one are left out.
     pub manufacturers: Vec<Facet>,
     /// Tags.
     pub tags: Vec<Facet>,
     /// Collections.
     pub collections: Vec<Facet>,
-    /// Products that were shown last, see [`Query::shown`](super::Query::shown).
+    /// Number of products shown most recently, see [`Query::shown`](super::Query::shown).
     pub recent: usize,
-    /// Measured, computed, unknown.
+    /// Origins of the data: measured, computed, unknown.
     pub origins: Vec<Facet>,
-    /// Products of several states, and of one.
+    /// Number of products with several states, and with one state.
     pub moving: [usize; 2],
-    /// For every figure that any product has: products by [`Figure::LIMITS`].
+    /// Number of products per range of [`Figure::LIMITS`], for every figure that any product has.
     pub ranges: Vec<(Figure, Vec<usize>)>,
-    /// Favourites.
+    /// Number of favourites.
     pub favourites: usize,
-    /// Built-in products.
+    /// Number of built-in products.
     pub builtin: usize,
-    /// The user's products.
+    /// Number of the user's products.
     pub own: usize,
-    /// All products of the catalogue, whatever is asked.
+    /// Number of all products of the catalogue, whatever the query.
     pub all: usize,
 }

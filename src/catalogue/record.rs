@@ -1,4 +1,4 @@
-//! A product as it is to be stored: from datasets and what is told about them to rows, checked, with its figures.
+//! Products before they are stored: from datasets and product data to checked rows with figures.
 
 use super::described::{common_description, view};
 use super::product::slug;
@@ -10,7 +10,7 @@ use crate::texts::composed;
 use rayon::prelude::*;
 use std::collections::HashSet;
 
-/// A product with the bytes of its datasets, as the tables hold it.
+/// Product with the bytes of its datasets, in the form of the tables.
 #[derive(Debug, Clone)]
 pub(super) struct Record {
     pub(super) product: Product,
@@ -18,23 +18,24 @@ pub(super) struct Record {
     pub(super) datasets: Vec<(String, Vec<u8>)>,
     /// Content of every state, see [`super::content_of`]; empty where it is not known.
     pub(super) contents: Vec<String>,
-    /// Paths of the files that it was read from.
+    /// Paths of the files that the product was read from.
     pub(super) paths: Vec<String>,
 }
 
 impl Record {
-    /// A product whose data are still to be computed.
+    /// Creates the record of a product whose data are not computed yet.
     pub(super) const fn without_data(product: Product) -> Self {
         Self { product, datasets: Vec::new(), contents: Vec::new(), paths: Vec::new() }
     }
 }
 
-/// Everything of a product that is to be stored, checked; nothing is written yet.
+/// Returns the checked record of a product; nothing is written yet.
 pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
     prepared(datasets, meta, check)
 }
 
-/// The same for what the program computed itself, and said what it found: checks of foreign data have nothing to add.
+/// Returns the record of a product whose data the program computed with findings of its own: without the checks of
+/// foreign data.
 pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
     prepared(datasets, meta, |_| Vec::new())
 }
@@ -100,7 +101,7 @@ fn prepared(
     Ok(Record { product: product(meta, states, findings)?, datasets: blobs, contents, paths })
 }
 
-/// What is kept of one state.
+/// Results of preparing one state.
 struct Ready {
     state: State,
     told: Vec<ProductFinding>,
@@ -131,13 +132,14 @@ fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -
     Ok(Ready { state, told, dataset: (hash, blob), content })
 }
 
-/// Where light goes, as far as a description tells it better than data on cells.
+/// Returns the figures of the transmitted light; the view is that of the description, where it gives a more exact one
+/// than patch-averaged data.
 pub fn light(transmission: &Btdf, described: Option<&DescribedState>) -> LightFigures {
     let own = LightFigures::of(transmission);
     LightFigures { view: described.and_then(view).unwrap_or(own.view), ..own }
 }
 
-/// A state with the figures of its transmission.
+/// Returns a state with the figures of its transmission.
 pub(super) fn figured(state: State, transmission: &Btdf, described: Option<&DescribedState>) -> State {
     State {
         tau_normal: Some(transmission.tau_normal()),
@@ -148,7 +150,7 @@ pub(super) fn figured(state: State, transmission: &Btdf, described: Option<&Desc
     }
 }
 
-/// A state of which nothing is known but how it is called.
+/// Returns a state of which only the key and the name are known.
 pub(super) fn named_state(key: &str, named: StateName) -> State {
     let label = named.label.trim();
     State {
@@ -164,7 +166,7 @@ pub(super) fn named_state(key: &str, named: StateName) -> State {
     }
 }
 
-/// A product from what is told about it, with its states.
+/// Creates a product from its product data and its states.
 pub(super) fn product(
     meta: NewProduct,
     states: Vec<State>,
@@ -196,13 +198,13 @@ pub(super) fn product(
     })
 }
 
-/// A dataset as it is stored.
+/// Dataset in its stored form.
 pub(super) struct Packed {
     pub(super) hash: String,
     pub(super) blob: Vec<u8>,
-    /// See [`super::content_of`].
+    /// Content hash of the dataset, see [`super::content_of`].
     content: String,
-    /// What is read back from the bytes: all figures are those of what is stored (values rounded to f32).
+    /// Dataset read back from the bytes: all figures are those of what is stored (values rounded to f32).
     pub(super) dataset: Dataset,
 }
 

@@ -1,16 +1,17 @@
-//! By which rule a moving product works when nobody has said otherwise, and which of its states stands for it: in lists,
-//! in thumbnails, and when it is set by hand.
+//! Default rule of a product with several states, and the state that represents it in lists, in thumbnails and when it
+//! is set by hand.
 //!
-//! | the product | rule | state that stands for it |
+//! | product | rule | state that represents it |
 //! | --- | --- | --- |
-//! | has one state | none | that one |
-//! | brings a control curve, and its states are numbered | its curve | what the curve asks for at [`TYPICAL_SUN`], the least closed state that reaches it |
-//! | lying slats whose upper face mirrors most of what it reflects | redirect | the state nearest to the tilt that sends that sun to 30° above the horizontal |
-//! | other lying slats | cut-off | the most open state that keeps that sun out |
-//! | anything else: upright slats, screens, switchable glazing | by hand | the most open: the highest transmittance under uniform luminance; of equals the number nearest to 0, then the first |
+//! | has one state | none | the only one |
+//! | has a curve and numbered states | its curve | least closed that reaches the curve at [`TYPICAL_SUN`] |
+//! | horizontal slats, upper face mostly specular | redirect | nearest to the tilt that sends that sun 30° upwards |
+//! | other horizontal slats | cut-off | the most open state that blocks that sun |
+//! | anything else: vertical slats, screens, switchable glazing | by hand | the most open: highest hemispherical τ |
 //!
-//! A rule that reads numbers is never chosen for states without numbers, and none that follows the profile angle for
-//! slats that stand upright: their shadows do not depend on it.
+//! The most open state has the highest transmittance under uniform luminance; among equals it is the one whose number
+//! is nearest to 0, then the first. A rule that reads numbers is never chosen for states without numbers, and none that
+//! follows the profile angle for vertical slats: their shadows do not depend on it.
 
 use super::{CurvePoint, Product, blind_of};
 use crate::compute::control::controller::cut_off_state;
@@ -19,51 +20,52 @@ use crate::compute::control::cut_off::SlatRow;
 use crate::compute::control::states::{nearest, towards_closed};
 use crate::compute::system::slats::Venetian;
 
-/// Profile angle of the sun for which a state stands for its product: about that of an equinox noon on a south façade at
-/// 50° of latitude. \[°\]
+/// Profile angle of the sun at which the representative state is chosen: about that of an equinox noon on a south
+/// façade at 50° of latitude. \[°\]
 pub const TYPICAL_SUN: f64 = 40.0;
-/// Elevation to which mirrors send it, as the rule does when it is told nothing else. \[°\]
+/// Elevation to which mirrors redirect the sun, as in the rule without further settings. \[°\]
 const ELEVATION: f64 = 30.0;
-/// Transmittances closer than this are the same.
+/// Difference below which transmittances count as equal.
 const SAME: f64 = 1e-6;
 
-/// The rule of a product that was just chosen.
+/// Default rule of a product that was just chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FirstRule {
-    /// Its state is set by hand.
+    /// State set by hand.
     #[default]
     ByHand,
-    /// Its own control curve.
+    /// Control curve of the product.
     Curve,
-    /// The sun is kept just out.
+    /// Cut-off control: the state that just blocks direct sun.
     CutOff,
-    /// Mirrors send the sun to the ceiling.
+    /// Redirection of the sun to the ceiling by mirrors.
     Redirect,
 }
 
-/// What is known of a state.
+/// Known numbers of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Numbers {
-    /// Its number. \[°\]
+    /// Number of the state, an angle or another value. \[°\]
     pub value: Option<f64>,
     /// Visible transmittance under uniform luminance.
     pub tau_hemispherical: Option<f64>,
 }
 
-/// The rule of a product, and the place of the state that stands for it. `system`: its description, empty for others.
+/// Returns the default rule of a product and the index of the state that represents it. `system`: description, empty
+/// for others.
 pub fn representative(states: &[Numbers], curve: &[CurvePoint], system: &str) -> (FirstRule, usize) {
     let values: Option<Vec<f64>> = states.iter().map(|state| state.value.filter(|value| value.is_finite())).collect();
     by_rule(values.as_deref(), curve, system).unwrap_or_else(|| (FirstRule::ByHand, most_open(states)))
 }
 
 impl Product {
-    /// The rule by which it works when nobody has said otherwise, and the place of the state that stands for it.
+    /// Returns the default rule and the index of the state that represents the product.
     pub fn representative(&self) -> (FirstRule, usize) {
         let numbers = |state: &super::State| Numbers { value: state.value, tau_hemispherical: state.tau_hemispherical };
         representative(&self.states.iter().map(numbers).collect::<Vec<_>>(), &self.control_curve, &self.system)
     }
 
-    /// May a state turn out to stand for it? Where a rule decides, one does, whatever the data are.
+    /// Whether a state can represent the product. Where a rule decides, only one can, whatever the data are.
     pub fn may_represent(&self, state: &str) -> bool {
         let values: Option<Vec<f64>> = self.states.iter().map(|one| one.value.filter(|v| v.is_finite())).collect();
         by_rule(values.as_deref(), &self.control_curve, &self.system)
@@ -91,7 +93,7 @@ fn by_rule(values: Option<&[f64]>, curve: &[CurvePoint], system: &str) -> Option
     Some((FirstRule::CutOff, state))
 }
 
-/// Does the upper face mirror most of what it reflects, so that the slats can send light on?
+/// Whether the upper face reflects mostly specularly, so that the slats can redirect light.
 fn mirrors(blind: &Venetian) -> bool {
     blind.upper.mirror > 0.5 && blind.upper.mirror > blind.upper.diffuse
 }
@@ -146,7 +148,7 @@ mod tests {
         assert_eq!(rule("", "reflectance = 0.6"), (FirstRule::CutOff, 15.0));
         // ½ (30° − 40°) = −5°.
         assert_eq!(rule("", "reflectance = 0.05, specular = 0.8"), (FirstRule::Redirect, 0.0));
-        // Upright slats do not follow the profile angle.
+        // Vertical slats do not follow the profile angle.
         assert_eq!(rule("upright = true\n", "reflectance = 0.05, specular = 0.8"), (FirstRule::ByHand, 0.0));
     }
 

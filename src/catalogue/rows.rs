@@ -1,4 +1,4 @@
-//! Products as lists show them, read out of the tables: the one place that knows which columns they come from.
+//! Rows of product lists, read from the tables: the one place that knows which columns they come from.
 
 use super::query::Figure;
 use super::representative::{FirstRule, Numbers, representative};
@@ -9,7 +9,7 @@ use rusqlite::{Connection, Row};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-/// Places of figures among the columns of a state as they are verified.
+/// Indices of the figures among the columns of a state, as they are verified.
 const COLUMNS: [(Figure, usize); 5] = [
     (Figure::TauNormal, 6),
     (Figure::TauHemispherical, 7),
@@ -18,11 +18,11 @@ const COLUMNS: [(Figure, usize); 5] = [
     (Figure::View, 11),
 ];
 
-/// A product as lists show it. Figures are those of the state that stands for it, see
+/// Row of a product list. Figures are those of the state that represents the product, see
 /// [`representative`](super::representative()).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProductRow {
-    /// Key by which scenes name it.
+    /// Key that scenes use.
     pub key: String,
     /// Name.
     pub name: String,
@@ -30,39 +30,39 @@ pub struct ProductRow {
     pub manufacturer: String,
     /// Kind; may be empty.
     pub kind: String,
-    /// Measured or computed.
+    /// Origin of the data, measured or computed.
     pub origin: Origin,
     /// Keys of the states in order; one empty key for a product without states.
     pub states: Vec<String>,
-    /// Place of the state that stands for the product.
+    /// Index of the state that represents the product.
     pub representative: usize,
-    /// Hash of the dataset of that state; `None` while it is still to be computed.
+    /// Hash of the dataset of that state; `None` while it is not computed yet.
     pub dataset: Option<Arc<str>>,
-    /// The rule by which it works when nobody has said otherwise.
+    /// Default rule of the product.
     pub rule: FirstRule,
     /// Visible transmittance of light from outside at normal incidence.
     pub tau_normal: Option<f64>,
-    /// The same under uniform luminance.
+    /// Visible transmittance of light from outside under uniform luminance.
     pub tau_hemispherical: Option<f64>,
-    /// The same at the profile angles [`PROFILE_ANGLES`](super::PROFILE_ANGLES), from light from below to light from
-    /// above; empty when unknown.
+    /// Visible transmittances at the profile angles [`PROFILE_ANGLES`](super::PROFILE_ANGLES), rising from light from
+    /// below to light from above; empty when unknown.
     pub tau_profile: Vec<f64>,
-    /// Share of the transmitted light that goes to the ceiling, where it is known.
+    /// Share of the transmitted light that leaves upwards, to the ceiling; `None` when unknown.
     pub to_ceiling: Option<f64>,
-    /// Share of direct sun that is kept out, where it is known.
+    /// Share of direct sun blocked at 45° solar altitude (1 − τ); `None` when unknown.
     pub sun_blocked: Option<f64>,
-    /// How much of the view is left, where it is known.
+    /// Normal–normal transmittance; `None` when unknown.
     pub view: Option<f64>,
-    /// Marked by the user.
+    /// Whether the user marked it as a favourite.
     pub favourite: bool,
-    /// Comes with the program.
+    /// Whether the product comes with the program.
     pub builtin: bool,
-    /// The folder of packages that it comes from, which is subscribed to; empty for others.
+    /// Subscribed folder of packages that the product comes from; empty for others.
     pub subscribed: String,
 }
 
 impl ProductRow {
-    /// A figure of the state that stands for the product.
+    /// Returns a figure of the state that represents the product.
     pub const fn figure(&self, figure: Figure) -> Option<f64> {
         match figure {
             Figure::TauNormal => self.tau_normal,
@@ -73,31 +73,31 @@ impl ProductRow {
         }
     }
 
-    /// Has it more than one state?
+    /// Whether the product has more than one state.
     pub const fn moves(&self) -> bool {
         self.states.len() > 1
     }
 
-    /// Key of the state that stands for it; empty for a product without states.
+    /// Returns the key of the state that represents the product; empty for a product without states.
     pub fn state(&self) -> &str {
         self.states.get(self.representative).map_or("", String::as_str)
     }
 }
 
-/// A product with what it is found by beside its row.
+/// Product with its row and its searchable texts.
 #[derive(Debug, Clone)]
 pub struct Sought {
-    /// What lists show.
+    /// Row of the product in lists.
     pub row: Arc<ProductRow>,
     /// Free text.
     pub description: String,
-    /// Words to find it by.
+    /// Tags to find the product by.
     pub tags: Vec<String>,
-    /// Collections that it is in.
+    /// Collections that contain the product.
     pub collections: Vec<String>,
 }
 
-/// A state while it is read.
+/// State while it is read.
 struct StateRow {
     key: String,
     numbers: Numbers,
@@ -113,12 +113,12 @@ struct Lists {
     curves: HashMap<i64, Vec<CurvePoint>>,
     tags: HashMap<i64, Vec<String>>,
     collections: HashMap<i64, Vec<String>>,
-    /// Products with values that are not of their columns' types.
+    /// Ids of products with values that do not have the types of their columns.
     unreadable: BTreeSet<i64>,
 }
 
 impl Lists {
-    /// Takes a row on the way of its verification.
+    /// Adds a row that is being verified to the lists.
     fn take(&mut self, table: &str, product: i64, row: &Row<'_>) -> rusqlite::Result<()> {
         match table {
             "state" => {
@@ -158,8 +158,8 @@ pub(super) fn read(db: &Connection) -> Result<(Vec<Sought>, Vec<String>), Catalo
     while let Some(row) = rows.next()? {
         lists.collections.entry(row.get(0)?).or_default().push(row.get(1)?);
     }
-    // Descriptions are read for those whose rule hangs on them alone: what moves and brings no curve. Keys last: products
-    // of the same name keep their places from one search to the next.
+    // Descriptions are read only for products whose rule depends on them: those with several states and no curve. Keys
+    // last: products of the same name keep their places from one search to the next.
     let mut statement = db.prepare(&format!(
         "SELECT p.id, p.key, p.name, p.manufacturer, p.kind, p.origin, p.builtin, p.description,
                 EXISTS (SELECT 1 FROM favourite WHERE product_key = p.key),
@@ -217,7 +217,7 @@ pub(super) fn read(db: &Connection) -> Result<(Vec<Sought>, Vec<String>), Catalo
     Ok((list, left_out))
 }
 
-/// A stored list, e.g. of transmittances; empty when it is none.
+/// Returns a stored list, e.g. of transmittances; empty when the text is not a list.
 pub(super) fn list_of<T: serde::de::DeserializeOwned>(text: &str) -> Vec<T> {
     serde_json::from_str(text).unwrap_or_default()
 }

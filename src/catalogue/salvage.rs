@@ -1,4 +1,4 @@
-//! What can still be read of a catalogue with broken pages, in a whole one.
+//! Recovery of a catalogue with broken pages: what can still be read of it is copied into a new one.
 
 use super::builtin::is_builtin;
 use super::sealing::seal_what_is_left;
@@ -8,7 +8,7 @@ use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 use std::collections::BTreeSet;
 
-/// The tables, those that others refer to first.
+/// Tables, those that others refer to at the front.
 const TABLES: [&str; 14] = [
     "meta",
     "product",
@@ -26,18 +26,18 @@ const TABLES: [&str; 14] = [
     "collection",
 ];
 
-/// What was saved.
+/// Result of a recovery.
 pub(super) struct Saved {
-    /// A whole catalogue.
+    /// New catalogue with everything that could be read.
     pub(super) db: Connection,
-    /// What is gone, in sentences.
+    /// Sentences about what was lost.
     pub(super) lost: Vec<String>,
 }
 
 /// Reads every table from both ends, as far as its pages allow, into a new catalogue.
 ///
 /// # Errors
-/// The new catalogue cannot be made.
+/// Returns an error if the new catalogue cannot be created.
 pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
     let Catalogue { db, .. } = Catalogue::empty_in_memory()?;
     db.pragma_update(None, "foreign_keys", false)?;
@@ -97,16 +97,16 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
     Ok(Saved { db, lost })
 }
 
-/// Lets all built-in products come again when the file is opened.
+/// Makes all built-in products be added again when the file is opened.
 ///
 /// # Errors
-/// Of SQLite.
+/// Returns an error if the database cannot be written.
 fn all_come_anew(db: &Connection) -> Result<(), CatalogueError> {
     db.execute("DELETE FROM meta WHERE key = 'builtin_version'", [])?;
     Ok(())
 }
 
-/// Copies the rows of a table that can be read, from the first until one that cannot, then from the last.
+/// Copies the readable rows of a table: from the first row until an unreadable one, then from the last row.
 fn copied(from: &Connection, to: &Connection, table: &str) -> rusqlite::Result<()> {
     let columns: Vec<String> = {
         // Those of both: a file of an older layout has fewer.

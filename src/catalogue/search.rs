@@ -1,4 +1,4 @@
-//! Finding products: the words of a catalogue's file in memory, read anew when the file has changed.
+//! Search for products: the words of a catalogue's file in memory, read again when the file has changed.
 
 use super::builtin::restore_damaged;
 use super::index::{Found, Index};
@@ -7,23 +7,23 @@ use super::{Catalogue, CatalogueError, ProductRow, Query, rows};
 use std::sync::Arc;
 
 impl Catalogue {
-    /// Products that fit, in the order that is asked for, with what could be chosen next; best match first by default,
-    /// without words built-in products in their own order and then the user's by name.
+    /// Returns the products that fit, in the requested order, with what could be chosen next. Default: best match at
+    /// the top; without words built-in products in their own order, then the user's by name.
     pub fn find(&self, query: &Query) -> Result<Found, CatalogueError> {
         Ok(self.index()?.find(query))
     }
 
-    /// The products alone.
+    /// Returns only the products of a search.
     pub fn search(&self, query: &Query) -> Result<Vec<ProductRow>, CatalogueError> {
         Ok(self.find(query)?.entries.into_iter().map(Arc::unwrap_or_clone).collect())
     }
 
-    /// Values to filter by, with the number of products of each in the whole catalogue.
+    /// Returns the values to filter by, with the number of products of each in the whole catalogue.
     pub fn facets(&self) -> Result<Facets, CatalogueError> {
         Ok(self.find(&Query::default())?.facets)
     }
 
-    /// The words of the file as it is now.
+    /// Returns the index of the file as it is now.
     fn index(&self) -> Result<Arc<Index>, CatalogueError> {
         // One snapshot: what is read belongs together, and to the stamp.
         let snapshot = self.db.unchecked_transaction()?;

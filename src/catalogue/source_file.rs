@@ -1,31 +1,31 @@
-//! A dataset file with what it tells.
+//! Dataset files with their datasets and catalogue fields.
 
 use super::content::content_of;
 use crate::compute::btdf::Dataset;
 use crate::formats::{CatalogueFields, FormatError, catalogue_fields, read_dataset};
 
-/// A dataset file that was read.
+/// Dataset file that was read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SourceFile {
-    /// Its name, without folder.
+    /// Name of the file, without folder.
     pub name: String,
-    /// Where it lies; empty when that is not known. States of a product lie together.
+    /// Folder of the file; empty when unknown. States of a product lie together.
     pub folder: String,
-    /// BLAKE3 hash of its bytes, 64 hexadecimal digits.
+    /// BLAKE3 hash of the file's bytes, 64 hexadecimal digits.
     pub hash: String,
-    /// What its datasets hold, whatever they are called: equal for files of the same data.
+    /// Content hash of the datasets without their names: equal for files of the same data.
     pub content: String,
-    /// What it holds.
+    /// Datasets of the file.
     pub datasets: Vec<Dataset>,
-    /// What it tells about the product.
+    /// Product data in the file.
     pub fields: CatalogueFields,
 }
 
 impl SourceFile {
-    /// Reads a file's bytes.
+    /// Reads a dataset file from its bytes.
     ///
     /// # Errors
-    /// Of the reader.
+    /// Returns an error if the reader of the format refuses the bytes.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, FormatError> {
         let datasets = read_dataset(name, bytes)?;
         let contents: Vec<String> = datasets.iter().map(content_of).collect();

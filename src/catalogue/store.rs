@@ -1,4 +1,4 @@
-//! Products in and out of the tables. Every change is one transaction.
+//! Reading and writing of products in the tables. Every change is one transaction.
 
 use super::described::described_state;
 use super::history::set_paths;
@@ -11,12 +11,12 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::sync::Arc;
 
-/// Most decoded datasets kept by a connection.
+/// Maximum number of decoded datasets kept by a connection.
 const RECENT: usize = 32;
-/// Rank of products that users add: behind the built-in ones.
+/// Rank of products that users add, after the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;
 
-/// The wanted key, or the first of wanted-2, wanted-3, … that is free.
+/// Returns the key `wanted`, or the first of wanted-2, wanted-3, … that is free.
 pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, CatalogueError> {
     let mut statement = db.prepare_cached("SELECT EXISTS (SELECT 1 FROM product WHERE key = ?)")?;
     let wanted: String = if wanted.is_empty() { "product".into() } else { wanted.chars().take(150).collect() };
@@ -30,7 +30,7 @@ pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, Catalogu
     Ok(key)
 }
 
-/// Writes the bytes of a dataset under their hash: once, and over bytes that are damaged.
+/// Writes the bytes of a dataset under their hash: only once, but also over bytes that are damaged.
 pub(super) fn put_blob(tx: &Transaction, hash: &str, blob: &[u8]) -> Result<(), CatalogueError> {
     tx.prepare_cached(
         "INSERT INTO dataset (hash, blob) VALUES (?1, ?2)
@@ -40,7 +40,7 @@ pub(super) fn put_blob(tx: &Transaction, hash: &str, blob: &[u8]) -> Result<(), 
     Ok(())
 }
 
-/// Writes a product under the key it has.
+/// Writes a product under its key.
 pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(), CatalogueError> {
     let (p, from) = (&record.product, &record.product.provenance);
     tx.prepare_cached(
@@ -125,13 +125,13 @@ pub(super) fn insert_findings<'a>(
     Ok(())
 }
 
-/// Takes out datasets that no state refers to any more.
+/// Removes the datasets that no state refers to any more.
 pub(super) fn sweep(tx: &Transaction) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM dataset WHERE NOT EXISTS (SELECT 1 FROM state WHERE state.dataset = dataset.hash)", [])?;
     Ok(())
 }
 
-/// Takes a product's rows out; datasets that no state refers to any more go with it.
+/// Removes a product's rows, and the datasets that no state refers to any more.
 pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE key = ?", [key])?;
     sweep(tx)
@@ -156,7 +156,7 @@ fn severity(word: &str) -> Severity {
     }
 }
 
-/// A product without its lists, of a row of [`read_product`].
+/// Returns a product without its lists, from a row of [`read_product`].
 fn product_of_row(key: &str, row: &Row<'_>) -> rusqlite::Result<Product> {
     let provenance = Provenance {
         origin: Origin::from_word(&row.get::<_, String>(5)?),
@@ -185,7 +185,7 @@ fn product_of_row(key: &str, row: &Row<'_>) -> rusqlite::Result<Product> {
     })
 }
 
-/// A state, of a row of [`read_product`].
+/// Returns a state from a row of [`read_product`].
 fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
     Ok(State {
         key: row.get(0)?,
@@ -206,7 +206,7 @@ fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
     })
 }
 
-/// The product of a key, from one connection or transaction.
+/// Returns the product of a key, from one connection or transaction.
 pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, CatalogueError> {
     // A favourite is asked for by key: built-in products get new rows when they are renewed, and stay favourites.
     let found = db
@@ -234,7 +234,7 @@ pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, Catalo
         .prepare_cached("SELECT profile_angle, value FROM control_point WHERE product = ? ORDER BY position")?
         .query_map([id], |row| Ok(CurvePoint { profile_angle: row.get(0)?, value: row.get(1)? }))?
         .collect::<Result<_, _>>()?;
-    // A finding is stored under its state's position, and told under its key.
+    // A finding is stored under its state's position, and returned under its key.
     product.findings = db
         .prepare_cached(
             "SELECT s.key, f.severity, f.code, f.message
@@ -257,7 +257,7 @@ fn not_computed(product: &str, state: &str) -> CatalogueError {
     CatalogueError::NotComputed { product: product.to_owned(), state: state.to_owned() }
 }
 
-/// A product with its datasets, all of which have to be there.
+/// Returns a product with its datasets, all of which have to be present.
 pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, CatalogueError> {
     let product = sealed(db, read_product(db, key)?)?;
     let mut datasets: Vec<(String, Vec<u8>)> = Vec::new();
@@ -275,7 +275,7 @@ pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, Catalogu
 }
 
 impl Catalogue {
-    /// The product of a key, if it is what was stored.
+    /// Returns the product of a key. Returns an error if its data are not those that were stored.
     pub fn product(&self, key: &str) -> Result<Product, CatalogueError> {
         // One snapshot for all the reads.
         let snapshot = self.db.unchecked_transaction()?;
@@ -283,10 +283,11 @@ impl Catalogue {
         sealed(&snapshot, product)
     }
 
-    /// The dataset of a state. `None`: the only state; an error when there are several.
+    /// Returns the dataset of a state. `None`: the only state; an error when there are several.
     ///
     /// # Errors
-    /// No such product or state; [`CatalogueError::NotComputed`] for one that [`Self::to_compute`] names.
+    /// Returns an error if there is no such product or state; [`CatalogueError::NotComputed`] for a state that
+    /// [`Self::to_compute`] returns.
     pub fn dataset(&self, key: &str, state: Option<&str>) -> Result<Arc<Dataset>, CatalogueError> {
         let product = self.product(key)?;
         let wrong = |what: String| CatalogueError::NoState {
@@ -307,8 +308,8 @@ impl Catalogue {
         self.dataset_of_hash(hash, described_state(&product.system, &found.key))
     }
 
-    /// The dataset of a content hash with its product's description, from memory when it was asked for lately. Products
-    /// of the same content may have different descriptions.
+    /// Returns the dataset of a content hash with its product's description, from memory if it was used recently.
+    /// Products of the same content may have different descriptions.
     fn dataset_of_hash(&self, hash: &str, described: Option<DescribedState>) -> Result<Arc<Dataset>, CatalogueError> {
         let mut recent = self.recent.borrow_mut();
         if let Some(at) = recent.iter().position(|(known, dataset)| known == hash && dataset.described == described)
@@ -329,7 +330,7 @@ impl Catalogue {
         Ok(dataset)
     }
 
-    /// Takes a product of the user's out for good; [`Catalogue::delete_product`] takes it out of sight.
+    /// Removes a product of the user permanently; [`Catalogue::delete_product`] only hides it.
     pub fn remove_product(&mut self, key: &str) -> Result<(), CatalogueError> {
         self.remove_products(&[key.to_owned()])
     }
@@ -349,8 +350,8 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Checks every stored dataset of a product anew: its bytes against their hash, energy, reciprocity. Data that are not
-    /// computed yet are told as such.
+    /// Checks every stored dataset of a product again: its bytes against their hash, energy, reciprocity. Data that are
+    /// not computed yet give a finding that says so.
     pub fn validate(&self, key: &str) -> Result<Vec<ProductFinding>, CatalogueError> {
         let snapshot = self.db.unchecked_transaction()?;
         let (mut findings, mut waiting) = (Vec::new(), 0);

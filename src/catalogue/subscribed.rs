@@ -1,4 +1,4 @@
-//! Products of folders that are subscribed to: listed among the others, changed by nobody here.
+//! Products of subscribed folders: listed among the others, not changed here.
 
 use super::exchange::{is_there, unpack};
 use super::history::{forget, note};
@@ -8,25 +8,25 @@ use super::{Catalogue, CatalogueError};
 use rusqlite::{Connection, OptionalExtension, Transaction};
 use std::collections::BTreeMap;
 
-/// A folder of packages that is subscribed to.
+/// Subscribed folder of packages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Subscription {
-    /// Its path.
+    /// Path of the folder.
     pub folder: String,
-    /// How many products come from it.
+    /// Number of products that come from the folder.
     pub products: usize,
 }
 
-/// What reading a package of such a folder changed.
+/// Changes made by reading a package of a subscribed folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Synced {
-    /// Products that are there now and were not, or not like this.
+    /// Number of products that were added or replaced.
     pub taken: usize,
-    /// Products that the package does not hold any more.
+    /// Number of products removed because the package no longer holds them.
     pub gone: usize,
 }
 
-/// Refuses to change what comes from a folder of packages.
+/// Returns an error if the product comes from a subscribed folder.
 pub(super) fn refuse_subscribed(db: &Connection, key: &str) -> Result<(), CatalogueError> {
     match folder_of(db, key)? {
         Some(folder) => Err(CatalogueError::Subscribed { product: key.to_owned(), folder }),
@@ -39,7 +39,7 @@ fn folder_of(db: &Connection, key: &str) -> Result<Option<String>, CatalogueErro
     Ok(ask.query_row([key], |row| row.get(0)).optional()?)
 }
 
-/// Takes out what came from a package; the keys of its products.
+/// Removes the products that came from a package, and returns their keys.
 fn take_out(tx: &Transaction<'_>, folder: &str, package: &str) -> Result<Vec<String>, CatalogueError> {
     let mut ask = tx.prepare_cached("SELECT product_key FROM subscribed WHERE folder = ? AND package = ?")?;
     let keys: Vec<String> = ask.query_map([folder, package], |row| row.get(0))?.collect::<Result<_, _>>()?;
@@ -52,19 +52,20 @@ fn take_out(tx: &Transaction<'_>, folder: &str, package: &str) -> Result<Vec<Str
 }
 
 impl Catalogue {
-    /// Subscribes to a folder of packages; its products come when it is read. Nothing where it is subscribed to already.
+    /// Subscribes to a folder of packages; its products are added when it is read. Does nothing if it is subscribed
+    /// already.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be written.
     pub fn subscribe(&mut self, folder: &str) -> Result<(), CatalogueError> {
         self.db.execute("INSERT OR IGNORE INTO subscription VALUES (?)", [folder])?;
         Ok(())
     }
 
-    /// Ends a subscription: its products go out of the catalogue.
+    /// Ends a subscription and removes its products from the catalogue.
     ///
     /// # Errors
-    /// A folder that is not subscribed to.
+    /// Returns an error if the folder is not subscribed.
     pub fn unsubscribe(&mut self, folder: &str) -> Result<usize, CatalogueError> {
         let tx = self.change()?;
         if tx.execute("DELETE FROM subscription WHERE folder = ?", [folder])? == 0 {
@@ -81,10 +82,10 @@ impl Catalogue {
         Ok(gone)
     }
 
-    /// Folders that are subscribed to.
+    /// Returns the subscribed folders.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn subscriptions(&self) -> Result<Vec<Subscription>, CatalogueError> {
         let mut ask = self.db.prepare_cached(
             "SELECT s.folder, (SELECT count(*) FROM subscribed p WHERE p.folder = s.folder) FROM subscription s ORDER BY 1",
@@ -96,27 +97,28 @@ impl Catalogue {
         Ok(ask.query_map([], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// The folder that a product comes from; `None` for others.
+    /// Returns the folder that a product comes from; `None` for products of other sources.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn subscribed_folder(&self, key: &str) -> Result<Option<String>, CatalogueError> {
         folder_of(&self.db, key)
     }
 
-    /// Packages of a folder as they were taken in last: file names with the hashes of their bytes.
+    /// Returns the packages of a folder as they were last read: file names with the hashes of their bytes.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be read.
     pub fn packages_of(&self, folder: &str) -> Result<BTreeMap<String, String>, CatalogueError> {
         packages(&self.db, folder)
     }
 
-    /// Takes in a package of a folder, in place of what came from the file of this name before; `hash`: of its bytes. A
-    /// product that the user has, the same, is not taken twice.
+    /// Adds a package of a folder, in place of the products that came from the file of this name before. `hash`: hash
+    /// of the file's bytes. A product that the user already has with the same content is not added twice.
     ///
     /// # Errors
-    /// No package, or one whose datasets do not match their hashes: what was there before stays.
+    /// Returns an error if the bytes are not a package, or its datasets do not match their hashes; nothing changes
+    /// then.
     pub fn take_package(
         &mut self,
         folder: &str,
@@ -153,10 +155,10 @@ impl Catalogue {
         Ok(synced)
     }
 
-    /// Takes out the products of a package that the folder does not hold any more; how many.
+    /// Removes the products of a package that the folder no longer holds. Returns their number.
     ///
     /// # Errors
-    /// Of SQLite.
+    /// Returns an error if the database cannot be written.
     pub fn drop_package(&mut self, folder: &str, package: &str) -> Result<usize, CatalogueError> {
         let tx = self.change()?;
         let keys = take_out(&tx, folder, package)?;

@@ -1,4 +1,4 @@
-//! The descriptions that come with the program: files under `assets/systems`.
+//! Descriptions that come with the program: files under `assets/systems`.
 
 use crate::compute::system::slats::Venetian;
 use crate::compute::system::stack::LayerSource;
@@ -7,11 +7,11 @@ use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use include_dir::{Dir, File, include_dir};
 use std::sync::LazyLock;
 
-/// All files of the folder; a new one is taken in when this file is compiled anew.
+/// All files of the folder; a new one is included when this file is compiled again.
 static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/systems");
 /// Kinds in the order of the catalogue; others follow, stacks come last.
 const ORDER: [&str; 7] = ["pane", "diffuser", "woven", "laser-cut-panel", "venetian", "prismatic", "perforated"];
-/// The product that a new window shows comes before all.
+/// File of the product that a new window shows; it precedes all others.
 const FIRST: &str = "venetian-80-72.system.toml";
 
 /// File name and text of every built-in description, in the order of the catalogue.
@@ -31,7 +31,7 @@ pub static SYSTEMS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
     list
 });
 
-/// A built-in description by the name of its file.
+/// Returns a built-in description by the name of its file.
 ///
 /// # Panics
 /// Never: the tests read every built-in description.
@@ -40,13 +40,13 @@ pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
     Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
 }
 
-/// The slats of a description, also of a moving layer of a built-in stack. `None` for slats that stand upright: makers'
+/// Returns the slats of a description, also of a moving layer of a built-in stack. `None` for vertical slats: makers'
 /// curves follow the profile angle of the vertical plane, which says nothing about their shadows.
 pub fn blind_of(system: &str) -> Option<Venetian> {
     slats_of(system).filter(|(_, upright)| !upright).map(|(blind, _)| blind)
 }
 
-/// The same, also of slats that stand upright, and whether they do.
+/// Returns the slats of a description, also vertical ones, and whether they are vertical.
 pub fn slats_of(system: &str) -> Option<(Venetian, bool)> {
     let moving = moving_part(system)?;
     match moving.kind {
@@ -55,8 +55,9 @@ pub fn slats_of(system: &str) -> Option<(Venetian, bool)> {
     }
 }
 
-/// What the states of a description are states of: of a stack its moving layer, turned as the stack is; of anything else
-/// itself. `None` for a stack in which nothing moves or what moves is not at hand, and for a text that cannot be read.
+/// Returns the system that the states of a description belong to: of a stack its moving layer, rotated as the stack is;
+/// of anything else the system itself. `None` for a stack in which nothing moves or whose moving layer is not
+/// available, and for a text that cannot be read.
 pub fn moving_part(system: &str) -> Option<SystemDescription> {
     let system = system_toml::read(system.as_bytes()).ok()?.system;
     let SystemKind::Stack(layers) = system.kind else { return Some(system) };

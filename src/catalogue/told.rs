@@ -1,8 +1,8 @@
-//! What SQLite says, in one sentence for who keeps the catalogue.
+//! Messages for SQLite's errors, in one sentence for the user of the catalogue.
 
 use rusqlite::{Error, ErrorCode, ffi};
 
-/// What is wrong and what would be right, without SQL.
+/// Returns a message without SQL: what is wrong, and what to do about it.
 pub(super) fn told(error: &Error) -> String {
     let said = said(error);
     match error.sqlite_error_code() {
@@ -32,7 +32,7 @@ pub(super) fn told(error: &Error) -> String {
     }
 }
 
-/// What is offered for damages.
+/// Remedy named in messages about damage.
 pub(super) const REMEDY: &str = "`cfs catalogue check --repair` mends what can be mended, and tells the rest";
 
 fn misplaced(said: &str) -> String {
@@ -43,7 +43,7 @@ fn damaged(said: &str) -> String {
     format!("it is damaged ({said}); {REMEDY}")
 }
 
-/// SQLite's own words, without the statement.
+/// Returns SQLite's own message, without the statement.
 pub(super) fn said(error: &Error) -> String {
     match error {
         Error::SqlInputError { msg, .. } => msg.clone(),
@@ -52,7 +52,7 @@ pub(super) fn said(error: &Error) -> String {
     }
 }
 
-/// Is it the place that refuses, so that reading may still be possible?
+/// Whether the error comes from the place of the file, so that reading may still be possible.
 pub(super) fn of_place(error: &Error) -> bool {
     matches!(
         error.sqlite_error_code(),

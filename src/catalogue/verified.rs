@@ -1,5 +1,5 @@
-//! Verification that what is read from the file is what was stored: datasets by their hash, products by two seals, one of
-//! what results depend on and one of all that is shown.
+//! Verification that what is read from the file is what was stored: datasets by their hash, products by two seals, one
+//! of what results depend on and one of all that is shown.
 
 use super::{CatalogueError, Product};
 use crate::formats::dataset_blob::content_hash;
@@ -8,10 +8,10 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension as _, Row, params_from_iter};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The bytes of a dataset, if they are those that were stored.
+/// Returns the bytes of a dataset, if they are those that were stored.
 ///
 /// # Errors
-/// [`CatalogueError::Damaged`] where they are not, or are gone.
+/// [`CatalogueError::Damaged`] where they are not, or are missing.
 pub(super) fn blob_of(db: &Connection, hash: &str) -> Result<Vec<u8>, CatalogueError> {
     let damaged = |how: &str| CatalogueError::Damaged(format!("dataset {} {how}", short(hash)));
     let found: Option<Vec<u8>> =
@@ -20,12 +20,13 @@ pub(super) fn blob_of(db: &Connection, hash: &str) -> Result<Vec<u8>, CatalogueE
     if content_hash(&blob) == hash { Ok(blob) } else { Err(damaged("is not what was stored")) }
 }
 
-/// So much of a hash as a person compares.
+/// Returns the first 12 digits of a hash, enough for a person to compare.
 pub(super) fn short(hash: &str) -> &str {
     hash.get(..12).unwrap_or(hash)
 }
 
-/// Stands for everything of a product that results hang on beside its datasets. Words about it may change without it.
+/// Returns the seal of a product: a hash of everything that results depend on, except its datasets. Its descriptive
+/// texts may change without changing the seal.
 pub(super) fn seal_of(product: &Product) -> String {
     let mut hash = blake3::Hasher::new();
     let mut text = |text: &str| {
@@ -43,7 +44,7 @@ pub(super) fn seal_of(product: &Product) -> String {
     hash.finalize().to_hex().to_string()
 }
 
-/// Tables with the rows of a product: name, key, the other columns.
+/// Tables with the rows of a product: name, key columns, the other columns.
 const ROWS: [[&str; 3]; 5] = [
     [
         "product",
@@ -61,10 +62,11 @@ const ROWS: [[&str; 3]; 5] = [
     ["tag", "product, tag", "tag"],
 ];
 
-/// What is done with a row on the way: its table, its product, the columns in the order of [`ROWS`], key first.
+/// Callback for each row that is verified: its table, its product, the columns in the order of [`ROWS`], key first.
 pub(super) type Visit<'a> = &'a mut dyn FnMut(&str, i64, &Row<'_>);
 
-/// Returns the stored values of every product by its id, or those of the product `id` only. Each row is shown to `visit`.
+/// Returns the stored values of every product by its id, or those of the product `id` only. Each row is shown to
+/// `visit`.
 fn stored_values(db: &Connection, id: Option<i64>, visit: Visit<'_>) -> rusqlite::Result<BTreeMap<i64, Vec<u8>>> {
     let mut products: BTreeMap<i64, Vec<u8>> = BTreeMap::new();
     for [table, key, columns] in ROWS {

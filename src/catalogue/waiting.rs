@@ -1,4 +1,4 @@
-//! States that are known before their data: which they are, and how data and figures come to them.
+//! States whose data are not computed yet: their list, and storing their data and figures.
 
 use super::described::described_state;
 use super::record::{Packed, Record, figured, light, named_state, packed};
@@ -11,7 +11,7 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{OptionalExtension, Transaction, params};
 use std::sync::Arc;
 
-/// A state of a product.
+/// State of a product, by its keys.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct StateKey {
     /// Key of the product.
@@ -20,13 +20,13 @@ pub struct StateKey {
     pub state: String,
 }
 
-/// What light from outside does, or the little that is known.
+/// Returns the transmission for light from outside, or that for light from inside where only this is known.
 fn transmission(dataset: &Dataset) -> Option<&Btdf> {
     dataset.transmission().or(dataset.visible.transmission_back.as_ref())
 }
 
 impl Catalogue {
-    /// All states whose data are still to be computed, in the order of the catalogue.
+    /// Returns all states whose data are still to be computed, in the order of the catalogue.
     pub fn waiting(&self) -> Result<Vec<StateKey>, CatalogueError> {
         let mut ask = self.db.prepare_cached(
             "SELECT p.key, s.key FROM state s JOIN product p ON p.id = s.product
@@ -36,14 +36,14 @@ impl Catalogue {
         Ok(rows.collect::<Result<_, _>>()?)
     }
 
-    /// How many states of built-in products there are.
+    /// Returns the number of states of built-in products.
     pub fn builtin_states(&self) -> Result<usize, CatalogueError> {
         let sql = "SELECT count(*) FROM state s JOIN product p ON p.id = s.product WHERE p.builtin = 1";
         Ok(self.db.query_row(sql, [], |row| row.get::<_, i64>(0))?.unsigned_abs() as usize)
     }
 
-    /// The state whose data have to be computed before [`Self::dataset`] can give what it is asked for with the same
-    /// arguments; `None` where they are there, and where there is no such state.
+    /// Returns the state whose data have to be computed before [`Self::dataset`] can return its result for the same
+    /// arguments; `None` where they are present, and where there is no such state.
     pub fn to_compute(&self, key: &str, state: Option<&str>) -> Result<Option<String>, CatalogueError> {
         let mut ask = self.db.prepare_cached(
             "SELECT s.key FROM state s JOIN product p ON p.id = s.product
@@ -54,14 +54,14 @@ impl Catalogue {
         Ok(found.filter(|state| self.held(key, state).is_none()))
     }
 
-    /// The data of a state that could be computed and not be kept.
+    /// Returns the data of a state that were computed but could not be stored.
     pub(super) fn held(&self, key: &str, state: &str) -> Option<Arc<Dataset>> {
         let held = self.held.borrow();
         held.iter().find(|(one, _)| *one == [key, state]).map(|(_, dataset)| Arc::clone(dataset))
     }
 
-    /// Stores the data of a built-in product's state as [`Self::put_state`] does. Where nothing can be stored – a read-only
-    /// place, a full disk – they are held as long as the catalogue is open.
+    /// Stores the data of a built-in product's state as [`Self::put_state`] does. Where nothing can be stored – a
+    /// read-only place, a full disk – they are held as long as the catalogue is open.
     pub fn keep_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
         match self.put_state(product, dataset) {
             Err(error) if error.of_place() => {
@@ -76,9 +76,9 @@ impl Catalogue {
         }
     }
 
-    /// Stores the data of a built-in product's state that was waiting for them. Where another program was faster, or has
-    /// put a newer product in its place, everything stays as it is. `product`: as it was when the data were computed from
-    /// its description.
+    /// Stores the data of a built-in product's state that was waiting for them. Where another program was faster, or
+    /// has put a newer product in its place, everything stays as it is. `product`: as it was when the data were
+    /// computed from its description.
     pub fn put_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
         // Packed before the lock is taken, so that other connections do not wait for it.
         let Packed { hash, blob, dataset: read, .. } = packed(dataset)?;
@@ -102,9 +102,9 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Finds out where light goes in states of which it is not known, as those are that older programs stored. Stops when
-    /// nobody waits for it any more; how many states got their figures. Data that cannot be read are passed over: who
-    /// asks for them is told.
+    /// Computes the figures of the transmitted light for states stored by older programs without them. Stops when
+    /// `progress` is cancelled. Returns the number of states that got their figures. Data that cannot be read are
+    /// skipped: reading them later reports the error.
     pub fn fill_figures(&mut self, progress: &dyn Progress) -> Result<usize, CatalogueError> {
         let sql =
             "SELECT p.key, p.system, s.product, s.position, s.key, s.dataset FROM state s JOIN product p ON p.id = s.product
@@ -136,7 +136,7 @@ impl Catalogue {
     }
 }
 
-/// Writes where light goes in a state, which is named by its product's row and its position.
+/// Writes the figures of the transmitted light of a state, which is named by its product's row and its position.
 pub(super) fn set_light(
     tx: &Transaction<'_>,
     [product, position]: [i64; 2],
@@ -147,7 +147,7 @@ pub(super) fn set_light(
     seal_rows(tx, product)
 }
 
-/// Gives a state that waits its dataset and figures; nothing where it does not wait.
+/// Adds dataset and figures to a state that waits for them; does nothing where it does not.
 fn fill(
     tx: &Transaction<'_>,
     product: &Product,
@@ -186,8 +186,8 @@ fn fill(
     seal_rows(tx, place[0])
 }
 
-/// Takes the data of a built-in product that another catalogue has computed, where this one waits for some of them and
-/// those that it holds are the same. False: it is another product, or nothing was missing.
+/// Adopts the data of a built-in product that another catalogue has computed, where this one waits for some of them and
+/// those that it holds are the same. Returns `false` for another product, or if nothing was missing.
 pub(super) fn adopt(tx: &Transaction<'_>, record: &Record) -> Result<bool, CatalogueError> {
     let given = &record.product;
     let held = match read_product(tx, &given.key) {

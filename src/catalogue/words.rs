@@ -1,10 +1,10 @@
 //! Words as the search compares them: without case and marks, German words for what products say in English, and the
 //! distance between a typed word and one that may be meant.
 
-/// Longest word that is compared, in characters.
+/// Maximum length of a word that is compared, in characters.
 pub(super) const LONGEST: usize = 64;
 
-/// German words for kinds and tags: who looks for a "Raffstore" means an exterior venetian blind. A product that has the
+/// German words for kinds and tags: a search for "Raffstore" means an exterior venetian blind. A product that has the
 /// kind or the tag on the left is also found by the words on the right, written without marks.
 const GERMAN: &[(&str, &str)] = &[
     ("venetian", "jalousie jalousien lamelle lamellen lamellenjalousie lamellenstore"),
@@ -52,17 +52,17 @@ const GERMAN: &[(&str, &str)] = &[
     ("ideal", "ideal referenz"),
 ];
 
-/// German words for a kind or a tag; empty without any.
+/// Returns the German words for a kind or a tag; empty without any.
 pub(super) fn german(kind_or_tag: &str) -> &'static str {
     GERMAN.iter().find(|(english, _)| *english == kind_or_tag).map_or("", |(_, words)| words)
 }
 
-/// Runs of letters and digits of a folded text.
+/// Splits a folded text into runs of letters and digits.
 pub(super) fn runs(folded: &str) -> impl Iterator<Item = &str> {
     folded.split(|c: char| !c.is_alphanumeric()).filter(|run| !run.is_empty())
 }
 
-/// Where letters meet digits in a run, its parts; none for a run of one sort.
+/// Splits a run into parts where letters meet digits; empty for a run of letters only or digits only.
 pub(super) fn parts(run: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -81,13 +81,13 @@ pub(super) fn parts(run: &str) -> Vec<&str> {
     parts
 }
 
-/// A word with vowels written out (ae, oe, ue) as marked ones come out of folding (a, o, u); `None` without any.
+/// Returns a word with written-out vowels (ae, oe, ue) as folding gives marked ones (a, o, u); `None` without any.
 pub(super) fn without_written_marks(word: &str) -> Option<String> {
     let plain = word.replace("ae", "a").replace("oe", "o").replace("ue", "u");
     (plain != word).then_some(plain)
 }
 
-/// Typing errors that are forgiven in a word of so many characters. Words with digits are sizes: none.
+/// Returns the number of typing errors that are tolerated in a word of this length. Words with digits are sizes: 0.
 pub(super) fn forgiven(word: &[char]) -> usize {
     match word.len() {
         _ if word.iter().any(char::is_ascii_digit) => 0,
@@ -97,8 +97,8 @@ pub(super) fn forgiven(word: &[char]) -> usize {
     }
 }
 
-/// Fewest typing errors (a letter left out, put in, changed, or two swapped) between a typed word and the beginning of
-/// another; `None` above `most`.
+/// Returns the fewest typing errors (a letter omitted, inserted, changed, or two swapped) between a typed word and the
+/// beginning of another; `None` above `most`.
 pub(super) fn distance(typed: &[char], word: &[char], most: usize) -> Option<usize> {
     let word = &word[..word.len().min(typed.len() + most)];
     let width = word.len() + 1;
@@ -123,7 +123,7 @@ pub(super) fn distance(typed: &[char], word: &[char], most: usize) -> Option<usi
     rows[1].iter().min().copied().filter(|least| *least <= most)
 }
 
-/// Which letters and digits a word has, a bit each: words that differ in many cannot be near each other.
+/// Returns the set of letters and digits of a word, one bit each: words that differ in many cannot be near each other.
 pub(super) fn letters(word: &[char]) -> u64 {
     word.iter().fold(0, |set, letter| set | 1 << (u32::from(*letter) % 61))
 }

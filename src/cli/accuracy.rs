@@ -126,7 +126,7 @@ pub struct AccuracyArgs {
 /// Size of the picture. \[px\]
 const SIZE: [f64; 2] = [1280.0, 560.0];
 
-/// Runs the command.
+/// Runs `cfs accuracy`.
 pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     if args.year {
         return of_year(args, library);
@@ -165,7 +165,7 @@ pub fn run(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     if args.json { print(&format!("{:#}\n", to_json(&accuracy))) } else { print(&table(&accuracy)) }
 }
 
-/// Of the scene's ranking.
+/// Tests the ranking of the scene (`--rank`), and writes or prints the result.
 fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv, false)?;
     let groups = asked(std::slice::from_ref(&args.scene), args.products.as_deref(), library)?;
@@ -177,7 +177,7 @@ fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     accuracy_rank::tell(&accuracy, args.json)
 }
 
-/// Of the scene's year.
+/// Tests the annual simulation of the scene (`--year`), and writes or prints the result.
 fn of_year(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     args.tables.check([&*args.scene], args.csv.as_deref(), FileKind::Csv, false)?;
     let file = read_scene_file(&args.scene)?;
@@ -198,7 +198,7 @@ fn is_png(path: &Path) -> anyhow::Result<bool> {
     }
 }
 
-/// Every rung with its series, and what is to be said of it.
+/// Returns every row with its series, and the reason why its errors are not given, if there is one.
 fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung, Option<String>)> {
     accuracy.series.iter().flat_map(|series| {
         let reference = accuracy.reference(series.quantity);
@@ -206,7 +206,7 @@ fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung, Option<Str
     })
 }
 
-/// The word for where a reference is from.
+/// Returns the origin of a reference in words: the name of the file, or the finest run.
 fn against(reference: Option<&Reference>) -> &str {
     match reference.map(|reference| &reference.origin) {
         Some(Origin::Given(name)) => name,
@@ -235,7 +235,7 @@ fn csv(accuracy: &Accuracy) -> anyhow::Result<String> {
     ])?;
     for (series, rung, remark) in rows(accuracy) {
         let coverage = rung.coverage();
-        // What the reference cannot tell stays empty.
+        // Errors that the reference cannot give stay empty.
         let told = |value: f64| if remark.is_none() { number(value) } else { String::new() };
         writer.write_record([
             series.method.to_owned(),
@@ -258,7 +258,7 @@ fn csv(accuracy: &Accuracy) -> anyhow::Result<String> {
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
-/// Seconds in a unit that leaves three digits.
+/// Formats a time, given in seconds, in µs, ms or s, with three digits up to 100 of the unit.
 fn time(seconds: f64) -> String {
     let (scale, unit) = match seconds {
         s if s < 1e-3 => (1e6, "µs"),
@@ -347,7 +347,8 @@ fn table(accuracy: &Accuracy) -> String {
     text
 }
 
-/// By direction what every scheme misplaces, and which would have been better than responses.
+/// Returns the prediction errors of one system as JSON: for each direction left out, the share that every scheme
+/// misplaces, and the scheme that would have been better than responses, if any.
 fn left_out(one: &LeavingOut) -> serde_json::Value {
     let by_scheme = |error: &dyn Fn(SunScheme) -> f64| -> serde_json::Map<String, serde_json::Value> {
         SunScheme::ALL.into_iter().map(|scheme| (scheme.key().to_owned(), json!(error(scheme)))).collect()

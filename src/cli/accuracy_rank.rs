@@ -5,12 +5,12 @@ use crate::study::accuracy::ranking::{Effort, RankAccuracy, RankRung};
 use serde_json::json;
 use std::fmt::Write as _;
 
-/// Prints it, as a table or for programs.
+/// Prints error and run time of a ranking, as a table or as JSON.
 pub(super) fn tell(accuracy: &RankAccuracy, as_json: bool) -> anyhow::Result<()> {
     if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
 }
 
-/// The effort of a ranking in words.
+/// Returns the effort of a ranking in words.
 fn setting(rung: &RankRung) -> String {
     match rung.effort {
         Effort::Cells => "data on their cells".to_owned(),
@@ -19,7 +19,7 @@ fn setting(rung: &RankRung) -> String {
     }
 }
 
-/// One line a ranking.
+/// Returns a CSV table with one row per ranking.
 pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     writer.write_record([
@@ -37,7 +37,7 @@ pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
         "pairs_reversed",
     ])?;
     for rung in &accuracy.rungs {
-        // The finest has nothing to be measured by.
+        // The finest ranking has no reference.
         let coverage = rung.coverage();
         let told = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
         let pairs = rung.pairs;

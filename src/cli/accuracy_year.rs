@@ -6,17 +6,18 @@ use crate::study::accuracy::words::percent;
 use serde_json::json;
 use std::fmt::Write as _;
 
-/// Prints it, as a table or for programs.
+/// Prints error and run time of a year, as a table or as JSON.
 pub(super) fn tell(accuracy: &YearAccuracy, as_json: bool) -> anyhow::Result<()> {
     if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
 }
 
-/// The effort of a year in words.
+/// Returns the effort of a year in words.
 fn setting(rung: &YearRung) -> String {
     rung.target.map_or_else(|| "as the scene has it".to_owned(), |target| format!("error target {} %", 100.0 * target))
 }
 
-/// One line a year; figures as a column each of value, stated error and distance.
+/// Returns a CSV table with one row per year. Every figure has three columns: value, stated uncertainty, and difference
+/// from the finest year.
 pub(super) fn csv(accuracy: &YearAccuracy) -> anyhow::Result<String> {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     let figures = accuracy.rungs.first().map_or(&[][..], |rung| &rung.figures);
@@ -25,7 +26,7 @@ pub(super) fn csv(accuracy: &YearAccuracy) -> anyhow::Result<String> {
         ["setting", "seconds", "stated_mean", "error_rms", "error_max", "values", "share_held", "share_padded_10"];
     writer.write_record(head.map(str::to_owned).into_iter().chain(names))?;
     for rung in &accuracy.rungs {
-        // The finest has nothing to be measured by.
+        // The finest year has no reference.
         let coverage = rung.coverage();
         let told = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
         let own = [

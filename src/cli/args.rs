@@ -8,7 +8,7 @@ use super::{
 use clap::CommandFactory as _;
 use std::path::{Path, PathBuf};
 
-/// Part of the help below the options.
+/// Text of `cfs --help` below the options: examples, streams and exit status.
 const EXAMPLES: &str = "\
 Without a command the window opens.
 
@@ -58,25 +58,25 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// The files that the window is to open, by their full paths.
+    /// Returns the full paths of the files that the window opens.
     ///
     /// # Errors
-    /// A word that is neither a command nor a file, with the command that may be meant.
+    /// Returns an error for a word that is neither a command nor a file; it names the command that may be meant.
     pub fn to_open(&self) -> anyhow::Result<Vec<PathBuf>> {
         let one = |path: &PathBuf| {
             if !path.exists() {
                 return Err(not_there(path));
             }
-            // Where the program was started is no place to read a scene's relative paths from later.
+            // Full paths, so that a scene's relative paths do not depend on the folder where the program was started.
             std::path::absolute(path).map_err(|error| anyhow::anyhow!("{}: {error}", path.display()))
         };
         self.open.iter().chain(&self.files).map(one).collect()
     }
 
-    /// A command takes its own files.
+    /// Refuses files for the window beside a command, which takes its own files.
     ///
     /// # Errors
-    /// Files for the window that were named before a command.
+    /// Returns an error if files for the window were named before a command.
     pub fn no_files(&self) -> anyhow::Result<()> {
         match self.open.iter().chain(&self.files).next() {
             Some(file) => Err(anyhow::anyhow!(
@@ -88,7 +88,7 @@ impl Arguments {
     }
 }
 
-/// Why a word cannot be opened.
+/// Returns the error for a word that cannot be opened, with the command that may be meant or what is expected.
 fn not_there(path: &Path) -> anyhow::Error {
     let text = path.display().to_string();
     let plain = !text.contains(['/', '\\', '.']);
@@ -108,7 +108,7 @@ fn not_there(path: &Path) -> anyhow::Error {
     }
 }
 
-/// How many letters have to be put in, left out or replaced to get from one word to another.
+/// Returns the number of letters to insert, delete or replace to turn one word into the other (Levenshtein distance).
 fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

@@ -1,4 +1,4 @@
-//! Built-in products on the command line: their figures are known at once, their data computed when they are asked for.
+//! Built-in products on the command line: their figures are known at once, their data are computed on demand.
 
 use super::output;
 use super::progress::TerminalProgress;
@@ -35,7 +35,8 @@ pub struct BuildArgs {
     pub json: bool,
 }
 
-/// Computes those wanted of the built-in products' data that the catalogue does not hold yet; how many states.
+/// Computes the data of built-in products that `wanted` selects and the catalogue does not hold yet. Returns the number
+/// of computed states.
 fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> anyhow::Result<usize> {
     let waiting = catalogue.waiting()?.iter().filter(|one| wanted(one)).count();
     if waiting == 0 {
@@ -46,12 +47,13 @@ fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> an
     Ok(complete(catalogue, wanted, &Library::default(), &TerminalProgress::new())?)
 }
 
-/// The data of products that are about to be used.
+/// Computes the missing data of built-in products that are about to be used.
 pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Result<()> {
     provided(catalogue, |one| keys.contains(&one.product)).map(|_| ())
 }
 
-/// Computes what is missing of all built-in products, and writes them where asked.
+/// Computes the missing data of all built-in products, and writes them to a package, their figures to a table, if
+/// requested.
 pub(super) fn build(catalogue: &mut Catalogue, args: &BuildArgs) -> anyhow::Result<()> {
     args.tables.over.check([], args.out.as_deref(), FileKind::Package)?;
     args.tables.check([], args.table.as_deref(), FileKind::Csv, false)?;

@@ -120,12 +120,12 @@ pub struct ExportArgs {
     pub over: Over,
 }
 
-/// Does what the arguments say with the catalogue of a file, or with the user's own.
+/// Runs a subcommand of `cfs catalogue` on the given catalogue file, or on the user's default catalogue.
 ///
 /// # Errors
-/// One line that names the product or the file. `validate` fails when anything is not fit for use.
+/// Returns an error of one line that names the product or the file; `validate` also if any data are not fit for use.
 pub fn run(args: &CatalogueArgs, catalogue: Option<&Path>) -> anyhow::Result<()> {
-    // Not opened for packages, which need none.
+    // A closure: commands on packages need no catalogue.
     let open = || catalogue.map_or_else(Catalogue::open_default, Catalogue::open);
     match &args.action {
         Action::Build(args) => build(&mut open()?, args),

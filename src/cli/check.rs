@@ -1,4 +1,4 @@
-//! `cfs catalogue check`: is the catalogue what was stored in it?
+//! `cfs catalogue check`: verification that the catalogue holds what was stored in it, and its repair.
 
 use super::output::{print, print_text};
 use crate::catalogue::{Damage, Health, Place, check_file, default_path};
@@ -28,7 +28,7 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
-/// A catalogue with damages; the program ends with status 1, unlike for one that it cannot read.
+/// Error of a catalogue with damages. The program exits with status 1, unlike for a catalogue that it cannot read.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {count} {}{}", if *.count == 1 { "damage" } else { "damages" }, if *.repair { "; `cfs catalogue check --repair` mends what can be made anew" } else { " that cannot be mended" })]
 pub struct Damaged {
@@ -37,10 +37,10 @@ pub struct Damaged {
     repair: bool,
 }
 
-/// Looks at the file, mends where asked, and tells.
+/// Verifies the catalogue file, repairs it if requested, and prints the result.
 ///
 /// # Errors
-/// A file that cannot be read; [`Damaged`] for one with damages that stay.
+/// Returns an error if the file cannot be read, and [`Damaged`] if damages remain.
 pub(super) fn check(catalogue: Option<&Path>, args: &CheckArgs) -> anyhow::Result<()> {
     let path = catalogue.map_or_else(default_path, |path| Ok(path.to_owned()))?;
     let health = check_file(&path)?;
@@ -57,7 +57,7 @@ pub(super) fn check(catalogue: Option<&Path>, args: &CheckArgs) -> anyhow::Resul
     Ok(())
 }
 
-/// What becomes of a damage.
+/// Returns in words whether, and from what, a damage can be repaired.
 const fn outlook(damage: &Damage) -> &'static str {
     match &damage.place {
         Place::Layout => "can be mended",

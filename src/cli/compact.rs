@@ -1,4 +1,4 @@
-//! `cfs compact`: what the compact form of a dataset saves and costs, and the dataset in that form.
+//! `cfs compact`: size and error of the compact form of a dataset, and the dataset in that form.
 
 use crate::cli::writing::Over;
 use crate::cli::{dataset_file, output};
@@ -62,7 +62,7 @@ pub struct CompactArgs {
     pub over: Over,
 }
 
-/// The criterion that a threshold's text means.
+/// Returns the criterion for the text of `--threshold`: a percentage, `archive` or `normal`.
 pub(super) fn criterion(by: By, threshold: &str) -> anyhow::Result<Criterion> {
     let made = match (by, threshold) {
         (By::Misplaced, "archive") => Criterion::ARCHIVE,
@@ -86,10 +86,10 @@ pub(super) fn criterion(by: By, threshold: &str) -> anyhow::Result<Criterion> {
     Ok(made)
 }
 
-/// Reads, compresses, prints, writes.
+/// Runs `cfs compact`: reads datasets, compacts them, and prints and writes the result.
 ///
 /// # Errors
-/// Input that cannot be read, a threshold out of range, data that have no compact form.
+/// Returns an error if the input cannot be read, the threshold is out of range, or the data have no compact form.
 pub fn run(args: &CompactArgs) -> anyhow::Result<()> {
     let by_default = if args.by == By::Misplaced { "archive" } else { "1" };
     let criterion = criterion(args.by, args.threshold.as_deref().unwrap_or(by_default))?;

@@ -59,15 +59,15 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
-/// Something that is compared.
+/// Candidate of a comparison.
 enum One {
-    /// A scene, and where its relative paths start.
+    /// Scene, and the folder that its relative paths start from.
     Scene(Box<SceneFile>, PathBuf),
-    /// A product's data alone.
+    /// Product, of which the data alone are compared.
     Data(SystemKeys),
 }
 
-/// Runs the command.
+/// Runs `cfs compare`.
 pub fn run(args: &CompareArgs, library: &Library) -> anyhow::Result<()> {
     let kind = match (args.json, args.csv) {
         (true, _) => FileKind::Json,
@@ -136,7 +136,7 @@ fn read(path: &Path) -> anyhow::Result<(SceneFile, PathBuf)> {
     Ok((read_scene_file(path)?, files::folder(path).to_owned()))
 }
 
-/// A product by KEY or KEY:STATE: its name, and as what fills an aperture.
+/// Returns a product given as KEY or KEY:STATE: its name, and the keys of a scene that fill an aperture with it.
 fn product(what: &str, library: &Library) -> anyhow::Result<(String, SystemKeys)> {
     let (key, state) = what.split_once(':').map_or((what, None), |(key, state)| (key, Some(state)));
     let known = library

@@ -1,4 +1,4 @@
-//! `cfs control SCENE`: the states that controls pick over a year, as a table for other programs.
+//! `cfs control SCENE`: states that shading controls choose over a year, as a table for other programs.
 
 use super::output::print;
 use super::progress::TerminalProgress;
@@ -50,7 +50,7 @@ pub struct ControlArgs {
     pub json: bool,
 }
 
-/// Runs the command; errors name the file and the key.
+/// Runs `cfs control`; errors name the file and the key.
 pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
     args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;

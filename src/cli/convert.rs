@@ -1,4 +1,4 @@
-//! `cfs convert`: between the dataset formats that the program reads and writes.
+//! `cfs convert`: conversion between the dataset formats that the program reads and writes.
 
 use crate::cli::dataset_file;
 use crate::cli::writing::{Over, StreamFormat};
@@ -62,7 +62,7 @@ pub enum TreeChoice {
     Klems,
 }
 
-/// BSDF XML in the form that was asked for.
+/// Returns a dataset as BSDF XML in the chosen form.
 fn in_form(dataset: &Dataset, choice: TreeChoice, args: &ConvertArgs) -> Result<Written, FormatError> {
     let rank = match choice {
         TreeChoice::Four => TreeRank::Four,
@@ -79,11 +79,11 @@ fn component(word: &str) -> Result<Component, String> {
     })
 }
 
-/// Reads, converts, writes.
+/// Runs `cfs convert`: reads a dataset and writes it in another format.
 ///
 /// # Errors
-/// Input that cannot be read, a state that is not there, an output format that is unknown or cannot hold the data.
-/// Nothing is left behind then.
+/// Returns an error if the input cannot be read, the state does not exist, or the output format is unknown or cannot
+/// hold the data. No output is left behind then.
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let out_name = args.output.to_string_lossy();
     // Before the input is read: that may take seconds, a wrong extension is known at once.

@@ -1,23 +1,23 @@
-//! A panic of the program, as scripts see it: one sentence, a report, and a status of its own.
+//! Panics of the program, as scripts see them: one sentence, a report, and a separate exit status.
 
 use crate::study::fault::{self, Fault, Report, without_folders};
 use crate::study::files;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-/// Largest scene or description that a report repeats. \[bytes\]
+/// Maximum size of a scene or description that a report repeats. \[bytes\]
 const LARGEST: u64 = 1 << 16;
 
-/// The program stopped at a fault of its own; the sentence that says so.
+/// Internal error that stopped the program, as the sentence that reports it.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Stopped(String);
 
-/// Does the program's work. A panic in it, in whichever thread, becomes an error: what was being written goes, as with any
-/// error, and a report is left. `reports`: where, if there is a place.
+/// Runs `work`, and turns a panic in it, in any thread, into an error. Files that were being written are removed, as
+/// after any error, and a report is written to the folder `reports`, if there is one.
 ///
 /// # Errors
-/// Those of the work, or [`Stopped`].
+/// Returns the error of `work`, or [`Stopped`] after a panic.
 pub fn guarded(reports: Option<&Path>, work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<()> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| {
         let fault = fault::caught(&*panic);
@@ -25,7 +25,8 @@ pub fn guarded(reports: Option<&Path>, work: impl FnOnce() -> anyhow::Result<()>
     })
 }
 
-/// The report on a fault, as a clause: what was written already – by a window, which knows more –, else a new one.
+/// Returns a clause that names the report on a fault: the one that the window, which knows more, has already written,
+/// else a new one.
 fn left(fault: &Fault, reports: Option<&Path>) -> String {
     if let Some(report) = &fault.report {
         return format!(
@@ -44,7 +45,7 @@ fn left(fault: &Fault, reports: Option<&Path>) -> String {
     }
 }
 
-/// The scenes and descriptions that were read.
+/// Returns name and text of the scenes and descriptions that were read, without those above `LARGEST`.
 fn inputs() -> Vec<(String, String)> {
     let small = |path: &Path| std::fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() <= LARGEST);
     let texts = files::inputs()
@@ -53,7 +54,7 @@ fn inputs() -> Vec<(String, String)> {
     texts
         .filter_map(|path| {
             let name = path.file_name()?.to_string_lossy().into_owned();
-            // Bytes that are no text have been the fault's own, perhaps.
+            // Bytes that are not text may be the cause of the fault.
             Some((name, String::from_utf8_lossy(&std::fs::read(&path).ok()?).into_owned()))
         })
         .collect()

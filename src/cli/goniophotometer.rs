@@ -104,21 +104,21 @@ impl GoniophotometerArgs {
     }
 }
 
-/// Most values of all functions and states of a run, which are held until all are written: 4 GB.
+/// Maximum number of values of all functions and states of a run, which are held until all are written: 4 GB.
 const MOST_VALUES: f64 = 5e8;
 
-/// Where results go: a format of single states, or the package.
+/// Destination of the results: files of single states, or a package.
 enum Target<'a> {
     None,
     States(&'a Path, Format),
     Package(&'a Path),
 }
 
-/// Reads, computes, writes, prints.
+/// Runs `cfs goniophotometer`: reads a description, computes its states, writes them and prints a summary.
 ///
 /// # Errors
-/// A description that cannot be read or computed, a state that is not there, an unknown format. Finished states of an
-/// interrupted run are kept beside the output and taken up by the next run; nothing else is left behind.
+/// Returns an error if the description cannot be read or computed, the state does not exist, or the format is unknown.
+/// Finished states of an interrupted run are kept beside the output and reused by the next run; nothing else is left.
 pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.system.display().to_string();
     let request = args.request()?;
@@ -177,21 +177,21 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
         PathBuf::from(folder)
     });
     if let (Some(folder), true) = (&keep, states.len() > 1) {
-        // Without it an interrupted run starts anew, no more.
+        // Without the folder, an interrupted run starts from scratch, no more.
         drop(std::fs::create_dir_all(folder));
     }
     let kept = keep.as_deref().filter(|_| states.len() > 1);
     let told = results(args, library, &target, &described, &request, &states, kept);
-    // What is refused would be refused again; where the files alone could not be written, the next run goes on.
+    // A refused description would be refused again; if only the files could not be written, the next run resumes.
     let is_resumable = told.as_ref().is_err_and(|error| error.is::<StudyError>());
     if let Some(folder) = keep.filter(|_| !is_resumable) {
-        // What is left of a folder of kept states costs nothing but room.
+        // A folder of kept states that cannot be removed costs disk space only.
         drop(std::fs::remove_dir_all(folder));
     }
     output::print(&told?)
 }
 
-/// Computes the states and writes them; returns the summary.
+/// Computes the states, writes them, and returns the summary.
 fn results(
     args: &GoniophotometerArgs,
     library: &Library,
@@ -272,7 +272,7 @@ fn write_results(
     }
 }
 
-/// Text files hold the cells that were asked for, also of what is known at every angle.
+/// Converts functions that are known at every angle to values on the requested cells, which text files hold.
 fn on_cells(dataset: &mut Dataset, request: &Request) {
     for component in dataset.visible.components() {
         let Some(btdf) = dataset.visible.get(component) else { continue };
@@ -289,7 +289,7 @@ fn path_of_state(path: &Path, state: &str, several: bool) -> PathBuf {
     if several { path_with(path, state) } else { path.to_owned() }
 }
 
-/// Returns the file of a function: that of the transmission has the name of its state alone.
+/// Returns the file of a function: the state's file for the front transmission, else with the function in its name.
 fn path_of_component(path: &Path, component: Component) -> PathBuf {
     match component {
         Component::TransmissionFront => path.to_owned(),
@@ -297,7 +297,7 @@ fn path_of_component(path: &Path, component: Component) -> PathBuf {
     }
 }
 
-/// Makes `blind_45.xml` of `blind.xml` and `45`. A name need not be UTF-8; the extension of a format is.
+/// Returns `blind_45.xml` for `blind.xml` and `45`. A name need not be UTF-8; the extension of a format is.
 fn path_with(path: &Path, word: &str) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let extension = &name[Format::stem(&name).len()..];
@@ -310,7 +310,7 @@ fn path_with(path: &Path, word: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// The files of one state, with what is to be told of them.
+/// Returns the files of one state, with their paths, bytes and findings.
 fn written_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<Vec<(PathBuf, Written)>> {
     let told = |error| anyhow!("{}: {error}", path.display());
     match format {
@@ -355,7 +355,7 @@ fn to_json(one: &Computed) -> Value {
     })
 }
 
-/// Transmission in the solar band where it was computed.
+/// Returns the front transmission in the solar band, if it was computed.
 fn solar_of(dataset: &Dataset) -> Option<&Btdf> {
     dataset.transmission_of(BandName::Solar).filter(|_| dataset.solar.is_some())
 }

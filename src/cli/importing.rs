@@ -81,7 +81,8 @@ pub enum Compactness {
     Lossless,
 }
 
-/// What was asked for beside what the files say; a product without a name takes the first file's, which is told.
+/// Returns a product with the name, maker, kind and tags of the arguments, else those of its files. A product without a
+/// name gets that of its first file, with a note.
 fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     let meta = &mut product.meta;
     let over = |told: &mut String, asked: &String| {
@@ -100,7 +101,7 @@ fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     product
 }
 
-/// A dataset in the form that the catalogue is to keep.
+/// Returns a dataset in the form in which the catalogue stores it.
 fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
     let storage = match args.compact {
         None => return Ok(stored_by_default(dataset)),
@@ -111,7 +112,8 @@ fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
     stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
 }
 
-/// Says what was not taken, and what is not certain.
+/// Prints on standard error which files are skipped, cannot be read, or hold the same data. Returns an error for a file
+/// that holds no product, such as a scene.
 fn tell(taken: &Taken) -> anyhow::Result<()> {
     if let Some((single, path)) = taken.singles.first() {
         bail!(
@@ -135,7 +137,7 @@ fn tell(taken: &Taken) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Adds what files, folders and archives hold, in one step.
+/// Adds the products of files, folders and archives to the catalogue, in one step, and prints their keys.
 pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     // Everything is read before anything is stored.
     let taken = take_in(&args.files, SourceFile::read, &Silent);

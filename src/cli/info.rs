@@ -74,7 +74,7 @@ pub fn run(args: &InfoArgs, library: &Library) -> anyhow::Result<()> {
     failed.map_or(Ok(()), Err)
 }
 
-/// Reads one file by the kind that its name or its bytes tell, and describes it.
+/// Reads one file, of the kind that its name or its bytes show, and describes it.
 fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Content> {
     if let Some(content) = luminaire_info::describe(file, as_json)? {
         return Ok(content);
@@ -93,7 +93,7 @@ fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Con
     })
 }
 
-/// What is said of each dataset, found once for those that are alike: one file may be named by many states.
+/// Returns the description of each dataset by `say`, called once for equal datasets: many states may name one file.
 fn once_each<T: Clone>(datasets: &[Dataset], say: impl Fn(&Dataset, &[Diagnosis]) -> T) -> Vec<T> {
     let mut said: Vec<(&Dataset, T)> = Vec::new();
     let mut said_of = |(dataset, found): (_, Vec<Diagnosis>)| match said.iter().find(|(other, _)| *other == dataset) {
@@ -107,7 +107,7 @@ fn once_each<T: Clone>(datasets: &[Dataset], say: impl Fn(&Dataset, &[Diagnosis]
     datasets.iter().zip(examine_all(datasets)).map(&mut said_of).collect()
 }
 
-/// Keys as the contract of the scene file's page lists them.
+/// Returns a dataset as JSON, with the keys that the documentation of the scene file lists.
 fn to_json(dataset: &Dataset, all: &[Dataset], found: &[Diagnosis]) -> Value {
     let key = |component: &Component| Value::from(component.key());
     let transmission = dataset.transmission();
@@ -117,9 +117,9 @@ fn to_json(dataset: &Dataset, all: &[Dataset], found: &[Diagnosis]) -> Value {
     object.insert("manufacturer".into(), dataset.manufacturer.clone().into());
     object.insert("description".into(), dataset.description.clone().into());
     object.insert("state".into(), dataset.state.clone().into());
-    // What a file does not tell is null and not left out: who reads this need not ask for keys first.
+    // A value that a file does not state is null and not left out, so that readers need not test for keys.
     object.insert("thickness_m".into(), dataset.thickness.into());
-    // Few files know any of this; without, the object is left out, since its own keys vary anyway.
+    // Few files state thermal data; without any, the object is left out, since its keys vary anyway.
     if !dataset.thermal.is_empty() {
         object.insert("thermal".into(), thermal_json(&dataset.thermal));
     }
@@ -132,9 +132,9 @@ fn to_json(dataset: &Dataset, all: &[Dataset], found: &[Diagnosis]) -> Value {
         all.iter().map(|one| one.state.clone()).filter(|key| !key.is_empty()).collect::<Vec<_>>().into(),
     );
     object.insert("components".into(), dataset.visible.components().iter().map(key).collect::<Vec<_>>().into());
-    // From other components by reciprocity: who wants measured values alone must see which these are.
+    // Derived from other components by reciprocity: marked for readers who want measured values alone.
     object.insert("derived".into(), dataset.derived.iter().map(key).collect::<Vec<_>>().into());
-    // Beams are known by direction, computed anew from the description.
+    // Beams are known for every direction, computed from the description when needed.
     object.insert("described".into(), dataset.described.is_some().into());
     object.insert("solar".into(), dataset.solar.is_some().into());
     let solar = dataset.transmission_of(BandName::Solar).filter(|_| dataset.solar.is_some());
@@ -151,7 +151,7 @@ fn to_json(dataset: &Dataset, all: &[Dataset], found: &[Diagnosis]) -> Value {
     Value::Object(object)
 }
 
-/// Thermal data as far as the source tells them, keys with their units.
+/// Returns the thermal data that the source states as JSON, with units in the keys.
 fn thermal_json(thermal: &Thermal) -> Value {
     let mut object: Map<String, Value> =
         thermal.known().map(|(key, value)| (key.json().to_owned(), value.into())).collect();
@@ -161,8 +161,8 @@ fn thermal_json(thermal: &Thermal) -> Value {
     Value::Object(object)
 }
 
-/// What was found, what it means, and the repair that `cfs repair` would make (null: none is offered);
-/// `sure`: it is beyond doubt, so that `auto` makes it.
+/// Returns a finding as JSON: what was found, its meaning, and the repair that it proposes for `cfs repair` (null:
+/// none). `sure`: whether the repair is certain, so that `auto` makes it.
 pub(super) fn finding_json(one: &Diagnosis) -> Value {
     json!({
         "severity": one.finding.severity.word(), "code": one.finding.code, "message": one.finding.message,
@@ -177,8 +177,8 @@ fn hemispherical(dataset: &Dataset) -> Value {
     Value::Object(pairs.collect())
 }
 
-/// τ of every incident cell in the basis's own order, angles at its centre, azimuth in the basis's own counting; of
-/// every direction of a list, in its order, angles as the façade frame counts them.
+/// Returns τ of every incident direction as JSON. Cells of a basis are in its order, with the angles of their centres
+/// and the azimuth as the basis counts it; directions of a list are in its order, with the angles of the façade frame.
 fn tau_dir_hem(btdf: &Btdf) -> Value {
     if let Some(Scattered::Directions(data)) = &btdf.scattered {
         let rows = data.incident().iter().map(|direction| {
@@ -202,12 +202,12 @@ fn tau_dir_hem(btdf: &Btdf) -> Value {
     rows.collect::<Vec<_>>().into()
 }
 
-/// Degrees without the noise of the way through radians.
+/// Rounds an angle to 1e-9°, which removes the rounding errors of the conversion from radians.
 fn tidy(degrees: f64) -> f64 {
     (degrees * 1e9).round() / 1e9
 }
 
-/// Only between blocks that the file itself holds.
+/// Returns the reciprocity error between the transmissions of both sides; `None` unless the file itself holds them.
 fn reciprocity(dataset: &Dataset) -> Option<f64> {
     if !dataset.derived.is_empty() {
         return None;
@@ -236,7 +236,7 @@ fn resolution(btdf: &Btdf) -> String {
     }
 }
 
-/// What stands for solar properties, and what they let through.
+/// Returns the source of the solar properties and the solar transmittances in words.
 fn solar(dataset: &Dataset) -> String {
     let source = dataset.solar_source();
     match dataset.transmission_of(BandName::Solar) {
@@ -283,7 +283,7 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     });
     line("Visible", &components.collect::<Vec<_>>().join(", "));
     line("Solar", &solar(dataset));
-    // Others have them as their cells or their regular part say.
+    // Other datasets have beams as their cells or their regular part state them.
     let beams = dataset.described.as_ref().map(|_| "by direction, computed anew from the description");
     line("Beams", beams.unwrap_or_default());
     if let Some(transmission) = dataset.transmission() {
@@ -319,7 +319,7 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     text
 }
 
-/// τ at 0, 30 and 60° from four sides, façade frame.
+/// Returns a table of τ at 0, 30 and 60° incidence from four sides, in the façade frame.
 fn tau_table(btdf: &Btdf) -> String {
     let mut text = String::from("τ, light from            right      above      left       below\n");
     for theta in [0.0_f64, 30.0, 60.0] {

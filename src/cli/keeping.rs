@@ -79,7 +79,7 @@ pub struct HistoryArgs {
     pub json: bool,
 }
 
-/// What happened to a product, the last first.
+/// Prints the changes of a product, newest first.
 pub(super) fn history(catalogue: &Catalogue, args: &HistoryArgs) -> anyhow::Result<()> {
     let list = catalogue.history(&args.key)?;
     if args.json {
@@ -93,7 +93,7 @@ pub(super) fn history(catalogue: &Catalogue, args: &HistoryArgs) -> anyhow::Resu
     print_text(&text)
 }
 
-/// Gives a product other words; those that are not named stay.
+/// Changes name, maker, kind, tags or licence of a product; those that are not specified stay.
 pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Result<()> {
     let product = catalogue.product(&args.key)?;
     let words = [&args.name, &args.manufacturer, &args.kind, &args.license];
@@ -111,11 +111,11 @@ pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Re
     Ok(catalogue.describe(&args.key, &words)?)
 }
 
-/// Takes products out of sight, or out for good: all, or none where one cannot be.
+/// Deletes products, restorably or permanently: all of them, or none if one cannot be deleted.
 pub(super) fn delete(catalogue: &mut Catalogue, args: &DeleteArgs) -> anyhow::Result<()> {
     let mut done: Vec<&String> = Vec::new();
     for key in &args.keys {
-        // What would be refused is found before anything is gone; what is damaged may go.
+        // Refusals are found before anything is deleted; damaged products may be deleted.
         match catalogue.product(key) {
             Ok(_) | Err(CatalogueError::Damaged(_)) => {}
             Err(error) => return Err(error.into()),
@@ -136,7 +136,7 @@ pub(super) fn delete(catalogue: &mut Catalogue, args: &DeleteArgs) -> anyhow::Re
     Ok(())
 }
 
-/// Brings products back into sight, or lists those that are out of it.
+/// Restores deleted products, or lists them if no key is specified.
 pub(super) fn restore(catalogue: &mut Catalogue, args: &RestoreArgs) -> anyhow::Result<()> {
     for key in &args.keys {
         catalogue.restore_product(key)?;

@@ -1,9 +1,9 @@
-//! `--language` of what is handed on; everything else that the command line says is English.
+//! Language of exported pictures and reports (`--language`); all other output of the command line is English.
 
 use crate::texts::Language;
 use std::str::FromStr;
 
-/// The language of a picture or report.
+/// Language of a picture or report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReportLanguage(pub Language);
 

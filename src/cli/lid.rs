@@ -115,9 +115,9 @@ pub enum AimArg {
     Down,
 }
 
-/// Runs the command.
+/// Runs `cfs lid`.
 ///
-/// Options are checked before anything is computed; either all files appear whole or none.
+/// Options are checked before anything is computed; either all files are written or none.
 pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
     let wish = wish(args)?;
     let path = &args.scene;
@@ -182,7 +182,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
     }
 }
 
-/// What has appeared so far.
+/// Files that were written so far.
 struct Written {
     over: Over,
     kind: FileKind,
@@ -202,7 +202,7 @@ impl Written {
         Ok(())
     }
 
-    /// Takes what is new away again. What cannot be taken away stays: the error that led here is the one to tell.
+    /// Removes the files that are new. Files that cannot be removed stay: the earlier error is the one to report.
     fn undo(self) {
         for path in self.new {
             drop(std::fs::remove_file(path));
@@ -210,12 +210,12 @@ impl Written {
     }
 }
 
-/// A file alone needs none.
+/// Returns whether the files need an index, which a single file does not.
 fn needs_index(wish: &Wish, members: &[Member]) -> bool {
     wish.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty())
 }
 
-/// Makes and writes all members of a series, or the scene alone; a summary of each.
+/// Computes and writes all members of a series, or the scene alone. Returns a summary of each.
 fn all(
     args: &LidArgs,
     wish: &Wish,
@@ -248,7 +248,7 @@ fn all(
             SetError::Study(error) => anyhow::Error::from(error).context(about()),
             SetError::File(error) => anyhow::Error::from(error).context(args.out.display().to_string()),
         })?;
-        // A file alone has the name that was asked for, which need not be UTF-8.
+        // A single file has the name of `--out`, which need not be UTF-8.
         let named = needs_index(wish, members);
         let target = |file: &TileFile| {
             if named { args.out.with_file_name(&file.row.file) } else { args.out.clone() }
@@ -277,7 +277,7 @@ fn all(
     Ok(summaries)
 }
 
-/// What is asked for.
+/// Returns the luminaire options of the arguments.
 fn wish(args: &LidArgs) -> Result<Wish> {
     let edition = match args.edition {
         EditionArg::Y2002 => IesEdition::Lm63_2002,
@@ -301,7 +301,7 @@ fn wish(args: &LidArgs) -> Result<Wish> {
     Ok(Wish { format, aim, step, tiles: args.tiles, without_beam: args.without_beam })
 }
 
-/// Name of a file beside `out`, by a member's tag and a tile's number.
+/// Returns the name of a file beside `out`, with the tag of a member of a series and the number of a tile.
 fn file_name(out: &Path, tag: &str, tile: Option<usize>) -> String {
     let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let tag = if tag.is_empty() { String::new() } else { format!("_{tag}") };
@@ -321,7 +321,7 @@ mod tests {
         lid: LidArgs,
     }
 
-    /// A diffusing aperture of 2 m x 1 m in the façade or the roof; its flux. \[lm\]
+    /// Writes a scene with a diffusing aperture of 2 m x 1 m in the façade or the roof. Returns its flux. \[lm\]
     fn scene(folder: &Path, surface: &str) -> f64 {
         let text = format!(
             "[room]\nwidth = 4.0\ndepth = 6.0\nheight = 3.0\nreflectance = {{ floor = 0, walls = 0, ceiling = 0 }}\n\

@@ -1,11 +1,12 @@
-//! What `cfs lid` says about the luminaires it has made.
+//! Summary of the luminaires that `cfs lid` has made, as JSON and in sentences.
 
 use crate::compute::lid::c_gamma::Aim;
 use crate::study::luminaire_series::Member;
 use crate::study::luminaire_set::LuminaireSet;
 use std::path::Path;
 
-/// Figures of the luminaires of an aperture, numbered from 1, as JSON; `out` is the file that was asked for.
+/// Returns the figures of the luminaires of an aperture as JSON. Apertures are numbered from 1; `out` is the path of
+/// `--out`.
 pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Member) -> serde_json::Value {
     serde_json::json!({
         "out": out.to_string_lossy(),
@@ -17,7 +18,7 @@ pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Me
         "scaled_by": set.scaled_by,
         "step_deg": set.step.degrees(),
         "aim": match set.aim { Aim::Mounted => "mounted", Aim::Down => "down" },
-        // The sum of nothing is −0.
+        // An empty sum is −0.
         "beam_lm": set.files.iter().map(|file| file.row.beam).sum::<f64>() + 0.0,
         "beam_apart": set.apart.map(|apart| serde_json::json!({
             "flux_lm": apart.flux,
@@ -36,7 +37,7 @@ pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Me
     })
 }
 
-/// Prints the figures as sentences; `without_beam`: whether the direct sun was to be left out.
+/// Prints the figures of the luminaires as sentences; `without_beam`: whether the direct sun was to be left out.
 pub(super) fn report(without_beam: bool, set: &LuminaireSet, member: &Member) {
     let of = if member.name.is_empty() { String::new() } else { format!("{}: ", member.name) };
     tell!(

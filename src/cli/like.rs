@@ -1,4 +1,4 @@
-//! `cfs catalogue like`: products that do the same to light.
+//! `cfs catalogue like`: products with the most similar effect on light.
 
 use super::listing::tell_notes;
 use super::output::{print, print_text};
@@ -36,7 +36,7 @@ pub struct LikeArgs {
     pub json: bool,
 }
 
-/// Lists them.
+/// Lists the products with the most similar effect on light, nearest first.
 pub(super) fn like(catalogue: &Catalogue, args: &LikeArgs) -> anyhow::Result<()> {
     let found = catalogue.find(&Query { like: Some(args.key.clone()), ..Query::default() })?;
     tell_notes(&found);

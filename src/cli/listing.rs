@@ -1,4 +1,4 @@
-//! `cfs catalogue list`: products found by words and filters, in the order that is asked for.
+//! `cfs catalogue list`: products found by words and filters, in a chosen order.
 
 use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, Figure, Found, Origin, ProductRow, Query, Sort, Within};
@@ -70,7 +70,7 @@ pub struct ListArgs {
     pub json: bool,
 }
 
-/// A range as typed: `tau-normal=0.2..0.5`, both ends included.
+/// Parses a range of a figure, such as `tau-normal=0.2..0.5`, both ends included.
 fn range(text: &str) -> Result<Within, String> {
     let figures = || Figure::ALL.map(Figure::word).join(", ");
     let wrong = || format!("expected FIGURE=FROM..TO, e.g. tau-normal=0.2..0.5; figures: {}", figures());
@@ -85,7 +85,7 @@ fn range(text: &str) -> Result<Within, String> {
     if low > high {
         return Err(format!("{low} is above {high}: the lower end comes first"));
     }
-    // The greatest value that is asked for belongs to it.
+    // The upper end is included.
     Ok(Within { figure, low, high: high.next_up() })
 }
 
@@ -95,9 +95,9 @@ fn sort(text: &str) -> Result<Sort, String> {
 }
 
 impl ListArgs {
-    /// What is asked for.
+    /// Returns the catalogue query of the arguments.
     pub fn query(&self) -> Query {
-        // As names are stored, whatever the terminal gives.
+        // Composed as stored names are, whatever the terminal gives.
         let composed = |list: &[String]| list.iter().map(|text| composed(text)).collect();
         Query {
             text: self.search.clone(),
@@ -131,7 +131,7 @@ pub(super) fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
 }
 
-/// Says which words were read as others, and which damaged products were restored or are left out.
+/// Prints on standard error which words were read as others, and which damaged products were restored or left out.
 pub(super) fn tell_notes(found: &Found) {
     for (typed, read_as) in &found.read_as {
         tell!("note: no product has \"{typed}\"; read as \"{read_as}\"");
@@ -144,7 +144,7 @@ pub(super) fn tell_notes(found: &Found) {
     }
 }
 
-/// Writes what was found.
+/// Prints the products that match the arguments, as a table or as JSON.
 pub(super) fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     let query = args.query();
     let found = catalogue.find(&query)?;

@@ -1,5 +1,5 @@
-//! `cfs info` of luminaire files: who, how much light, how large, which planes; and of an index: where they stand, as one
-//! aperture.
+//! `cfs info` of luminaire files: maker, flux, size and planes; and of an index of such files: their positions, and the
+//! aperture that they form.
 
 use super::output::Content;
 use crate::compute::direction::Surface;
@@ -11,7 +11,7 @@ use serde_json::json;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Relative difference of intensities that still counts as symmetric.
+/// Maximum difference of intensities that counts as symmetric, relative to the peak.
 const SAME: f64 = 1e-4;
 
 /// Describes a luminaire file or an index of luminaire files; `None` for files of other extensions.
@@ -26,7 +26,7 @@ pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Cont
     Ok(Some(Content::of(as_json, || to_json(&luminaire), || to_text(&luminaire))))
 }
 
-/// The apertures of an index: one, or those of a series.
+/// Describes the apertures of an index: one, or one per member of a series.
 fn index(path: &Path, as_json: bool) -> anyhow::Result<Content> {
     let rows = luminaires::read_rows(path)?;
     let names = luminaires::sets(&rows);
@@ -47,9 +47,9 @@ fn index(path: &Path, as_json: bool) -> anyhow::Result<Content> {
     Ok(Content::of(as_json, to_json, to_text))
 }
 
-/// Beams in the files, and the straight beam that is not in them. \[lm\]
+/// Returns the flux of beams of the sun in the files, and that of the direct sun left out of them. \[lm\]
 fn beams(one: &LuminaireAperture) -> [f64; 2] {
-    // The sum of nothing is −0.
+    // An empty sum is −0.
     let beam = one.rows.iter().map(|row| row.beam).sum::<f64>() + 0.0;
     [beam, one.rows.iter().filter_map(|row| row.apart).map(|apart| apart.flux).sum::<f64>() + 0.0]
 }
@@ -124,13 +124,13 @@ const fn photometry(luminaire: &Luminaire) -> &'static str {
     }
 }
 
-/// Flux of the table; `None` for one plane of type A or B, which says nothing of it. \[lm\]
+/// Returns the flux of the table; `None` for a single plane of type A or B, which does not determine it. \[lm\]
 fn flux(luminaire: &Luminaire) -> Option<f64> {
     let is_known = luminaire.photometry == Photometry::C || luminaire.c_deg.len() > 1;
     is_known.then(|| luminaire.flux())
 }
 
-/// The luminous opening: a diameter where it is a circle, else its sizes.
+/// Returns the luminous opening in words: the diameter of a circle, else the shape and its sizes.
 fn opening(luminaire: &Luminaire) -> String {
     let opening = luminaire.opening;
     if opening.is_circle() {
@@ -145,7 +145,7 @@ fn opening(luminaire: &Luminaire) -> String {
     )
 }
 
-/// Mirror planes of the distribution, found in the numbers and not in the file's own word.
+/// Returns the symmetry of the distribution in words, found from the intensities and not from the file's statement.
 fn symmetry(luminaire: &Luminaire) -> &'static str {
     if luminaire.photometry != Photometry::C {
         return "not examined";

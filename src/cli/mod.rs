@@ -1,6 +1,6 @@
-//! The command line: arguments in, files and tables out, no display needed.
+//! Command line of the program: arguments in, files and tables out, no display needed.
 
-/// A message on standard error, as `eprintln!` would say it.
+/// Prints a message on standard error, with the arguments of `eprintln!`.
 macro_rules! tell {
     ($($text:tt)*) => { $crate::cli::output::to_stderr(format_args!($($text)*)) };
 }
@@ -61,9 +61,9 @@ use std::path::Path;
 /// Runs a subcommand.
 ///
 /// # Errors
-/// One line that names the file, the place in it, what is wrong and what would be right.
+/// Returns an error of one line: the file, the place in it, what is wrong, and what was expected.
 pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
-    // What the results come from, wherever it is opened.
+    // The catalogue is an input of the results, wherever it is opened.
     if let Some(path) = catalogue.map(Path::to_owned).or_else(|| default_path().ok()) {
         files::keep(&path);
     }
@@ -89,13 +89,13 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     }
 }
 
-/// Is it a verdict about what was read, rather than something that could not be done?
+/// Returns whether an error is a verdict about data that were read, and not an operation that failed.
 fn is_judgement(error: &anyhow::Error) -> bool {
     error.is::<validate::NotFit>() || error.is::<packages::Differ>() || error.is::<check::Damaged>()
 }
 
-/// The status that the program ends with: 1 where something was read and judged, but is not fit for use, or different; 2
-/// where something could not be done; 101 at a fault of the program itself, as of any program in Rust.
+/// Returns the exit status of the program: 1 if data were read but are not fit for use, differ or are damaged; 2 if an
+/// operation failed; 101 after an internal error, as for any program in Rust.
 pub fn status(error: &anyhow::Error) -> u8 {
     if error.is::<Stopped>() {
         101

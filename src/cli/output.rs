@@ -1,4 +1,4 @@
-//! Results to standard output, and how numbers read.
+//! Output of results on standard output and of messages on standard error, and the format of numbers.
 
 pub(super) use crate::drawing::ticks::nine_digits as number;
 use crate::texts::{message, short_numbers, visible};
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Whether standard output is the file that the command writes.
 static IS_FILE: AtomicBool = AtomicBool::new(false);
 
-/// Gives standard output to the file that the command writes: all else that is printed goes to standard error.
+/// Reserves standard output for the file that the command writes: all else that is printed goes to standard error.
 pub(super) fn give_to_file() {
     IS_FILE.store(true, Ordering::Relaxed);
 }
@@ -30,16 +30,16 @@ impl Content {
     }
 }
 
-/// Data to standard output: CSV, JSON, templates. What commands a terminal is visible there; a closed pipe is the reader's
-/// choice, not an error.
+/// Prints data on standard output: CSV, JSON, templates. Control characters are made visible; a closed pipe is the
+/// reader's choice, not an error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {
     print_bytes(visible(text).as_bytes())
 }
 
-/// Bytes to standard output, which command no terminal.
+/// Prints bytes without terminal commands on standard output.
 pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     if IS_FILE.load(Ordering::Relaxed) {
-        // As with any message, nobody is left to be told that it cannot be told.
+        // If standard error cannot be written, the failure cannot be reported, as in `to_stderr`.
         drop(std::io::stderr().lock().write_all(bytes));
         return Ok(());
     }
@@ -49,23 +49,23 @@ pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     }
 }
 
-/// Text for reading to standard output: as [`print()`], and no number longer than its reader's patience.
+/// Prints a text for reading on standard output, like [`print()`], with long numbers shortened.
 pub(super) fn print_text(text: &str) -> anyhow::Result<()> {
     print(&short_numbers(text))
 }
 
-/// A message on standard error: one line, whatever stood in the file that it quotes.
+/// Prints a message on standard error, as one line, whatever the file contains that it quotes.
 pub(super) fn to_stderr(text: std::fmt::Arguments<'_>) {
-    // Nobody is left to be told that it cannot be told.
+    // If standard error cannot be written, the failure cannot be reported.
     drop(writeln!(std::io::stderr().lock(), "{}", message(&text.to_string())));
 }
 
-/// Prints an error on standard error as one line, whatever its causes hold.
+/// Prints an error on standard error, as one line, whatever its causes contain.
 pub fn tell_error(error: &anyhow::Error) {
     to_stderr(format_args!("cfs: {}", sentence(error)));
 }
 
-/// An error as one sentence: with its causes, none of them twice.
+/// Returns an error as one sentence with its causes, none of them twice.
 pub(super) fn sentence(error: &anyhow::Error) -> String {
     let mut said = String::new();
     for cause in error.chain().map(ToString::to_string) {

@@ -1,4 +1,4 @@
-//! `cfs catalogue diff` and `cfs catalogue merge`: packages beside each other, without a catalogue.
+//! `cfs catalogue diff` and `cfs catalogue merge`: comparison and merging of packages, without a catalogue.
 
 use crate::catalogue::{PackageDiff, diff_packages, merge_packages};
 use crate::cli::output;
@@ -53,7 +53,7 @@ pub struct MergeArgs {
     pub over: Over,
 }
 
-/// Two packages that differ: told, and the program ends with status 1, unlike for packages that it cannot read.
+/// Error for two packages that differ. The program exits with status 1, unlike for packages that it cannot read.
 #[derive(Debug, thiserror::Error)]
 #[error(
     "the packages differ: {only_first} products only in the first, {only_second} only in the second, {changed} changed"
@@ -68,10 +68,10 @@ fn read(path: &Path) -> anyhow::Result<Package> {
     package::read(&files::read(path)?).map_err(|error| anyhow!("{}: {error}", path.display()))
 }
 
-/// Prints how two packages differ.
+/// Prints the differences of two packages.
 ///
 /// # Errors
-/// A package that cannot be read; [`Differ`] when they differ.
+/// Returns an error if a package cannot be read, and [`Differ`] if the packages differ.
 pub fn diff(args: &DiffArgs) -> anyhow::Result<()> {
     let diff = diff_packages(&read(&args.first)?, &read(&args.second)?)?;
     let shown = if args.json { serde_json::to_string_pretty(&as_json(&diff))? + "\n" } else { as_text(&diff) };
@@ -134,10 +134,10 @@ fn as_text(diff: &PackageDiff) -> String {
     text
 }
 
-/// Writes two packages as one.
+/// Merges two packages into one file.
 ///
 /// # Errors
-/// A package that cannot be read, or written.
+/// Returns an error if a package cannot be read or written.
 pub fn merge(args: &MergeArgs) -> anyhow::Result<()> {
     args.over.check([&*args.first, &*args.second], Some(&args.out), FileKind::Package)?;
     let merged = merge_packages(&read(&args.first)?, &read(&args.second)?)?;

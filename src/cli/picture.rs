@@ -50,7 +50,7 @@ pub struct PictureArgs {
     pub over: Over,
 }
 
-/// A scene file's subject.
+/// Reads a scene file and computes the results that `wanted` selects, as the subject of a picture or report.
 pub(super) fn subject(path: &Path, wanted: Wanted, library: &Library) -> anyhow::Result<Subject> {
     let file = read_scene_file(path)?;
     let base = files::folder(path);
@@ -60,7 +60,7 @@ pub(super) fn subject(path: &Path, wanted: Wanted, library: &Library) -> anyhow:
         .with_context(|| path.display().to_string())
 }
 
-/// Runs the command.
+/// Runs `cfs picture`.
 pub fn run(args: &PictureArgs, library: &Library) -> anyhow::Result<()> {
     let shown = args.out.display();
     let ending = args.stream.name(&args.out)?.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();

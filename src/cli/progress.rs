@@ -1,17 +1,17 @@
-//! A bar on the terminal for work that takes longer than a second; nothing where there is no terminal.
+//! Progress bar on the terminal for work that takes longer than a second; nothing is shown without a terminal.
 
 use crate::compute::estimate::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::time::Duration;
 
-/// Work shorter than this shows nothing.
+/// Duration of work below which no progress is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Shows stages on standard error.
+/// Progress bar on standard error, with the name of the stage.
 pub(super) struct TerminalProgress(ProgressBar);
 
 impl TerminalProgress {
-    /// Starts hidden, and shows itself after a second.
+    /// Creates a hidden bar that is shown after a second, unless the work has finished.
     pub(super) fn new() -> Self {
         let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} [{bar:30}] {pos}/{len}") {

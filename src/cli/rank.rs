@@ -1,4 +1,4 @@
-//! `cfs rank SCENE…`: which product for this façade.
+//! `cfs rank SCENE…`: ranking of products for a façade.
 
 use super::listing::tell_notes;
 use super::output::{print, print_text};
@@ -73,7 +73,7 @@ pub struct RankArgs {
     pub json: bool,
 }
 
-/// Runs the command; errors name the file and the key.
+/// Runs `cfs rank`; errors name the file and the key.
 pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     let from = args.scenes.iter().chain(&args.merge).map(PathBuf::as_path);
     args.tables.check(from, args.out.as_deref(), FileKind::Csv, false)?;
@@ -109,7 +109,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     }
 }
 
-/// The lists that the scenes ask for, of products found by words instead of the scenes' own.
+/// Returns the lists to rank of the scenes. `products`: search words that replace the scenes' own selection.
 pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Library) -> anyhow::Result<Vec<Group>> {
     let mut all = Vec::new();
     for (place, path) in scenes.iter().enumerate() {
@@ -129,7 +129,7 @@ pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Librar
     Ok(all)
 }
 
-/// The figures of all lists, each once, in their order.
+/// Returns the figures of all lists, each once, in order of first appearance.
 fn figures_of(groups: &[Group]) -> Vec<String> {
     let mut list: Vec<String> = Vec::new();
     for figure in groups.iter().flat_map(|group| &group.figures) {
@@ -140,10 +140,10 @@ fn figures_of(groups: &[Group]) -> Vec<String> {
     list
 }
 
-/// Is the piece there, whole and of this ranking?
+/// Returns whether the file of a part exists, complete and of this ranking.
 ///
 /// # Errors
-/// One of another ranking, which is not replaced without a word.
+/// Returns an error if the file holds a part of another ranking, which is replaced only with `--force`.
 fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<bool> {
     match shard_of(out) {
         Some(there) if there == *shape => Ok(true),
@@ -158,7 +158,7 @@ fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<b
     }
 }
 
-/// Writes and prints whole lists.
+/// Writes the complete lists to the CSV file, and prints them as a table or as JSON.
 fn tell(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<()> {
     if let Some(out) = &args.out {
         args.tables.put(Some(out), FileKind::Csv, &csv_text(&ranked_table(lists, figures)))?;
@@ -166,7 +166,7 @@ fn tell(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<(
     if args.json { print(&format!("{:#}\n", to_json(lists))) } else { print_text(&table(lists)) }
 }
 
-/// Lists for reading.
+/// Returns the ranked lists as a table for reading.
 fn table(lists: &[List]) -> String {
     let mut text = String::new();
     for list in lists {

@@ -1,8 +1,8 @@
-//! Tables of rankings: whole ones, and pieces with all that is needed to put them together again.
+//! CSV tables of parts of a ranking, with all that is needed to merge them.
 //!
-//! A piece has the columns of a whole table, but without ranks and reasons, which others decide too. Behind them stand `list`
-//! (place among all lists), `objectives`, of every figure its `_parts`, `key` (a hash of all that the row was made from), and a
-//! last column without values, whose name says which piece it is, of which ranking, and how many rows there are.
+//! A part has the columns of a complete table, but without ranks and reasons, which depend on the other parts too. Then
+//! follow `list` (place among all lists), `objectives`, a column `_parts` for every figure, `key` (a hash of all input
+//! of the row), and a last column without values, whose name states number of the part, ranking and count of rows.
 
 use super::output::number;
 use crate::compute::rank::{Better, Objective, utility};
@@ -11,24 +11,24 @@ use crate::formats::encoding::decode;
 use crate::study::rank::{BETWEEN, List, Parts, Shard, begin, csv_text, exact, excluded, header};
 use std::path::Path;
 
-/// Which piece a table is.
+/// Identity of a part of a ranking.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Shape {
-    /// n of N.
+    /// Number of the part, and count of all parts: n/N.
     pub shard: Shard,
     /// Key of the ranking.
     pub run: String,
-    /// Rows that belong to it.
+    /// Number of rows of the part.
     pub rows: usize,
 }
 
 impl Shape {
-    /// As the name of the last column.
+    /// Returns the name of the last column.
     fn name(&self) -> String {
         format!("shard {}/{} of {} with {} rows", self.shard.number, self.shard.count, self.run, self.rows)
     }
 
-    /// Of the name of a column.
+    /// Parses the name of the last column; `None` if it names no part.
     pub(super) fn read(name: &str) -> Option<Self> {
         let words: Vec<&str> = name.split(' ').collect();
         let ["shard", shard, "of", run, "with", rows, "rows"] = words.as_slice() else { return None };
@@ -36,7 +36,7 @@ impl Shape {
     }
 }
 
-/// The piece that a file holds whole; `None` for all other files, for streams, and where there is none.
+/// Returns the part that a file holds completely; `None` for other or missing files and for streams.
 pub(super) fn shard_of(path: &Path) -> Option<Shape> {
     let bytes = if path.is_file() { std::fs::read(path).ok()? } else { return None };
     let text = decode(&bytes).ok()?;
@@ -47,7 +47,7 @@ pub(super) fn shard_of(path: &Path) -> Option<Shape> {
     (rows == shape.rows).then_some(shape)
 }
 
-/// A piece of a ranking.
+/// Returns a part of a ranking as a CSV table.
 pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> String {
     let mut head = header(figures);
     head.extend(["list".to_owned(), "objectives".to_owned()]);
@@ -79,7 +79,7 @@ pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> St
     csv_text(&table)
 }
 
-/// `figure less worst best weight`, one behind the other.
+/// Returns the objectives of a list as text: `figure less|more worst best weight` for each, one after another.
 fn objectives_text(list: &List) -> String {
     let one = |(figure, one): (&String, &Objective)| {
         let better = if one.better == Better::Less { "less" } else { "more" };
@@ -88,7 +88,7 @@ fn objectives_text(list: &List) -> String {
     list.figures.iter().zip(&list.objectives).map(one).collect::<Vec<_>>().join(BETWEEN)
 }
 
-/// The objectives that [`shard_csv`] wrote.
+/// Parses the objectives that [`shard_csv`] wrote: figures, and their objectives.
 pub(super) fn objectives_of(text: &str) -> Option<(Vec<String>, Vec<Objective>)> {
     let one = |text: &str| {
         let words: Vec<&str> = text.split(' ').collect();
@@ -104,7 +104,7 @@ pub(super) fn objectives_of(text: &str) -> Option<(Vec<String>, Vec<Objective>)>
     Some(text.split(BETWEEN).map(one).collect::<Option<Vec<_>>>()?.into_iter().unzip())
 }
 
-/// Zones, then the parts in their order.
+/// Returns the parts of a figure as text: the zones, then the values in their order.
 fn parts_text(parts: &Parts) -> String {
     if parts.values.is_empty() {
         return String::new();
@@ -113,7 +113,7 @@ fn parts_text(parts: &Parts) -> String {
     format!("{}|{}", parts.zones.join(";"), values.join(" "))
 }
 
-/// The parts that [`shard_csv`] wrote.
+/// Parses the parts of a figure that [`shard_csv`] wrote.
 pub(super) fn parts_of(text: &str) -> Option<Parts> {
     if text.is_empty() {
         return Some(Parts::default());

@@ -1,10 +1,10 @@
-//! Rankings for programs, with the parts of every difference.
+//! Rankings as JSON, with the contributions to every difference.
 
 use crate::compute::rank::{Better, Objective, Why};
 use crate::study::rank::{Found, List, why};
 use serde_json::{Map, Value, json};
 
-/// All lists in their order.
+/// Returns all lists as JSON, in their order.
 pub(super) fn to_json(lists: &[List]) -> Value {
     json!({ "lists": lists.iter().map(list).collect::<Vec<_>>() })
 }
@@ -55,7 +55,8 @@ fn objective((figure, one): (&String, &Objective)) -> Value {
     json!({"figure": figure, "better": better, "worst": one.worst, "best": one.best, "weight": one.weight})
 }
 
-/// A difference: the shares' utilities add up to its own, a share's parts and rest to its figure.
+/// Returns a difference of scores as JSON. The scores of its shares add up to it; parts and rest of a share add up to
+/// the difference of the share's figure.
 fn parts(list: &List, own: &Found, why: &Why) -> Value {
     let shares: Vec<Value> = why
         .shares

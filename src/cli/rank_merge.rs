@@ -1,4 +1,4 @@
-//! Pieces of a ranking put together: a union by keys, in any order.
+//! Merging of the parts of a ranking: a union by keys, in any order.
 
 use super::rank_csv::{Shape, objectives_of, parts_of};
 use crate::compute::estimate::Estimate;
@@ -11,17 +11,18 @@ use csv::StringRecord;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A piece as it was read.
+/// Part of a ranking, as read from its file.
 struct Piece {
     shape: Shape,
     header: StringRecord,
     rows: Vec<StringRecord>,
 }
 
-/// The lists of some pieces, and the figures of all lists.
+/// Merges the files of all parts. Returns the lists, and the figures of all lists.
 ///
 /// # Errors
-/// A file that is no piece, or of another ranking; two values for one key; a piece that is missing.
+/// Returns an error if a file is not a part or belongs to another ranking, if a key has two values, or if a part is
+/// missing.
 pub(super) fn merged(parts: &[PathBuf]) -> anyhow::Result<(Vec<List>, Vec<String>)> {
     let mut pieces: Vec<Piece> = Vec::with_capacity(parts.len());
     for path in parts {
@@ -98,7 +99,7 @@ fn read(path: &Path) -> anyhow::Result<Piece> {
     Ok(Piece { shape, header, rows })
 }
 
-/// Where what stands.
+/// Columns of a part: names of the figures, and indices of the other columns.
 struct Columns {
     figures: Vec<String>,
     product: usize,
@@ -113,7 +114,7 @@ struct Columns {
 impl Columns {
     fn of(header: &StringRecord) -> Option<Self> {
         let names: Vec<&str> = header.iter().collect();
-        // Behind the figures, which may have any name.
+        // The last column of a name, since figures, which come before, may have any name.
         let behind = |name: &str| names.iter().rposition(|one| *one == name);
         let result = behind(RESULT[0])?;
         let figures: Vec<String> =
@@ -134,7 +135,7 @@ impl Columns {
         })
     }
 
-    /// Puts a row into its list; `None` where it is none.
+    /// Adds a row to its list; `None` if the row cannot be read.
     fn put(&self, record: &StringRecord, key: &str, lists: &mut BTreeMap<usize, List>) -> Option<()> {
         let text = |at: usize| record.get(at);
         let number = |at: usize| text(at)?.parse::<f64>().ok();

@@ -1,4 +1,4 @@
-//! `cfs repair`: datasets mended as findings offer, written anew.
+//! `cfs repair`: repair of datasets as their findings propose, written to a new file.
 
 use crate::cli::dataset_file;
 use crate::cli::writing::{Over, StreamFormat};
@@ -60,11 +60,11 @@ pub struct RepairArgs {
     pub over: Over,
 }
 
-/// Reads, mends, records, writes.
+/// Runs `cfs repair`: reads a dataset, makes and records the repairs, and writes the result.
 ///
 /// # Errors
-/// Input that cannot be read, a word that names no repair, a repair that the data do not allow, an output format that
-/// cannot hold them. Nothing is left behind then.
+/// Returns an error if the input cannot be read, a word does not name a repair, the data do not allow a repair, or the
+/// output format cannot hold them. No output is left behind then.
 pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let name = args.file.display();
     let out_name = args.out.to_string_lossy();
@@ -124,7 +124,8 @@ fn asked(found: &[Diagnosis], words: &[String]) -> anyhow::Result<Vec<Repair>> {
     Ok(list)
 }
 
-/// Repairs that are offered and only somebody who knows the product can decide on, those that are made left out.
+/// Returns the proposed repairs that are not certain, on which somebody who knows the product has to decide, without
+/// those that are made.
 fn questions(found: &[Diagnosis], made: &[Repair]) -> String {
     let mut words: Vec<String> = Vec::new();
     for repair in found.iter().filter(|one| !one.sure).filter_map(|one| one.repair) {

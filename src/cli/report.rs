@@ -1,4 +1,4 @@
-//! `cfs report`: a study or a product sheet as PDF.
+//! `cfs report`: report on a scene, or product sheet, as PDF.
 
 use super::language::ReportLanguage;
 use super::picture::subject;
@@ -72,7 +72,7 @@ pub struct ReportArgs {
     pub over: Over,
 }
 
-/// Runs the command.
+/// Runs `cfs report`.
 pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     if args.template {
         return super::output::print(match args.language.0 {
@@ -114,7 +114,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The candidates that a scene lists.
+/// Computes the comparison of the candidates that a scene lists; `None` if it lists none.
 fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result<Option<Comparison>> {
     let scene = read_scene_file(path)?;
     let count = scene.compare.len();
@@ -131,7 +131,7 @@ fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result
     })
 }
 
-/// A product in the scene of a first start.
+/// Computes the results of a product in the example scene that the window opens at its first start.
 fn of_product(key: &str, state: Option<&str>, library: &Library) -> anyhow::Result<Subject> {
     let product = library.product(key).with_context(|| key.to_owned())?;
     let own = product.states.get(product.representative().1).map(|state| state.key.clone());

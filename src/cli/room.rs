@@ -1,4 +1,4 @@
-//! `cfs room`: illuminance at every sensor of a scene.
+//! `cfs room`: illuminance at every sensor point of a scene.
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
@@ -47,7 +47,7 @@ pub struct RoomArgs {
     pub json: bool,
 }
 
-/// Runs the command.
+/// Runs `cfs room`.
 pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;
     let scene = load_scene(&args.scene, library)?;
@@ -73,10 +73,10 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     if args.json { print_json(&scene, &result) } else { Ok(()) }
 }
 
-/// Share of the light left open by the data from which on a person is told.
+/// Uncertainty due to the data, relative to the light at the sensors, above which a note is printed.
 const UNPLACED: f64 = 0.1;
 
-/// What a person should know beside the numbers, on standard error.
+/// Prints notes on the result on standard error: sky, weather, obstructions, data and error target.
 fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
         tell!("note: {note}");
@@ -155,7 +155,8 @@ fn sensor_json(row: &SensorResult) -> serde_json::Value {
     })
 }
 
-/// One object, its sensors last and one after the other: a million of them as one value would take gigabytes.
+/// Prints the result as one JSON object. The sensors come last and are written one after another: a million of them as
+/// one value would take gigabytes.
 fn print_json(scene: &Scene, result: &RoomResult) -> anyhow::Result<()> {
     let head = format!("{:#}", to_json(scene, result));
     let head = head.strip_suffix("\n}").unwrap_or(&head);
@@ -173,5 +174,5 @@ fn print_json(scene: &Scene, result: &RoomResult) -> anyhow::Result<()> {
     print(&text)
 }
 
-/// Bytes of text that are collected before they go out.
+/// Size of the text that is collected before it is printed. \[bytes\]
 const PRINTED_AT_ONCE: usize = 1 << 20;

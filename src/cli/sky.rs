@@ -1,4 +1,4 @@
-//! `cfs sky SCENE`: luminances of the 145 patches of the dome, illuminances of the ground and the façade.
+//! `cfs sky SCENE`: luminances of the 145 Tregenza patches, horizontal and façade illuminances.
 
 use crate::cli::output::print;
 use crate::cli::weather_info::{hour_json, weather_notes};
@@ -47,7 +47,7 @@ pub struct SkyArgs {
     pub json: bool,
 }
 
-/// One row of the table; luminances in cd/m².
+/// Row of the table, one sky patch; angles in °, solid angle in sr, luminances in cd/m².
 struct Row {
     altitude_deg: f64,
     azimuth_deg: f64,
@@ -56,7 +56,7 @@ struct Row {
     mean: f64,
 }
 
-/// Runs the command; errors name the file and the key.
+/// Runs `cfs sky`; errors name the file and the key.
 pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     let name = args.scene.display();
     args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;
@@ -116,7 +116,7 @@ fn csv(rows: &[Row]) -> String {
     text
 }
 
-/// Degrees without the last bits of their way through radians.
+/// Rounds an angle to 1e-9°, which removes the rounding errors of the conversion from radians.
 fn tidy(degrees: f64) -> f64 {
     (degrees * 1e9).round() / 1e9
 }

@@ -45,7 +45,7 @@ pub struct SubscriptionsArgs {
     pub json: bool,
 }
 
-/// Reads all folders anew, and says what changed and what is wrong.
+/// Reads all subscribed folders again, and prints changes and problems on standard error.
 fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
     let report = sync(catalogue, &Silent)?;
     for problem in &report.problems {
@@ -57,7 +57,7 @@ fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Subscribes to a folder, and takes its products in.
+/// Subscribes to a folder and adds its products to the catalogue.
 pub(super) fn subscribe(catalogue: &mut Catalogue, args: &SubscribeArgs) -> anyhow::Result<()> {
     let folder = folder_of(&args.folder).map_err(anyhow::Error::msg)?;
     catalogue.subscribe(&folder)?;
@@ -65,7 +65,7 @@ pub(super) fn subscribe(catalogue: &mut Catalogue, args: &SubscribeArgs) -> anyh
     print(&format!("{folder}\n"))
 }
 
-/// Ends a subscription, also to a folder that is away.
+/// Ends a subscription, also if the folder cannot be reached.
 pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> anyhow::Result<()> {
     let folder = folder_of(&args.folder).unwrap_or_else(|_| args.folder.display().to_string());
     let gone = catalogue.unsubscribe(&folder)?;
@@ -73,7 +73,7 @@ pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> 
     Ok(())
 }
 
-/// Lists the folders, after reading them anew.
+/// Updates the subscribed folders and lists them.
 pub(super) fn list(catalogue: &mut Catalogue, args: &SubscriptionsArgs) -> anyhow::Result<()> {
     renewed(catalogue)?;
     let list = catalogue.subscriptions()?;

@@ -1,5 +1,5 @@
-//! `cfs info` of system descriptions: family, states, structure, layers and the source of the solar properties. Transmittances
-//! need a computation, see `cfs goniophotometer`.
+//! `cfs info` of system descriptions: family, states, structure, layers and the source of the solar properties.
+//! Transmittances need a computation, see `cfs goniophotometer`.
 
 use super::output::Content;
 use crate::compute::btdf::SolarSource;
@@ -28,7 +28,7 @@ pub(super) fn describe(path: &Path, as_json: bool, library: &Library) -> anyhow:
     Ok(Content::of(as_json, || to_json(file, &states, solar), || to_text(file, &states, solar)))
 }
 
-/// Layers of a stack from outside to inside; none for other systems.
+/// Returns the layers of a stack from outside to inside; none for other systems.
 fn layers(file: &SystemFile) -> &[Layer] {
     match &file.system.kind {
         SystemKind::Stack(layers) => layers,

@@ -1,4 +1,4 @@
-//! `cfs catalogue validate`: the data doctor for makers' pipelines.
+//! `cfs catalogue validate`: data check of products and files, for the scripts of manufacturers.
 
 use super::dataset_file;
 use super::output::{print, print_text};
@@ -30,16 +30,16 @@ pub struct ValidateArgs {
     pub json: bool,
 }
 
-/// What was found about one item: the product's state, the finding, and the repair offered.
+/// Finding about a product or file, with its state and the repair that it proposes.
 struct Judged {
     finding: ProductFinding,
     repair: Option<String>,
 }
 
-/// Prints what is to be said about products and files.
+/// Checks products and dataset files, and prints their findings.
 ///
 /// # Errors
-/// Items that are neither; [`NotFit`] when anything is not fit for use.
+/// Returns an error if an item is neither a product nor a file, and [`NotFit`] if one is not fit for use.
 pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Result<()> {
     let all = catalogue.search(&Query::default())?;
     let items =
@@ -53,7 +53,7 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
         } else if files::is_stream(Path::new(&item)) || Path::new(&item).exists() {
             of_file(Path::new(&item))?
         } else {
-            // Passed over, a misspelt item would look as if it were fit for use.
+            // If skipped, a misspelt item would look as if it were fit for use.
             bail!("{item}: neither a product of the catalogue nor a file");
         };
         results.push((item, judged));
@@ -85,14 +85,14 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
         }
         print_text(&text)?;
     }
-    // After the report, so that who is stopped by the status also sees why.
+    // After the report, so that a script that is stopped by the status also shows the reason.
     if bad > 0 {
         return Err(NotFit { bad, of: results.len() }.into());
     }
     Ok(())
 }
 
-/// Data that are not fit for use; the program ends with status 1, unlike for input that it cannot read.
+/// Error for data that are not fit for use. The program exits with status 1, unlike for input that it cannot read.
 #[derive(Debug, thiserror::Error)]
 #[error("{bad} of {of} not fit for use")]
 pub struct NotFit {
@@ -100,7 +100,7 @@ pub struct NotFit {
     of: usize,
 }
 
-/// A finding of the catalogue as JSON.
+/// Returns a finding about a product as JSON.
 pub(super) fn finding_json(finding: &ProductFinding) -> Value {
     json!({
         "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,
@@ -108,7 +108,7 @@ pub(super) fn finding_json(finding: &ProductFinding) -> Value {
     })
 }
 
-/// What reader and doctor say about a file.
+/// Returns the findings of reader and data check about a dataset file, with the repairs that they propose.
 fn of_file(path: &Path) -> anyhow::Result<Vec<Judged>> {
     let mut list = Vec::new();
     let datasets = dataset_file::read(path)?;

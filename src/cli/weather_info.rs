@@ -1,4 +1,4 @@
-//! Weather files on the command line: `cfs info` of them, and the hour that is a scene's sky.
+//! Weather files on the command line: `cfs info` of them, and the weather hour of a scene's sky.
 
 use super::output::Content;
 use crate::compute::weather::{LightSource, Summary, Weather};
@@ -25,7 +25,7 @@ pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Cont
     Ok(Some(Content::of(as_json, || to_json(&weather, &summary), || to_text(&weather, &summary))))
 }
 
-/// First and last interval as people read them.
+/// Returns the first and last interval of a year as text.
 fn period(weather: &Weather) -> [String; 2] {
     let words = |record: Option<&crate::compute::weather::Record>| {
         record.map_or(String::new(), |one| one.label(weather.interval))
@@ -127,12 +127,12 @@ fn to_text(weather: &Weather, summary: &Summary) -> String {
     text
 }
 
-/// Degrees without a sign.
+/// Formats a latitude or longitude, with the side instead of a sign. \[°\]
 fn sided(degrees: f64, positive: &str, negative: &str) -> String {
     format!("{}° {}", degrees.abs(), if degrees < 0.0 { negative } else { positive })
 }
 
-/// A few years one by one, many as a range.
+/// Formats years: up to four one by one, more as a count and a range.
 fn years(years: &[i16]) -> String {
     match years {
         [first, .., last] if years.len() > 4 => format!("{} of {first}–{last}", years.len()),
@@ -140,7 +140,7 @@ fn years(years: &[i16]) -> String {
     }
 }
 
-/// How well global = diffuse + direct · sin h holds, and where best.
+/// Returns in words how well global = diffuse + direct · sin h holds, and the clock offset with the best fit.
 fn closure(weather: &Weather, summary: &Summary) -> String {
     let Some(one) = summary.closure else { return "not testable".to_owned() };
     if weather.tested.is_some() {
@@ -158,7 +158,7 @@ fn closure(weather: &Weather, summary: &Summary) -> String {
     format!("{:.1} W/m²; {:.1} W/m² with all intervals moved by {:+} min", one.rms, one.best_rms, one.best_offset)
 }
 
-/// Tells on standard error which hour the sky is, and what to know of it.
+/// Prints the weather hour of the sky and its warnings on standard error.
 pub fn weather_notes(hour: Option<&HourOfWeather>) {
     let Some(hour) = hour else { return };
     tell!("note: {}", hour.note());
@@ -167,7 +167,7 @@ pub fn weather_notes(hour: Option<&HourOfWeather>) {
     }
 }
 
-/// The hour as an object.
+/// Returns the weather hour of a sky as a JSON object.
 pub fn hour_json(one: &HourOfWeather) -> Value {
     let hour = &one.hour;
     json!({

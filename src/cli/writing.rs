@@ -1,5 +1,5 @@
-//! Files that commands write: not over what they were made from, nor over files of another kind without a word; to standard
-//! output under the name `-`; each is named by its full path.
+//! Output files of commands. Input files are never overwritten, files of another kind only with `--force`; the name `-`
+//! stands for standard output. Each file written is reported with its full path.
 
 use super::output;
 use crate::drawing::{Drawing, missing_characters};
@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-/// Most files of one command that are named one by one. Chosen: no effect on results.
+/// Maximum number of files of one command that are reported one by one. Chosen: no effect on results.
 const MAX_NAMED: usize = 4;
 
 /// Options for overwriting existing files.
@@ -24,7 +24,7 @@ pub struct Over {
     pub force: bool,
 }
 
-/// Names the characters that stand as boxes in the PNG or PDF file that was written.
+/// Prints a warning that names the characters shown as boxes in the PNG or PDF file that was written.
 pub(super) fn warn_of_missing_characters(drawings: &[Drawing]) {
     if let Some(warning) = missing_characters(drawings) {
         tell!("warning: {warning}");
@@ -36,8 +36,8 @@ impl Over {
         Replace::Kind { kind, force: self.force }
     }
 
-    /// Checks before the work whether a file may be written, and gives standard output to it where it is meant. `from`: what
-    /// the command is about to read.
+    /// Checks before the work whether a file may be written, and reserves standard output for it if its name is `-`.
+    /// `from`: files that the command is about to read.
     pub(super) fn check<'a>(
         self,
         from: impl IntoIterator<Item = &'a Path>,
@@ -55,26 +55,26 @@ impl Over {
         Ok(files::check(path, self.replace(kind))?)
     }
 
-    /// Writes a file whole, or not at all.
+    /// Writes a file completely, or not at all, and reports it on standard error.
     pub(super) fn write(self, path: &Path, kind: FileKind, bytes: &[u8]) -> Result<(), StudyError> {
         self.write_all(&[(path, kind, bytes)])
     }
 
-    /// Writes files, all of them or none, and names them on standard error.
+    /// Writes files, all of them or none, and reports them on standard error.
     pub(super) fn write_all(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         self.write_silently(list)?;
         tell_written(list.iter().map(|(path, ..)| *path));
         Ok(())
     }
 
-    /// Writes files, all of them or none, of which more are to come: [`tell_written`] names them all.
+    /// Writes files, all of them or none, without a report; [`tell_written`] reports them with those that follow.
     pub(super) fn write_silently(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         let output = |&(path, kind, bytes): &(_, _, _)| Output { path, bytes, replace: self.replace(kind) };
         files::write_all(&list.iter().map(output).collect::<Vec<_>>())
     }
 }
 
-/// Says on standard error which files were written, by their full paths; of many the first. Streams are no files.
+/// Reports the written files on standard error with their full paths, only the first of many. Streams are left out.
 pub(super) fn tell_written<'a>(paths: impl Iterator<Item = &'a Path>) {
     let list: Vec<PathBuf> = paths.filter(|path| !files::is_stream(path)).map(files::absolute).collect();
     match list.as_slice() {
@@ -98,8 +98,8 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Checks before the work, as [`Over::check`] does, and whether there are decimals at all. `is_printed`: whether without a
-    /// file the table goes to standard output.
+    /// Checks before the work like [`Over::check`], and also whether `--decimal-comma` applies. `is_printed`: whether
+    /// the table goes to standard output if there is no file.
     pub(super) fn check<'a>(
         self,
         from: impl IntoIterator<Item = &'a Path>,
@@ -116,7 +116,7 @@ impl Tables {
         self.over.check(from, path, kind)
     }
 
-    /// Returns a text of this kind in the form that is asked for.
+    /// Returns a text as bytes, with decimal commas if it is a CSV table and they are requested.
     fn formed(self, kind: FileKind, text: &str) -> Cow<'_, [u8]> {
         if self.decimal_comma && kind == FileKind::Csv {
             Cow::Owned(with_decimal_commas(text))
@@ -125,7 +125,7 @@ impl Tables {
         }
     }
 
-    /// Writes a text to a file, or without one to standard output.
+    /// Writes a text to a file, or to standard output if there is no file.
     pub(super) fn put(self, path: Option<&Path>, kind: FileKind, text: &str) -> anyhow::Result<()> {
         match path {
             Some(path) => Ok(self.over.write(path, kind, &self.formed(kind, text))?),
@@ -148,7 +148,7 @@ pub struct StreamFormat {
 }
 
 impl StreamFormat {
-    /// Returns the name whose extension tells the format of a file.
+    /// Returns the name whose extension states the format of a file.
     pub(super) fn name(&self, path: &Path) -> anyhow::Result<PathBuf> {
         match (&self.format, files::is_stream(path)) {
             (Some(extension), true) => Ok(PathBuf::from(format!("stream.{}", extension.trim_start_matches('.')))),
@@ -166,7 +166,7 @@ impl StreamFormat {
     }
 }
 
-/// Refuses standard output and pipes for several files.
+/// Returns an error if several files would be written to standard output or a pipe.
 pub(super) fn refuse_stream(path: &Path) -> anyhow::Result<()> {
     if files::is_stream(path) {
         bail!("{}: several files would be written, a stream takes one; expected the name of a file", path.display());

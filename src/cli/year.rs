@@ -1,4 +1,4 @@
-//! `cfs year SCENE`: a year of weather in a room, hour by hour, and what it comes to.
+//! `cfs year SCENE`: annual simulation of a room, hour by hour, and its annual figures.
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
@@ -79,7 +79,7 @@ pub struct YearArgs {
     pub scene_at: Option<String>,
 }
 
-/// Runs the command; errors name the file and the key.
+/// Runs `cfs year`; errors name the file and the key.
 pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.scene.display();
     let kind = if args.scene_at.is_some() { FileKind::Scene } else { FileKind::Csv };
@@ -94,7 +94,7 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     }
     let wanted = wanted(args)?;
     let session = Session::new();
-    // Beside a device nothing can be kept.
+    // No hours can be saved beside a stream.
     let table = args.out.as_deref().filter(|path| !files::is_stream(path));
     let kept = table.map(|path| kept(args, path, &file, base, library)).transpose().map_err(told)?;
     let year = match kept {
@@ -105,7 +105,7 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
             }
             let year = match year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress) {
                 Ok(year) => year,
-                // Hours that could not be kept can be once there is room; a year that is refused would be again.
+                // Hours that could not be saved can be once there is disk space; a refused year would be refused again.
                 Err(StudyError::File { path, message }) if path == kept.path() => {
                     return Err(told(StudyError::File { path, message }));
                 }
@@ -139,26 +139,26 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Hours of a run that was ended, and those of this one.
+/// Opens the file of saved hours beside the table: those of an interrupted run, to which this run adds its own.
 fn kept(args: &YearArgs, table: &Path, file: &SceneFile, base: &Path, library: &Library) -> Result<Kept, StudyError> {
     Kept::beside(table, of_results(file, base, library)?, PATIENCE, args.tables.over.force)
 }
 
-/// A scene that finds its files from where it is written.
+/// Writes a scene whose paths are valid from its new place.
 fn write_scene(args: &YearArgs, scene: &SceneFile, base: &Path, out: &Path) -> anyhow::Result<()> {
-    // Nobody knows where what is written to a stream will lie.
+    // The place of a scene that is written to a stream is unknown.
     let beside = !files::is_stream(out) && files::absolute(files::folder(out)) == files::absolute(base);
     let scene = if beside { scene.clone() } else { with_absolute_names(scene, base) };
     let text = toml::to_string(&scene).context("the scene")?;
     args.tables.put(Some(out), FileKind::Scene, &text)
 }
 
-/// A time as `--scene-at` takes it.
+/// Parses the time of `--scene-at`.
 fn moment(text: &str) -> anyhow::Result<DateTime> {
     text.parse().map_err(|_| anyhow!("--scene-at {text}: no time; expected YYYY-MM-DDTHH:MM"))
 }
 
-/// Month and day, and the year where it is given.
+/// Parses a date. Returns the year, if it is given, and month and day.
 fn day(option: &str, text: &str) -> anyhow::Result<(Option<i16>, (i8, i8))> {
     if let Ok(date) = text.parse::<Date>() {
         return Ok((Some(date.year()), (date.month(), date.day())));
@@ -169,13 +169,13 @@ fn day(option: &str, text: &str) -> anyhow::Result<(Option<i16>, (i8, i8))> {
     Ok((None, (date.month(), date.day())))
 }
 
-/// Which steps are asked for.
+/// Test whether a time step is requested.
 type Wanted = Box<dyn Fn(&Step) -> bool>;
 
 fn wanted(args: &YearArgs) -> anyhow::Result<Wanted> {
     let of = |step: &Step| (step.time.month(), step.time.day());
     if let Some(text) = &args.day {
-        // Rows of a typical year have years of their own, which nobody knows by heart: month and day count.
+        // Rows of a typical year come from different years, so only month and day count.
         let (_, wanted) = day("--day", text)?;
         return Ok(Box::new(move |step| of(step) == wanted));
     }
@@ -190,7 +190,7 @@ fn wanted(args: &YearArgs) -> anyhow::Result<Wanted> {
     Ok(Box::new(move |step| (from..=to).contains(&of(step))))
 }
 
-/// The table of steps.
+/// Returns the CSV table of the time steps.
 fn csv(year: &Year) -> String {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let mut text = String::from("time,sun_altitude_deg,sun_azimuth_deg,direct_normal_lx,diffuse_horizontal_lx");
@@ -244,7 +244,7 @@ fn csv(year: &Year) -> String {
             text.push_str(&number(*value));
         }
         if let Some(dgp) = dgp {
-            // Empty where nobody is there, and in the dark.
+            // Empty outside occupied hours and when dark.
             let field = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.5}"));
             for one in dgp.row(row) {
                 let _ = write!(text, ",{}", field(one.map(|one| one.value)));

@@ -1,16 +1,17 @@
-//! The figures of a year for programs: keys are stable, shares 0 … 1.
+//! Annual figures as JSON: keys are stable, shares are 0 to 1.
 
 use crate::study::SceneFile;
 use crate::study::session::glare::CAVEAT;
 use crate::study::year::{Figures, Group, Lm83, NOT_JUDGED, Opening, SHADE, Year, metrics};
 use serde_json::{Map, Value, json};
 
-/// Figures, what the hours' errors leave open of them, weather, states, stages, and what was left out.
+/// Returns the result of a year as JSON: figures, their uncertainties due to those of the hours, weather, states,
+/// stages, and what was not computed.
 pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, opening: &Opening) -> Value {
     let area = file.room.width * file.room.depth;
     let [mut own, less, more] = figures.each_ref().map(|one| metrics::metrics(year, one, area));
     let errors = metrics::errors(&own, &less, &more).unwrap_or_default();
-    // Beside the standard's other figures. No illuminance is in these: what they may be off stands with them.
+    // Added to the standard's other figures. They do not depend on illuminances; their uncertainties stand with them.
     if let Some(standard) = own.get_mut("EN17037") {
         standard["sunlight"] = sunlight(opening);
         standard["view"] = view(opening);
@@ -44,7 +45,7 @@ pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, ope
     })
 }
 
-/// EN 17037, exposure to sunlight.
+/// Returns the exposure to sunlight of EN 17037 as JSON.
 fn sunlight(opening: &Opening) -> Value {
     json!({
         "date": opening.day.to_string(),
@@ -57,13 +58,13 @@ fn sunlight(opening: &Opening) -> Value {
     })
 }
 
-/// EN 17037, view out, from three quarters of the sensors' places.
+/// Returns the view out of EN 17037 as JSON, as reached at three quarters of the sensor points.
 fn view(opening: &Opening) -> Value {
     let view = &opening.view;
     json!({
         "points": opening.points,
         "sight_angle_deg": view.sight_angle.to_degrees(),
-        // Nothing in the way has no number.
+        // An unobstructed view has no distance.
         "distance_m": view.distance.filter(|distance| distance.is_finite()),
         "distance": match view.distance {
             Some(distance) if distance.is_finite() => "known",
@@ -76,7 +77,8 @@ fn view(opening: &Opening) -> Value {
     })
 }
 
-/// How long each state stood while there was light, of the steps that were asked for; movements of the whole year.
+/// Returns the shading operation of an aperture as JSON: hours with light per state in the requested steps, and state
+/// changes of the whole year.
 fn control(year: &Year, m: usize, aperture: usize) -> Value {
     let device = &year.moving[m].device;
     let hours: Map<String, Value> = device
@@ -98,7 +100,7 @@ fn control(year: &Year, m: usize, aperture: usize) -> Value {
     })
 }
 
-/// What IES LM-83-12's rule closes together, and how long.
+/// Returns the groups of apertures that the rule of IES LM-83-12 closes together, and their closed hours, as JSON.
 fn lm83_groups(lm83: &Lm83, figures: &Figures) -> Value {
     let hours = |group: usize| figures.blinds.as_ref().and_then(|blinds| blinds.closed_hours.get(group).copied());
     let shade = || format!("even shade, transmittance {SHADE}, in the system's place (default: nothing moves)");
@@ -116,7 +118,7 @@ fn lm83_groups(lm83: &Lm83, figures: &Figures) -> Value {
     })
 }
 
-/// What was not computed, and why.
+/// Returns a sentence for each result that was not computed, with its reason.
 fn left_out(year: &Year, figures: &Figures) -> Vec<String> {
     let mut list = vec![format!("{} steps without light", year.light.dark)];
     for (m, one) in year.moving.iter().enumerate() {

@@ -1,55 +1,55 @@
-//! Angles: radians inside, degrees at the border only; compass bearings apart from mathematical azimuths.
+//! Angles: radians inside, degrees at the border only; compass bearings separate from mathematical azimuths.
 
 use std::f64::consts::PI;
 
-/// A plane angle. Holds radians; built from and read as either unit by name.
+/// Plane angle. Holds radians; built from and read as either unit by name.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Angle(f64);
 
 impl Angle {
-    /// From radians.
+    /// Creates an angle from radians.
     pub const fn from_radians(radians: f64) -> Self {
         Self(radians)
     }
 
-    /// From degrees.
+    /// Creates an angle from degrees.
     pub fn from_degrees(degrees: f64) -> Self {
         Self(degrees.to_radians())
     }
 
-    /// In radians.
+    /// Returns the angle in radians.
     pub const fn radians(self) -> f64 {
         self.0
     }
 
-    /// In degrees.
+    /// Returns the angle in degrees.
     pub fn degrees(self) -> f64 {
         self.0.to_degrees()
     }
 }
 
-/// A compass bearing: clockwise from north, seen from above. A type of its own, because a bearing taken for a
-/// mathematical azimuth still gives a plausible picture.
+/// Compass bearing: clockwise from north, seen from above. A separate type, because a bearing taken for a mathematical
+/// azimuth still gives a plausible picture.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Bearing(Angle);
 
 impl Bearing {
-    /// From degrees clockwise from north (south = 180).
+    /// Creates a bearing from degrees clockwise from north (south = 180).
     pub fn from_degrees(degrees: f64) -> Self {
         Self(Angle::from_degrees(degrees))
     }
 
-    /// From radians clockwise from north.
+    /// Creates a bearing from radians clockwise from north.
     pub const fn from_radians(radians: f64) -> Self {
         Self(Angle::from_radians(radians))
     }
 
-    /// In degrees, 0 ≤ bearing < 360.
+    /// Returns the bearing in degrees, 0 ≤ bearing < 360.
     pub fn degrees(self) -> f64 {
         self.0.degrees().rem_euclid(360.0)
     }
 
-    /// In radians, as given.
+    /// Returns the bearing in radians, as given.
     pub const fn radians(self) -> f64 {
         self.0.radians()
     }

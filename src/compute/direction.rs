@@ -10,12 +10,12 @@
 //! In the façade frame θ is counted from +z, φ counter-clockwise from +x towards +y (0 = right, 90 = up).
 //!
 //! * [`Incident`]: from the element **towards the source**. Light from outside: z_F > 0.
-//! * [`Emergent`]: where the light **goes**. Light into the room: z_F < 0.
-//! * **Through-name** of an emergent direction ω_a: ω′ = −ω_a, the incident direction from which a clear opening
+//! * [`Emergent`]: in which the light **leaves**. Light into the room: z_F < 0.
+//! * **Through direction** of an emergent direction ω_a: ω′ = −ω_a, the incident direction from which a clear opening
 //!   would send light along ω_a. All transmitted data are stored by ω′, so a clear pane is a diagonal matrix and
 //!   reciprocity is a plain transpose: q_front(ω_e, ω′) = q_back(ω′, ω_e).
-//!   Light from inside is named by the direction in which it travels (z_F > 0) on both sides.
-//!   Reflected light r is named (−r_x, −r_y, r_z), so that a mirror is a diagonal matrix as well.
+//!   Light from inside is stored by the direction in which it travels (z_F > 0) on both sides.
+//!   Reflected light r is stored by (−r_x, −r_y, r_z), so that a mirror is a diagonal matrix as well.
 //!
 //! A bearing β maps to the room by x = −sin(β − A) cos h, y = −cos(β − A) cos h with A the façade's bearing.
 
@@ -33,7 +33,7 @@ pub struct Room;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Facade;
 
-/// A unit vector in a stated frame.
+/// Unit vector in a stated frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dir<F> {
     vector: DVec3,
@@ -41,89 +41,90 @@ pub struct Dir<F> {
 }
 
 impl<F> Dir<F> {
-    /// The direction of a vector; `None` when it has no length or is not finite.
+    /// Returns the direction of a vector; `None` when it has no length or is not finite.
     pub fn new(vector: DVec3) -> Option<Self> {
         vector.try_normalize().map(Self::from_unit)
     }
 
-    /// Takes a vector that is already of unit length (to rounding).
+    /// Creates a direction from a vector that is already of unit length (to rounding).
     pub const fn from_unit(vector: DVec3) -> Self {
         Self { vector, frame: PhantomData }
     }
 
-    /// From the polar angle θ about +z and the azimuth φ from +x towards +y. \[rad\]
+    /// Creates a direction from the polar angle θ about +z and the azimuth φ from +x towards +y. \[rad\]
     pub fn from_theta_phi(theta: f64, phi: f64) -> Self {
         let (sin_theta, cos_theta) = theta.sin_cos();
         let (sin_phi, cos_phi) = phi.sin_cos();
         Self::from_unit(DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
     }
 
-    /// The unit vector.
+    /// Returns the unit vector.
     pub const fn vector(self) -> DVec3 {
         self.vector
     }
 
-    /// Polar angle from +z, 0 … π. \[rad\] Exact near the axis, where `acos` is not.
+    /// Returns the polar angle from +z, 0 … π. \[rad\] Exact near the axis, where `acos` is not.
     pub fn theta(self) -> f64 {
         self.vector.truncate().length().atan2(self.vector.z)
     }
 
-    /// Azimuth from +x towards +y, 0 ≤ φ < 2π; 0 on the axis. \[rad\]
+    /// Returns the azimuth from +x towards +y, 0 ≤ φ < 2π; 0 on the axis. \[rad\]
     pub fn phi(self) -> f64 {
         wrap_two_pi(self.vector.y.atan2(self.vector.x))
     }
 
-    /// The opposite direction.
+    /// Returns the opposite direction.
     pub fn reversed(self) -> Self {
         Self::from_unit(-self.vector)
     }
 
-    /// Cosine of the angle to another direction of the same frame.
+    /// Returns the cosine of the angle to another direction of the same frame.
     pub fn dot(self, other: Self) -> f64 {
         self.vector.dot(other.vector)
     }
 }
 
 impl Dir<World> {
-    /// From altitude above the horizon \[rad\] and compass bearing.
+    /// Creates a direction from altitude above the horizon \[rad\] and compass bearing.
     pub fn from_altitude_bearing(altitude: f64, bearing: Bearing) -> Self {
         let (sin_bearing, cos_bearing) = bearing.radians().sin_cos();
         let cos_altitude = altitude.cos();
         Self::from_unit(DVec3::new(sin_bearing * cos_altitude, cos_bearing * cos_altitude, altitude.sin()))
     }
 
-    /// Altitude above the horizon. \[rad\]
+    /// Returns the altitude above the horizon. \[rad\]
     pub fn altitude(self) -> f64 {
         self.vector.z.atan2(self.vector.truncate().length())
     }
 
-    /// Compass bearing.
+    /// Returns the compass bearing.
     pub fn bearing(self) -> Bearing {
         Bearing::from_radians(wrap_two_pi(self.vector.x.atan2(self.vector.y)))
     }
 }
 
-/// The direction towards the source, in the aperture's frame.
+/// Incident direction: towards the source, in the aperture's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Incident(pub Dir<Facade>);
 
-/// The direction in which light leaves, in the aperture's frame.
+/// Emergent direction: in which light leaves, in the aperture's frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emergent(pub Dir<Facade>);
 
 impl Emergent {
-    /// The emergent direction whose through-name is `twin`.
+    /// Returns the emergent direction whose through direction is `twin`.
     pub fn from_through_name(twin: Dir<Facade>) -> Self {
         Self(twin.reversed())
     }
 
-    /// ω′ = −ω_a: where light that leaves this way would have come from through a clear opening.
+    /// Returns the through direction ω′ = −ω_a: the incident direction from which a clear pane would send light in this
+    /// emergent direction.
     pub fn through_name(self) -> Dir<Facade> {
         self.0.reversed()
     }
 }
 
-/// How the room stands to the compass: turns between world and room.
+/// Orientation of the room to the compass: rotations between world and room.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orientation {
     sin: f64,
@@ -131,50 +132,52 @@ pub struct Orientation {
 }
 
 impl Orientation {
-    /// From the bearing of the façade's outward normal.
+    /// Creates the orientation from the bearing of the façade's outward normal.
     pub fn new(facade_normal: Bearing) -> Self {
         let (sin, cos) = facade_normal.radians().sin_cos();
         Self { sin, cos }
     }
 
-    /// x_room = (−cos A, sin A), y_room = (−sin A, −cos A) in (east, north).
+    /// Returns a direction of the world in the room: x_room = (−cos A, sin A), y_room = (−sin A, −cos A) in (east,
+    /// north).
     pub fn room_from_world(self, d: Dir<World>) -> Dir<Room> {
         let v = d.vector();
         Dir::from_unit(DVec3::new(-self.cos * v.x + self.sin * v.y, -self.sin * v.x - self.cos * v.y, v.z))
     }
 
-    /// The inverse turn.
+    /// Returns a direction of the room in the world.
     pub fn world_from_room(self, d: Dir<Room>) -> Dir<World> {
         Dir::from_unit(self.to_world(d.vector()))
     }
 
-    /// A vector or a point of the room in the world's axes, from the room's own origin.
+    /// Returns a vector or a point of the room in the world's axes, from the room's own origin.
     pub fn to_world(self, v: DVec3) -> DVec3 {
         DVec3::new(-self.cos * v.x - self.sin * v.y, self.sin * v.x - self.cos * v.y, v.z)
     }
 
-    /// A vector or a point of the world's axes in the room's.
+    /// Returns a vector or a point of the world's axes in the room's.
     pub fn to_room(self, v: DVec3) -> DVec3 {
         DVec3::new(-self.cos * v.x + self.sin * v.y, -self.sin * v.x - self.cos * v.y, v.z)
     }
 
-    /// Cosine and sine of the angle by which the room is turned in the world, counter-clockwise seen from above.
+    /// Returns cosine and sine of the angle by which the room is rotated in the world, counter-clockwise seen from
+    /// above.
     pub fn turn(self) -> [f64; 2] {
         [-self.cos, self.sin]
     }
 }
 
-/// The surface that an aperture lies in.
+/// Surface that an aperture lies in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Surface {
-    /// The wall y = 0.
+    /// Façade wall y = 0.
     Facade,
-    /// The ceiling z = height.
+    /// Ceiling z = height.
     Roof,
 }
 
 impl Surface {
-    /// Components of a room vector along the aperture's own axes (also for offsets, not only directions).
+    /// Returns the components of a room vector along the aperture's own axes (also for offsets, not only directions).
     pub fn facade_from_room(self, v: DVec3) -> DVec3 {
         match self {
             Self::Facade => DVec3::new(v.x, v.z, -v.y),
@@ -182,7 +185,7 @@ impl Surface {
         }
     }
 
-    /// The inverse of [`Self::facade_from_room`].
+    /// Returns a vector of the aperture's axes in the room's axes; the inverse of [`Self::facade_from_room`].
     pub fn room_from_facade(self, v: DVec3) -> DVec3 {
         match self {
             Self::Facade => DVec3::new(v.x, -v.z, v.y),
@@ -190,12 +193,12 @@ impl Surface {
         }
     }
 
-    /// A direction of the room in the aperture's frame.
+    /// Returns a direction of the room in the aperture's frame.
     pub fn facade_dir(self, d: Dir<Room>) -> Dir<Facade> {
         Dir::from_unit(self.facade_from_room(d.vector()))
     }
 
-    /// A direction of the aperture's frame in the room.
+    /// Returns a direction of the aperture's frame in the room.
     pub fn room_dir(self, d: Dir<Facade>) -> Dir<Room> {
         Dir::from_unit(self.room_from_facade(d.vector()))
     }

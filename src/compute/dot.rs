@@ -1,17 +1,18 @@
-//! Sums of products, with as wide registers as the processor at hand has. The order of the additions is the same on every
-//! processor, and nothing is contracted: so are these sums. Products of matrices elsewhere may round otherwise on another one.
+//! Sums of products, with registers as wide as the processor's. The order of the additions is the same on every
+//! processor, and nothing is contracted: so are these sums. Products of matrices elsewhere may round differently on
+//! another processor.
 
 use pulp::Arch;
 
-/// Running sums of [`dot`]: four registers of four.
+/// Number of running sums of [`dot`]: four registers of four.
 const SUMS: usize = 16;
 
-/// Work on many numbers, compiled for what the processor has.
+/// Runs work on many numbers, compiled for the processor's instruction set.
 pub fn wide<R>(work: impl FnOnce() -> R) -> R {
     Arch::new().dispatch(work)
 }
 
-/// Σ a·b.
+/// Returns Σ a·b.
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     wide(|| {
         let mut sums = [0.0; SUMS];
@@ -27,7 +28,7 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     })
 }
 
-/// Adds a row times a factor to what there is.
+/// Adds a row times a factor to the sums.
 pub fn add_scaled<T: Copy + Into<f64>>(sums: &mut [f64], row: &[T], factor: f64) {
     wide(|| sums.iter_mut().zip(row).for_each(|(sum, &e)| *sum += factor * e.into()));
 }

@@ -1,24 +1,24 @@
-//! Values that carry their numerical error, and the little that long work needs to report progress and stop.
+//! Values with their numerical error, and the interface by which long computations report progress and stop.
 
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Mul};
 
-/// A computed value with an estimate of its numerical error, both in the unit of the quantity.
+/// Computed value with an estimate of its numerical error, both in the unit of the quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
-    /// The value.
+    /// Computed value.
     pub value: f64,
     /// Estimated absolute error, never negative.
     pub error: f64,
 }
 
 impl Estimate {
-    /// A value that is exact to rounding.
+    /// Creates a value that is exact to rounding.
     pub const fn exact(value: f64) -> Self {
         Self { value, error: 0.0 }
     }
 
-    /// A value with its error.
+    /// Creates a value with its error.
     pub const fn new(value: f64, error: f64) -> Self {
         Self { value, error }
     }
@@ -26,7 +26,7 @@ impl Estimate {
 
 impl Add for Estimate {
     type Output = Self;
-    /// Errors add: nothing is known of their independence.
+    /// Adds values and errors: nothing is known of the errors' independence.
     fn add(self, other: Self) -> Self {
         Self { value: self.value + other.value, error: self.error + other.error }
     }
@@ -51,32 +51,33 @@ impl Sum for Estimate {
     }
 }
 
-/// A place darker than this share of the mean is in the dark: relative errors there tell nothing.
+/// Share of the mean below which a place counts as dark: relative errors there have no meaning.
 pub const DARK: f64 = 0.01;
 
-/// How exact a set of values is as a whole: the largest of their errors, each relative to its own value, of all that
-/// are not in the [`DARK`]; 0 where all of them are. Window and command line state this one number of a room.
+/// Returns the largest relative error of a set of values, each relative to its own value, without those that are dark
+/// (see [`DARK`]); 0 where all of them are. Window and command line state this one number of a room.
 pub fn largest_relative_error(values: impl Iterator<Item = Estimate> + Clone) -> f64 {
     let (sum, count) = values.clone().fold((0.0, 0_usize), |(sum, count), one| (sum + one.value, count + 1));
     let mean = sum / count.max(1) as f64;
     values.filter(|one| one.value > DARK * mean && one.value > 0.0).map(|one| one.error / one.value).fold(0.0, f64::max)
 }
 
-/// What long computations tell their caller, and ask of it. Implemented by the window's jobs and the command line.
+/// Interface by which long computations report progress and learn of cancellation. Implemented by the window's jobs and
+/// the command line.
 pub trait Progress: Sync {
-    /// `done` of `total` units of the named stage are finished.
+    /// Reports that `done` of `total` units of the named stage are finished.
     fn advance(&self, _stage: &'static str, _done: usize, _total: usize) {}
-    /// True once the result is no longer wanted; the computation then returns [`Cancelled`] soon.
+    /// Whether the result is no longer needed; the computation then returns [`Cancelled`] soon.
     fn cancelled(&self) -> bool {
         false
     }
 }
 
-/// No reports, never cancelled.
+/// Progress that reports nothing and never cancels.
 pub struct Silent;
 impl Progress for Silent {}
 
-/// The caller withdrew the question.
+/// Error of a computation that its caller cancelled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;

@@ -1,4 +1,4 @@
-//! Numbers in, numbers out: photometry and numerics without files, windows or clocks.
+//! Computation: photometry and numerics without files, windows or clocks.
 //!
 //! # Rooms, foundations first
 //!
@@ -6,31 +6,31 @@
 //!
 //! - `limits`: the table of all limits
 //! - `angle`: angles and bearings as types
-//! - `direction`: directions, frames and what points where
+//! - `direction`: directions and their frames
 //! - `profile_angle`: directions in the section across slats
 //! - `dot`: sums of products
 //! - `estimate`: numbers with their error, progress and cancelling
 //! - `quadrature`: integrals with errors
 //! - `sweep`: several quantities integrated along one variable at once, with errors
 //! - `sequence`: random and evenly spread numbers
-//! - `scaling`: matrices scaled to given sums, symmetric ones kept so
+//! - `scaling`: symmetric matrices scaled to given sums
 //! - `polygon`: convex polygons cut, their areas and solid angles
 //! - `basis`: divisions of the hemisphere into cells
 //! - `wavelet`: compact rows of values on cells
-//! - `btdf`: the four functions of a system as data
-//! - `surroundings`: boxes and a skyline before the façade, their edges and shadows
+//! - `btdf`: BSDF data of a system, its four functions
+//! - `surroundings`: boxes and a skyline in front of the façade, their edges and shadows
 //! - `sky`: luminances outside, the sun and its disc
 //! - `weather`: the weather of a place, interval by interval, with sun and light
-//! - `system`: described systems, a room a family, and the goniophotometer that makes data of them
-//! - `incidence`: between incident directions
-//! - `doctor`: faults of data and their repair
+//! - `system`: described systems, one room per family, and the virtual goniophotometer that computes data of them
+//! - `incidence`: interpolation between incident directions
+//! - `doctor`: data checks and repairs
 //! - `lid`: the aperture as a luminaire
 //! - `room`: apertures, direct light and interreflection
-//! - `glare`: what an eye sees of apertures, and how much that disturbs
-//! - `sunlight`: hours of sun on an opening, the view out of it
-//! - `control`: which state a moving system takes
-//! - `year`: what the illuminances of a year come to
-//! - `rank`: which of many is best, as far as figures with errors tell
+//! - `glare`: glare of an observer by apertures and the sun
+//! - `sunlight`: hours of sun on an aperture, the view out of it
+//! - `control`: shading control, the choice of a system's state
+//! - `year`: annual figures from the illuminances of a year
+//! - `rank`: ranking by figures with errors
 //!
 //! # Symbols
 //!
@@ -43,7 +43,7 @@
 //! | I | `intensity` | cd | eq 5 |
 //! | Φ | `flux` | lm | |
 //! | ω_e | [`direction::Incident`] | | towards the source |
-//! | ω_a | [`direction::Emergent`] | | where light goes |
+//! | ω_a | [`direction::Emergent`] | | in which light leaves |
 //! | PΩ | `projected_solid_angle` | sr | ∫cosθ dω of a cell |
 //! | γ | `altitude` | rad | above the horizon |
 //!

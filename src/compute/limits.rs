@@ -1,19 +1,19 @@
-//! Limits of input, computation and memory, in one table: what exceeds one is refused before the work is done, by a message
-//! that names it. `cfs limits` prints the table.
+//! Limits of input, computation and memory, in one table: an input beyond a limit is refused before the work is done,
+//! by a message that names the limit. `cfs limits` prints the table.
 //!
-//! Limits are there against slips of the keyboard and files that are made to fill memory, not against large studies:
-//! each lies well beyond what a study of daylight has had so far.
+//! Limits protect against typing errors and files made to fill memory, not against large studies: each lies well beyond
+//! what a study of daylight has needed so far.
 
-/// One line of the table.
+/// Limit in one line of the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// What it is a limit of, in words.
+    /// Limited quantity in words.
     pub of: &'static str,
-    /// The number.
+    /// Value of the limit.
     pub value: f64,
-    /// Its unit; empty for a count.
+    /// Unit of the limit; empty for a count.
     pub unit: &'static str,
-    /// The least that is taken instead of the most.
+    /// Whether the limit is a minimum instead of a maximum.
     pub least: bool,
 }
 
@@ -38,82 +38,83 @@ macro_rules! limits {
     ($($(#[$doc:meta])* $word:ident $name:ident: $kind:ty = $value:expr, $of:literal, $unit:literal;)*) => {
         $($(#[$doc])* pub const $name: $kind = $value;)*
 
-        /// All limits, in the order in which they are told.
+        /// Table of all limits, in the order in which `cfs limits` prints them.
         pub const TABLE: &[Limit] =
             &[$(Limit { of: $of, value: $name as f64, unit: $unit, least: limits!(@least $word) }),*];
     };
 }
 
 limits! {
-    /// Files larger than this are not read. \[bytes\]
+    /// Maximum size of a file that is read. \[bytes\]
     most FILE_BYTES: u64 = 1 << 30, "a file", "bytes";
-    /// Texts that hold no matrices. \[bytes\]
+    /// Maximum size of a text that holds no matrices. \[bytes\]
     most TEXT_BYTES: usize = 32 << 20, "a scene, luminaire file, index of them, control curve or sky scan", "bytes";
-    /// Files that one import takes in.
+    /// Maximum number of files of one import.
     most IMPORTED_FILES: usize = 2000, "files of one import", "";
-    /// What one import unpacks, all files together. \[bytes\]
+    /// Maximum size of the unpacked files of one import, all together. \[bytes\]
     most UNPACKED_BYTES: u64 = 1 << 30, "unpacked files of one import", "bytes";
-    /// Entries of a zip archive or package.
+    /// Maximum number of entries of a zip archive or package.
     most ARCHIVE_ENTRIES: usize = 20_000, "entries of an archive or package", "";
-    /// One file of an archive, or one dataset of a package, unpacked. \[bytes\]
+    /// Maximum unpacked size of one file of an archive, or one dataset of a package. \[bytes\]
     most ENTRY_BYTES: u64 = 256 << 20, "an unpacked file of an archive, a dataset of a package", "bytes";
-    /// The manifest of a package. \[bytes\]
+    /// Maximum size of the manifest of a package. \[bytes\]
     most MANIFEST_BYTES: u64 = 16 << 20, "the manifest of a package", "bytes";
-    /// The datasets of a package as they are packed. \[bytes\]
+    /// Maximum packed size of the datasets of a package. \[bytes\]
     most PACKAGE_BYTES: u64 = 1 << 30, "all datasets of a package", "bytes";
-    /// What the datasets of one file hold once decoded, each counted once. \[bytes\]
+    /// Maximum size of the decoded values of all datasets of a file, each counted once. \[bytes\]
     most DECODED_BYTES: u64 = 2 << 30, "decoded values of all datasets of a file", "bytes";
-    /// States of a product.
+    /// Maximum number of states of a product.
     most STATES: usize = 1000, "states of a product", "";
-    /// Tags of a product.
+    /// Maximum number of tags of a product.
     most TAGS: usize = 1000, "tags of a product", "";
-    /// Values of one function of a dataset.
+    /// Maximum number of values of one function of a dataset.
     most VALUES: usize = 1 << 24, "values of one function of a dataset", "";
-    /// Incident directions of a dataset.
+    /// Maximum number of incident directions of a dataset.
     most INCIDENCES: usize = 1 << 13, "incident directions of a dataset", "";
-    /// Any value of a dataset, of either sign. \[1/sr\]
+    /// Maximum magnitude of any value of a dataset. \[1/sr\]
     most COEFFICIENT: f64 = 1e9, "a value of a dataset", "1/sr";
-    /// Cells of one basis.
+    /// Maximum number of cells of one basis.
     most CELLS: usize = 1 << 18, "cells of one basis", "";
-    /// Nodes of a tensor tree.
+    /// Maximum number of nodes of a tensor tree.
     most TREE_NODES: usize = 8 << 20, "nodes of a tensor tree", "";
-    /// Planes of a luminaire file.
+    /// Maximum number of C planes of a luminaire file.
     most LUMINAIRE_PLANES: usize = 721, "C planes of a luminaire file", "";
-    /// Angles in a plane of a luminaire file.
+    /// Maximum number of angles in a plane of a luminaire file.
     most LUMINAIRE_ANGLES: usize = 361, "angles in a plane of a luminaire file", "";
-    /// A weather file, three times a year minute by minute. \[bytes\]
+    /// Maximum size of a weather file, three times that of a year minute by minute. \[bytes\]
     most WEATHER_BYTES: u64 = 256 << 20, "a weather file", "bytes";
-    /// Rows of a weather file: a leap year minute by minute.
+    /// Maximum number of rows of a weather file: a leap year minute by minute.
     most WEATHER_RECORDS: usize = 366 * 24 * 60, "rows of a weather file", "";
-    /// A system file. \[bytes\]
+    /// Maximum size of a system file. \[bytes\]
     most SYSTEM_BYTES: usize = 1 << 20, "a system file", "bytes";
-    /// States that a system file describes.
+    /// Maximum number of states that a system file describes.
     most SYSTEM_STATES: usize = 361, "states of a system file", "";
-    /// Points of an outline in a system file.
+    /// Maximum number of points of an outline in a system file.
     most OUTLINE_POINTS: usize = 2000, "points of an outline in a system file", "";
-    /// Pitches that slats with mirrors span, whichever way they are longer.
+    /// Maximum number of pitches that a mirror slat spans in its longer dimension.
     most MIRROR_PITCHES: f64 = 8.0, "pitches that a mirror slat spans", "";
-    /// Sensors of a scene.
+    /// Maximum number of sensors of a scene.
     most SENSORS: usize = 1_000_000, "sensors of a scene", "";
-    /// What of the sensors' geometry is kept from one answer to the next, each table of it; beyond, it is made again. \[bytes\]
+    /// Maximum size of each table of the sensors' geometry that is kept between answers; larger ones are computed
+    /// again. \[bytes\]
     most KEPT_BYTES: usize = 384 << 20, "a table of what sensors see, kept between answers", "bytes";
-    /// Responses of sensors to the patches of the room, as a year needs them. \[bytes\]
+    /// Maximum size of the sensors' responses to the patches of the room for an annual simulation. \[bytes\]
     most RESPONSE_BYTES: usize = 2 << 30, "responses of sensors for a year", "bytes";
-    /// Patches of a room.
+    /// Maximum number of patches of a room.
     most PATCHES: usize = 8000, "patches of a room", "";
-    /// Apertures of a scene; each is held against all others.
+    /// Maximum number of apertures of a scene; each is checked against all others.
     most APERTURES: usize = 10_000, "apertures of a scene", "";
-    /// Boxes outside.
+    /// Maximum number of boxes outside.
     most BOXES: usize = 200, "boxes outside", "";
-    /// The shortest side of an aperture. \[m\]
+    /// Minimum side of an aperture. \[m\]
     least OPENING: f64 = 1e-6, "the side of an aperture", "m";
-    /// Any illuminance of a sky or a sun, seventy times the sun's outside the atmosphere. \[lx\]
+    /// Maximum illuminance of a sky or a sun, seventy times the sun's outside the atmosphere. \[lx\]
     most ILLUMINANCE: f64 = 1e7, "an illuminance of sky or sun", "lx";
-    /// Any luminance outside, six times the sun's disc. \[cd/m²\]
+    /// Maximum luminance outside, six times that of the sun's disc. \[cd/m²\]
     most LUMINANCE: f64 = 1e10, "a luminance outside", "cd/m²";
-    /// A luminaire's intensity in any direction: beyond the strongest searchlights. \[cd\]
+    /// Maximum intensity of a luminaire in any direction: beyond the strongest searchlights. \[cd\]
     most INTENSITY: f64 = 1e12, "an intensity of a luminaire", "cd";
-    /// A luminaire's lamps together. \[lm\]
+    /// Maximum flux of a luminaire's lamps together. \[lm\]
     most LAMP_FLUX: f64 = 1e9, "the flux of a luminaire's lamps", "lm";
 }
 

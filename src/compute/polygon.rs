@@ -1,10 +1,11 @@
-//! Convex polygons: what of them lies on the kept side of straight borders, and Lambert's closed form for the light of
-//! those that are seen from a point.
+//! Convex polygons: cutting at straight borders, areas, and Lambert's closed form for the light of polygons seen from a
+//! point.
 
 use glam::{DVec2, DVec3};
 use std::ops::{Add, Mul, Sub};
 
-/// Keeps the part of a convex polygon with `inside` ≥ 0, a linear function (Sutherland–Hodgman). `kept` is emptied first.
+/// Keeps the part of a convex polygon with `inside` ≥ 0, a linear function (Sutherland–Hodgman). `kept` is emptied
+/// first.
 pub fn cut<P>(polygon: &[P], inside: impl Fn(P) -> f64, kept: &mut Vec<P>)
 where
     P: Copy + Add<Output = P> + Sub<Output = P> + Mul<f64, Output = P>,
@@ -23,8 +24,8 @@ where
     }
 }
 
-/// Leaves of a convex polygon what all of the functions keep, see [`cut`]; nothing where that has no area. `kept` is
-/// room to work in.
+/// Reduces a convex polygon to the part that all of the functions keep, see [`cut`]; empties it where that part has no
+/// area. `kept` is a buffer.
 pub fn cut_by_all<F: Fn(DVec2) -> f64>(
     polygon: &mut Vec<DVec2>,
     borders: impl IntoIterator<Item = F>,
@@ -43,11 +44,11 @@ pub fn cut_by_all<F: Fn(DVec2) -> f64>(
     }
 }
 
-/// Of its distance, what a polygon spans that is too small for products of its corners: these are nearly parallel, and the
-/// rounding of their product, over the square of the span, would be seen.
+/// Span of a polygon relative to its distance below which it is too small for products of its corners: these are nearly
+/// parallel, and the rounding of their product, over the square of the span, would be visible.
 const TINY: f64 = 1e-5;
 
-/// Area of a plane polygon, > 0 when it turns counter-clockwise.
+/// Returns the area of a plane polygon, > 0 when it turns counter-clockwise.
 pub fn area(polygon: &[DVec2]) -> f64 {
     let Some(&first) = polygon.first() else { return 0.0 };
     let span = TINY * TINY * first.length_squared();
@@ -56,8 +57,8 @@ pub fn area(polygon: &[DVec2]) -> f64 {
     (0..polygon.len()).map(|k| 0.5 * corner(k).perp_dot(corner(k + 1))).sum()
 }
 
-/// Is a polygon of corners given as vectors from the point so small from there that only the differences of its corners
-/// hold its shape?
+/// Whether a polygon, its corners given as vectors from the point, looks so small from there that only the differences
+/// of its corners hold its shape.
 pub fn is_tiny(polygon: &[DVec3]) -> bool {
     polygon.first().is_some_and(|first| {
         let span = TINY * TINY * first.length_squared();
@@ -70,8 +71,9 @@ pub fn clip(polygon: &[DVec3], normal: DVec3, kept: &mut Vec<DVec3>) {
     cut(polygon, |p| normal.dot(p), kept);
 }
 
-/// ∫ ω dω over the solid angle of a polygon whose corners are given as vectors from the point; positive when the
-/// corners run counter-clockwise seen against the light. Lambert's edge sum ½ Σ Γᵢ n̂ᵢ, Γ by `atan2` (stable for slivers).
+/// Returns ∫ ω dω over the solid angle of a polygon whose corners are given as vectors from the point; positive when
+/// the corners run counter-clockwise seen against the light. Lambert's edge sum ½ Σ Γᵢ n̂ᵢ, Γ by `atan2` (stable for
+/// slivers).
 pub fn vector_solid_angle(polygon: &[DVec3]) -> DVec3 {
     let tiny = is_tiny(polygon);
     let mut sum = DVec3::ZERO;
@@ -82,12 +84,12 @@ pub fn vector_solid_angle(polygon: &[DVec3]) -> DVec3 {
     0.5 * sum
 }
 
-/// Γ n̂ of the arc from p to q.
+/// Returns Γ n̂ of the arc from p to q.
 pub fn edge(p: DVec3, q: DVec3) -> DVec3 {
     arc(p.cross(q), p, q)
 }
 
-/// The same from p × q.
+/// Returns Γ n̂ of the arc from p to q, given their cross product.
 fn arc(cross: DVec3, p: DVec3, q: DVec3) -> DVec3 {
     let length = cross.length();
     if length < 1e-300 {
@@ -96,7 +98,8 @@ fn arc(cross: DVec3, p: DVec3, q: DVec3) -> DVec3 {
     cross * (length.atan2(p.dot(q)) / length)
 }
 
-/// ∫ max(0, n·ω) dω over a polygon of corners given as vectors from the point: illuminance per luminance. \[sr\]
+/// Returns ∫ max(0, n·ω) dω over a polygon of corners given as vectors from the point: illuminance per luminance.
+/// \[sr\]
 pub fn projected_solid_angle(polygon: &[DVec3], normal: DVec3) -> f64 {
     if polygon.len() >= 3 && polygon.iter().all(|p| normal.dot(*p) >= 0.0) {
         return vector_solid_angle(polygon).dot(normal).abs();

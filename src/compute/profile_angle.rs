@@ -1,31 +1,32 @@
-//! The sun in the section across the slats.
+//! Profile angles of directions and of the sun's disc, in the section across the slats.
 //!
-//! A disc covers an interval of profile angles that is wider than the disc itself where the sun stands far to the side:
-//! half of it is asin(sin ρ / √(y² + z²)). Parts of the disc that horizon, skyline or the façade's own plane hide do not
-//! count.
+//! A disc covers an interval of profile angles that is wider than the disc itself where the sun is far to the side:
+//! half of it is asin(sin ρ / √(y² + z²)). Parts of the disc that horizon, skyline or the façade's own plane hide do
+//! not count.
 
 use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 
-/// Profile angle of a direction: the altitude of its projection on the vertical plane through the normal, atan2(y, z)
-/// in the façade frame. \[rad\] `None` for directions from behind.
+/// Returns the profile angle of a direction: the altitude of its projection on the vertical plane through the normal,
+/// atan2(y, z) in the façade frame. \[rad\] `None` for directions from behind.
 pub fn profile_angle(d: Dir<Facade>) -> Option<f64> {
     let v = d.vector();
     (v.z > 0.0).then(|| v.y.atan2(v.z))
 }
 
-/// What hides light: directions p count where p · `normal` ≥ `offset`. The normal lies in the plane x = 0, as zenith and
-/// outward normal do in the façade frame; or along x, as the zenith does for slats that stand upright.
+/// Border that hides light: directions p are visible where p · `normal` ≥ `offset`. The normal lies in the plane x = 0,
+/// as zenith and outward normal do in the façade frame; or along x, as the zenith does for vertical slats.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Screen {
-    /// Unit vector.
+    /// Unit vector towards the visible side.
     pub normal: DVec3,
-    /// Sine of the hidden height.
+    /// Sine of the altitude above the border's plane up to which light is hidden.
     pub offset: f64,
 }
 
-/// Least and greatest profile angle of what can be seen of a disc of angular radius `radius` about `centre`, from in
-/// front of the aperture's plane and past `screen` (horizon or skyline). \[rad\] `None` where nothing is seen.
+/// Returns the minimum and maximum profile angle of the visible part of a disc of angular radius `radius` about
+/// `centre`, in front of the aperture's plane and past `screen` (horizon or skyline). \[rad\] `None` where nothing is
+/// visible.
 pub fn disc_span(centre: Dir<Facade>, radius: f64, screen: Screen) -> Option<[f64; 2]> {
     let v = centre.vector();
     let edges = [screen, Screen { normal: DVec3::Z, offset: 0.0 }];
@@ -61,7 +62,7 @@ pub fn disc_span(centre: Dir<Facade>, radius: f64, screen: Screen) -> Option<[f6
     })
 }
 
-/// The unit vectors p with p · a = `on_a` and p · b = `on_b`.
+/// Returns the unit vectors p with p · a = `on_a` and p · b = `on_b`.
 fn on_both_circles(a: DVec3, on_a: f64, b: DVec3, on_b: f64) -> [Option<DVec3>; 2] {
     let cosine = a.dot(b);
     let sine2 = 1.0 - cosine * cosine;

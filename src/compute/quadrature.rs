@@ -2,7 +2,7 @@
 //! dimension, and adaptive products of Gauss–Kronrod rules over rectangles.
 //!
 //! Adaptive rules keep a list of pieces and always halve the one with the largest error, so the work goes where the
-//! integrand is difficult. Effort is bounded; what was not reached is told by the error of the returned
+//! integrand is difficult. Effort is bounded; a tolerance that is not reached shows in the error of the returned
 //! [`Estimate`]. Knots known beforehand (kinks, jumps) belong into the list of pieces, not into the adaptivity.
 //!
 //! References: Piessens et al., QUADPACK (1983); Golub and Welsch (1969) for the meaning of the rules.
@@ -12,24 +12,24 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::f64::consts::PI;
 
-/// How hard to try.
+/// Tolerance of an integral and maximum effort.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Absolute error to reach, in the unit of the integral.
     pub absolute: f64,
     /// Error to reach relative to the integral; the larger of both counts.
     pub relative: f64,
-    /// Evaluations of the rule after which to stop in any case.
+    /// Maximum number of evaluations of the rule.
     pub max_pieces: usize,
 }
 
 impl Tolerance {
-    /// Relative error only.
+    /// Creates a tolerance of a relative error only.
     pub const fn relative(relative: f64) -> Self {
         Self { absolute: 0.0, relative, max_pieces: 2000 }
     }
 
-    /// Absolute error only.
+    /// Creates a tolerance of an absolute error only.
     pub const fn absolute(absolute: f64) -> Self {
         Self { absolute, relative: 0.0, max_pieces: 2000 }
     }
@@ -40,7 +40,7 @@ impl Tolerance {
     }
 }
 
-/// Nodes and weights of the Gauss–Legendre rule of `order` points on 0 … 1, exact for polynomials of degree
+/// Returns nodes and weights of the Gauss–Legendre rule of `order` points on 0 … 1, exact for polynomials of degree
 /// 2·order − 1. Newton's method on the Legendre recurrence.
 pub fn gauss_legendre(order: usize) -> Vec<(f64, f64)> {
     let n = order as f64;
@@ -68,7 +68,7 @@ pub fn gauss_legendre(order: usize) -> Vec<(f64, f64)> {
     rule
 }
 
-/// Nodes and weights of `count` midpoints on 0 … 1: for what is not smooth.
+/// Returns nodes and weights of `count` midpoints on 0 … 1: for integrands that are not smooth.
 pub fn midpoints(count: usize) -> Vec<(f64, f64)> {
     (0..count).map(|k| ((k as f64 + 0.5) / count as f64, 1.0 / count as f64)).collect()
 }
@@ -96,10 +96,10 @@ const KRONROD_7: [(f64, f64, f64); 7] = [
     (0.960_491_268_708_020_3, 0.104_656_226_026_467_27, 0.0),
 ];
 
-/// QUADPACK's scaling of |Kronrod − Gauss|: the difference is the error of the weaker rule, and the better rule
-/// gains faster than it, the more so the smaller the difference is against the variation of the integrand. Its factor
-/// 200 makes the result two to three digits too large; 20 still leaves the difference itself where an integrand
-/// is rough (above 1/8000 of the variation), where the better rule gains only a constant factor.
+/// Returns the error by QUADPACK's scaling of |Kronrod − Gauss|: the difference is the error of the weaker rule, and
+/// the better rule gains faster than it, the more so the smaller the difference is against the variation of the
+/// integrand. Its factor 200 makes the result two to three digits too large; 20 still leaves the difference itself
+/// where an integrand is rough (above 1/8000 of the variation), where the better rule gains only a constant factor.
 fn scaled_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     let error = if variation > 0.0 && difference > 0.0 {
         (variation * (20.0 * difference / variation).powf(1.5)).min(difference)
@@ -110,8 +110,9 @@ fn scaled_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     error.max(2.0 * f64::EPSILON * magnitude)
 }
 
-/// The same for pieces that are known to be smooth: of the reserve of [`scaled_error`], which costs ten times the work,
-/// one digit is left. Pieces that are not smooth after all are found out when they are halved, see [`adapt`].
+/// Returns the error like [`scaled_error`] for pieces that are known to be smooth: of that function's reserve, which
+/// costs ten times the work, one digit is left. Pieces that are not smooth after all are detected when they are halved,
+/// see [`adapt`].
 fn smooth_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     let error = if variation > 0.0 && difference > 0.0 {
         variation * (10.0 * difference / variation).powf(1.5).min(1.0)
@@ -121,7 +122,7 @@ fn smooth_error(difference: f64, variation: f64, magnitude: f64) -> f64 {
     error.max(2.0 * f64::EPSILON * magnitude)
 }
 
-/// One application of the 7–15 rule.
+/// Applies the 7–15 rule once.
 fn kronrod_15(f: &mut impl FnMut(f64) -> f64, a: f64, b: f64) -> Estimate {
     let (centre, half) = (0.5 * (a + b), 0.5 * (b - a));
     let mut values = [0.0; 15];
@@ -142,13 +143,13 @@ fn kronrod_15(f: &mut impl FnMut(f64) -> f64, a: f64, b: f64) -> Estimate {
     Estimate::new(kronrod * half, error)
 }
 
-/// A piece of the domain in the queue, ordered by error.
+/// Piece of the domain in the queue, ordered by error.
 struct Piece<D> {
     domain: D,
     estimate: Estimate,
-    /// What the rule itself said of the error, before doubt.
+    /// Error by the rule alone, before it is raised by a comparison with the halves.
     claimed: f64,
-    /// Cut along the second axis next time (rectangles only).
+    /// Whether to cut along the second axis next time (rectangles only).
     second_axis: bool,
 }
 
@@ -169,12 +170,12 @@ impl<D> Ord for Piece<D> {
     }
 }
 
-/// Halves the worst piece until the tolerance is reached or the effort spent. `measure` gives the estimate of a
-/// domain and the axis to cut it along; `halve` cuts.
+/// Halves the worst piece until the tolerance is reached or the effort spent. `measure` gives the estimate of a domain
+/// and the axis to cut it along; `halve` cuts.
 ///
-/// Halves check what their whole has claimed: where the value changes by more than that, the claims of the halves are
-/// raised in proportion, six times for safety. Kinks inside a piece, for which the rules' claims are too small, are so
-/// found.
+/// Halves check the error estimated for their whole: where the value changes by more than that, the errors of the
+/// halves are raised in proportion, six times for safety. This detects kinks inside a piece, for which the rules'
+/// errors are too small.
 fn adapt<D: Copy>(
     start: impl Iterator<Item = D>,
     tolerance: Tolerance,
@@ -212,8 +213,8 @@ fn adapt<D: Copy>(
     settled + pieces.into_iter().map(|piece| piece.estimate).sum()
 }
 
-/// ∫ f over the range of `knots` (rising), cut at every inner knot; adaptive 7–15 Gauss–Kronrod.
-/// Fewer than two knots, or none apart, give 0.
+/// Integrates f over the range of `knots` (rising), cut at every inner knot; adaptive 7–15 Gauss–Kronrod. Fewer than
+/// two different knots give 0.
 pub fn integrate(mut f: impl FnMut(f64) -> f64, knots: &[f64], tolerance: Tolerance) -> Estimate {
     let start = knots.windows(2).map(|pair| (pair[0], pair[1])).filter(|(a, b)| b > a);
     adapt(
@@ -227,17 +228,17 @@ pub fn integrate(mut f: impl FnMut(f64) -> f64, knots: &[f64], tolerance: Tolera
     )
 }
 
-/// A rectangle x₀ … x₁ × y₀ … y₁.
+/// Rectangle x₀ … x₁ × y₀ … y₁.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rectangle {
-    /// From and to along the first axis.
+    /// Begin and end along the first axis.
     pub x: (f64, f64),
-    /// From and to along the second axis.
+    /// Begin and end along the second axis.
     pub y: (f64, f64),
 }
 
 impl Rectangle {
-    /// 0 … 1 × 0 … 1
+    /// Unit square 0 … 1 × 0 … 1.
     pub const UNIT: Self = Self { x: (0.0, 1.0), y: (0.0, 1.0) };
 
     fn halves(self, second_axis: bool) -> Option<[Self; 2]> {
@@ -254,7 +255,7 @@ impl Rectangle {
     }
 }
 
-/// The product of two 3–7 rules; the flag says whether the second axis has the larger error.
+/// Applies the product of two 3–7 rules; the flag says whether the second axis has the larger error.
 fn kronrod_7_squared(
     f: &mut impl FnMut(f64, f64) -> f64,
     domain: Rectangle,
@@ -284,8 +285,8 @@ fn kronrod_7_squared(
     (Estimate::new(best * area, error), difference_y > difference_x)
 }
 
-/// ∬ f(x, y) over a list of rectangles; adaptive products of 3–7 Gauss–Kronrod rules, halving across the axis with
-/// the larger error.
+/// Integrates f(x, y) over a list of rectangles; adaptive products of 3–7 Gauss–Kronrod rules, halving across the axis
+/// with the larger error.
 pub fn integrate_rectangles(
     f: impl FnMut(f64, f64) -> f64,
     rectangles: &[Rectangle],
@@ -294,8 +295,8 @@ pub fn integrate_rectangles(
     over_rectangles(f, rectangles, tolerance, scaled_error)
 }
 
-/// [`integrate_rectangles`] for an integrand that is smooth on each of the rectangles, kinks and jumps being on their
-/// borders: the same accuracy for a tenth of the evaluations, by an error estimate with less in reserve.
+/// Integrates like [`integrate_rectangles`] an integrand that is smooth on each of the rectangles, kinks and jumps
+/// being on their borders: the same accuracy for a tenth of the evaluations, by an error estimate with less in reserve.
 pub fn integrate_smooth_rectangles(
     f: impl FnMut(f64, f64) -> f64,
     rectangles: &[Rectangle],

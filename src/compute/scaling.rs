@@ -1,21 +1,21 @@
-//! Symmetric scaling: the d for which the rows of d A d, A symmetric and not negative, have the sums that are known.
+//! Symmetric scaling: the d for which the rows of d A d, A symmetric and not negative, have given sums.
 //!
-//! What is found from both ends of a path is averaged and so made reciprocal; the sums over all that light can do then
-//! are no longer exactly what they were, and this repairs them without making anything less reciprocal.
+//! Values computed from both ends of a path are averaged and so made reciprocal; then the sums over all that light can
+//! do are no longer exactly what they were, and this repairs them without making anything less reciprocal.
 //!
 //! References: R. Sinkhorn, "A relationship between arbitrary positive matrices and doubly stochastic matrices", Ann.
 //! Math. Statist. 35 (1964); the symmetric form by P. Knight, D. Ruiz, B. Uçar, "A symmetry preserving algorithm for
 //! matrix scaling", SIAM J. Matrix Anal. Appl. 35 (2014); Newton's method as in P. Knight, D. Ruiz, "A fast algorithm
 //! for matrix balancing", IMA J. Numer. Anal. 33 (2013).
 
-/// Newton steps for the scales, and steps of conjugate gradients in each.
+/// Maximum number of Newton steps for the scales, and of steps of conjugate gradients in each.
 const STEPS: [usize; 2] = [8, 200];
-/// No step changes a scale by more than this, either way.
+/// Maximum factor by which a step changes a scale, either way.
 const MOST: f64 = 2.0;
 
-/// The d for which d (A d) are the sums wanted; `sums` gives A d. By rounds of d ← √(d · wanted / (A d)), which halve what
-/// is left: safe from any start. They end when no sum was off by more than `left`. Where no sum is wanted, or nothing is
-/// found, d stays 1; no d goes beyond `limit`.
+/// Computes the d for which d (A d) are the sums `wanted`; `sums` gives A d. By rounds of d ← √(d · wanted / (A d)),
+/// which halve the remaining difference: safe from any start. They end when no sum was off by more than `left`. Where
+/// no sum is wanted, or the present sum is 0, d stays 1; no d exceeds `limit`.
 pub fn by_rounds(
     sums: impl Fn(&[f64]) -> Vec<f64>,
     wanted: &[Option<f64>],
@@ -40,9 +40,10 @@ pub fn by_rounds(
     d
 }
 
-/// The same by Newton's method for ln d, no sum off by more than `left`: (D + dAd) x = wanted − d (A d) with the sums on
-/// the diagonal D is symmetric and not negative. For what is nearly right from the start but would take very many rounds,
-/// as light that does little but pass.
+/// Computes the d for which d (A d) are the sums `wanted` by Newton's method for ln d, until no sum is off by more than
+/// `left`: (D + dAd) x = wanted − d (A d) with the sums on the diagonal D is symmetric and not negative. For matrices
+/// that are nearly right from the start but would take very many rounds, as for light that is mostly transmitted
+/// unchanged.
 pub fn by_newton(sums: impl Fn(&[f64]) -> Vec<f64>, wanted: &[f64], left: f64) -> Vec<f64> {
     let times = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
     let mut d = vec![1.0; wanted.len()];

@@ -1,38 +1,38 @@
-//! Sequences of numbers that follow from a seed alone, whatever thread asks for them.
+//! Sequences of numbers that follow from a seed alone, whatever thread requests them.
 //!
-//! | what | for |
+//! | item | use |
 //! | --- | --- |
-//! | [`Random`] | numbers as if drawn, one after the other |
+//! | [`Random`] | random numbers, one after the other |
 //! | [`mixed`] | a seed for every part of a work |
-//! | [`net`] | points that fill the unit square evenly, any power of two of them |
-//! | [`recurrence`] | evenly spread numbers in many dimensions, as many as are wanted |
+//! | [`net`] | points that fill the unit square uniformly, any power of two of them |
+//! | [`recurrence`] | uniformly spread numbers in many dimensions, in any number |
 //!
 //! Sources: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014 (SplitMix64); I. M. Sobol', USSR Comput. Math. Math. Phys.
 //! 7(4), 1967; A. B. Owen, in Monte Carlo and Quasi-Monte Carlo Methods in Scientific Computing, Springer 1995; the
 //! scrambling by a hash: S. Laine, T. Karras, EGSR 2011, with the constants of N. Vegdahl.
 
-/// The SplitMix64 sequence.
+/// SplitMix64 sequence of random numbers.
 #[derive(Debug, Clone)]
 pub struct Random(pub u64);
 
-/// What the state of SplitMix64 grows by.
+/// Increment of the state of SplitMix64.
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Random {
-    /// 64 random bits.
+    /// Returns 64 random bits.
     pub const fn bits(&mut self) -> u64 {
         let bits = mix(self.0);
         self.0 = self.0.wrapping_add(STEP);
         bits
     }
 
-    /// 0 ≤ number < 1.
+    /// Returns a random number 0 ≤ x < 1.
     pub const fn unit(&mut self) -> f64 {
         unit(self.bits())
     }
 }
 
-/// The first bits that [`Random`] gives with a seed: unlike those of its neighbours.
+/// Returns the first bits that [`Random`] gives with a seed: unlike those of neighbouring seeds.
 pub const fn mix(seed: u64) -> u64 {
     let z = seed.wrapping_add(STEP);
     let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -40,24 +40,25 @@ pub const fn mix(seed: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A seed made of another one and some numbers.
+/// Returns a seed made of another one and some numbers.
 pub fn mixed(seed: u64, numbers: impl IntoIterator<Item = u64>) -> u64 {
     numbers.into_iter().fold(seed, |seed, number| mix(seed ^ number))
 }
 
-/// A number 0 ≤ x < 1 of random bits.
+/// Returns a number 0 ≤ x < 1 from random bits.
 pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// The additive recurrence: the fraction of start + number · step. Evenly spread in as many dimensions as there are
-/// steps that have no sum of integer multiples in common with 1.
+/// Returns a number of the additive recurrence: the fraction of start + number · step. Uniformly spread in as many
+/// dimensions as there are steps that have no sum of integer multiples in common with 1.
 pub fn recurrence(start: f64, number: f64, step: f64) -> f64 {
     (start + number * step).fract()
 }
 
-/// A point of Sobol's sequence with Owen's scrambling in the unit square: of 2^m points from a multiple of 2^m on, exactly one lies in each box of
-/// 2^a × 2^(m − a) equal ones, for every a. Every point alone is as likely anywhere.
+/// Returns a point of Sobol's sequence with Owen's scrambling in the unit square: of 2^m points from a multiple of 2^m
+/// on, exactly one lies in each box of 2^a × 2^(m − a) equal ones, for every a. Each single point is uniformly
+/// distributed.
 pub fn net(number: u32, seed: u64) -> [f64; 2] {
     let (mut other, mut digit, mut rest) = (0_u32, 1_u32 << 31, number);
     while rest > 0 {
@@ -72,7 +73,7 @@ pub fn net(number: u32, seed: u64) -> [f64; 2] {
     [unit(scrambled(number.reverse_bits(), a)), unit(scrambled(other, b))]
 }
 
-/// Owen's scrambling: every binary digit is flipped or not, depending on the digits before it.
+/// Applies Owen's scrambling: every binary digit is flipped or not, depending on the digits before it.
 fn scrambled(x: u32, seed: u64) -> u32 {
     let mut x = x.reverse_bits();
     x ^= x.wrapping_mul(0x3d20_adea);

@@ -8,23 +8,23 @@ use super::plot::{Axis, Form, Plot, Series};
 use super::{Align, Drawing, Frame, Point, Shape, TEXT};
 use crate::texts::tiles as say;
 
-/// Room for the labels below a panel, with and without a name of the axis.
+/// Space for the labels below a panel, with and without a name of the axis.
 const BELOW: [f64; 2] = [40.0, 22.0];
-/// Room above a panel for its title.
+/// Space above a panel for its title.
 const ABOVE: f64 = 30.0;
 
-/// A plot and the paper that it has.
+/// Panel: a plot with its area on paper.
 #[derive(Debug, Clone, Copy)]
 pub struct Panel<'a> {
-    /// What is drawn.
+    /// Plot that is drawn.
     pub plot: &'a Plot,
-    /// The plotting area.
+    /// Plotting area.
     pub area: Frame,
-    /// Its inks.
+    /// Inks of the panel.
     pub inks: &'a Inks,
 }
 
-/// Draws plots of the same series side by side under one legend, on paper of a size.
+/// Draws plots of the same series side by side under one legend, on paper of a given size.
 pub fn draw(plots: &[Plot], [across, down]: [f64; 2]) -> Drawing {
     let inks = &Inks::LIGHT;
     let mut drawing = Drawing::new(across, down);
@@ -41,7 +41,7 @@ pub fn draw(plots: &[Plot], [across, down]: [f64; 2]) -> Drawing {
     drawing
 }
 
-/// The names of series, in lines; their height.
+/// Draws the names of series, in lines, and returns their height.
 pub fn names(drawing: &mut Drawing, frame: Frame, series: &[Series], inks: &Inks) -> f64 {
     let name = |(k, series): (usize, &Series)| Name {
         sample: inks.curve(k, vec![[0.0, 0.0], [18.0, 0.0]], 2.5),
@@ -51,7 +51,7 @@ pub fn names(drawing: &mut Drawing, frame: Frame, series: &[Series], inks: &Inks
     legend::names(drawing, frame, &list, inks)
 }
 
-/// Draws one plot with ticks and names of its axes into a frame; returns it for what else is to be drawn.
+/// Draws one plot with ticks and names of its axes into a frame, and returns the panel for further drawing.
 pub fn panel<'a>(drawing: &mut Drawing, frame: Frame, plot: &'a Plot, inks: &'a Inks) -> Panel<'a> {
     let wide = |axis: &Axis| marks(axis).iter().map(|mark| width(&axis.tick(*mark, 1.0), TEXT)).fold(0.0, f64::max);
     let named = |axis: &Axis| !axis.name.is_empty();
@@ -66,7 +66,7 @@ pub fn panel<'a>(drawing: &mut Drawing, frame: Frame, plot: &'a Plot, inks: &'a 
     panel
 }
 
-/// Coordinates of the ticks on paper: whole decades, or round values.
+/// Returns the coordinates of the ticks on paper: whole decades, or round values.
 fn marks(axis: &Axis) -> Vec<f64> {
     let ends = axis.ends();
     let decades = ends[1].floor() - ends[0].ceil();
@@ -79,19 +79,19 @@ fn marks(axis: &Axis) -> Vec<f64> {
 }
 
 impl Panel<'_> {
-    /// Place on paper of a point in coordinates; what lies outside the axes' ranges is drawn on the border.
+    /// Returns the place on paper of a point in coordinates; a point outside the axes' ranges is drawn on the border.
     pub fn place(&self, point: [f64; 2]) -> Point {
         let along = |coordinate: f64, [first, last]: [f64; 2]| ((coordinate - first) / (last - first)).clamp(0.0, 1.0);
         let [u, v] = [along(point[0], self.plot.x.ends()), along(point[1], self.plot.y.ends())];
         [self.area.left + self.area.width * u, self.area.bottom() - self.area.height * v]
     }
 
-    /// The same of a point in values; `None` for what is no number.
+    /// Returns the place on paper of a point in values; `None` if one of them is not a number.
     pub fn of(&self, values: [f64; 2]) -> Option<Point> {
         Some(self.place(self.plot.place(values)?))
     }
 
-    /// Border, a line and a label at every tick, and the names of the axes.
+    /// Draws border, a line and a label at every tick, and the names of the axes.
     fn axes(&self, drawing: &mut Drawing) {
         let (area, inks) = (self.area, self.inks);
         let (x, y) = (&self.plot.x, &self.plot.y);
@@ -159,7 +159,7 @@ impl Panel<'_> {
         }
     }
 
-    /// Band, lines and marks.
+    /// Draws band, lines and marks of a series.
     fn series(&self, drawing: &mut Drawing, series: &Series, number: usize) {
         let colour = self.inks.series[number % self.inks.series.len()];
         for band in self.plot.bands(series) {

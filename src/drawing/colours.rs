@@ -1,17 +1,17 @@
-//! Colours of data and of what stands round them: the maps, scales from values to colours, and the inks of a picture.
+//! Colours of data and of their surroundings: colour maps, scales from values to colours, and the inks of a picture.
 
 use super::{Rgb, ticks};
 use colorgrad::Gradient;
 use std::sync::LazyLock;
 
-/// A map from 0 … 1 to a colour.
+/// Colour map from 0 … 1 to a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
     /// Viridis: luminance, illuminance, luminance coefficient.
     Sequential,
     /// Blue over white to red: differences, zero in the middle.
     Diverging,
-    /// Greys, dark to light: transmittance where viridis means something else beside it.
+    /// Greys, dark to light: transmittance where viridis has another meaning beside it.
     Grey,
 }
 
@@ -24,11 +24,11 @@ fn table(gradient: &dyn Gradient) -> [Rgb; 256] {
 
 static VIRIDIS: LazyLock<[Rgb; 256]> = LazyLock::new(|| table(&colorgrad::preset::viridis()));
 
-/// Red at first: drawn from its end.
+/// Table of colours from red to blue, which is read from its end.
 static BLUE_TO_RED: LazyLock<[Rgb; 256]> = LazyLock::new(|| table(&colorgrad::preset::rd_bu()));
 
 impl ColourMap {
-    /// Colour of a fraction; values outside 0 … 1 get the end colours, NaN the lower one.
+    /// Returns the colour of a fraction; values outside 0 … 1 get the end colours, NaN the lower one.
     pub fn rgb(self, fraction: f32) -> Rgb {
         // A cast of NaN gives 0.
         let index = (fraction.clamp(0.0, 1.0) * 255.0).round() as usize;
@@ -40,35 +40,36 @@ impl ColourMap {
     }
 }
 
-/// A colour scale over lo … hi.
+/// Colour scale over lo … hi.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColourScale {
     /// Value of the first colour, positive when `log`.
     pub lo: f64,
     /// Value of the last colour, above `lo`.
     pub hi: f64,
-    /// Logarithmic instead of linear.
+    /// Whether the scale is logarithmic instead of linear.
     pub log: bool,
-    /// The colours.
+    /// Colour map.
     pub map: ColourMap,
 }
 
 impl ColourScale {
-    /// From zero (linear) or `decades` below the top (log) to a round number at or above `max`.
+    /// Creates a scale from zero (linear) or `decades` below the top (log) to a round number at or above `max`.
     pub fn up_to(max: f64, log: bool, decades: i32, map: ColourMap) -> Self {
         let hi = if log { ticks::nice_ceil(max) } else { ticks::fine_ceil(max) };
         let lo = if log { hi * 10_f64.powi(-decades.max(1)) } else { 0.0 };
         Self { lo, hi, log, map }
     }
 
-    /// Logarithmic between round numbers around the data; at least one decade, at most six.
+    /// Creates a logarithmic scale between round numbers around the data; at least one decade, at most six.
     pub fn log_around(min: f64, max: f64, map: ColourMap) -> Self {
         let hi = ticks::nice_ceil(max);
         let lo = 1.0 / ticks::nice_ceil(1.0 / min.clamp(hi * 1e-6, hi * 0.1));
         Self { lo, hi, log: true, map }
     }
 
-    /// 0 at `lo`, 1 at `hi`; not limited. Values that a logarithm cannot take are below the scale.
+    /// Returns the place of a value on the scale: 0 at `lo`, 1 at `hi`; not limited. Values without a logarithm are
+    /// below the scale.
     pub fn fraction(&self, value: f64) -> f32 {
         if self.log {
             if value > 0.0 { ((value / self.lo).ln() / (self.hi / self.lo).ln()) as f32 } else { -1.0 }
@@ -77,52 +78,52 @@ impl ColourScale {
         }
     }
 
-    /// Colour of a value on paper.
+    /// Returns the colour of a value on paper.
     pub fn rgb(&self, value: f64) -> Rgb {
         self.map.rgb(self.fraction(value))
     }
 
-    /// Round values on it, at most about `count`.
+    /// Returns round values on the scale, at most about `count`.
     pub fn marks(&self, count: usize) -> Vec<f64> {
         if self.log { ticks::logarithmic(self.lo, self.hi, count) } else { ticks::linear(self.lo, self.hi, count) }
     }
 }
 
-/// Black or white, whichever reads better on a ground.
+/// Returns black or white, whichever is better legible on a ground.
 pub fn contrast([r, g, b]: Rgb) -> Rgb {
     let luminance = 0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b);
     if luminance > 120.0 { [0; 3] } else { [255; 3] }
 }
 
-/// A colour between two, 0 … 1.
+/// Returns a colour between two, `share` from 0 for `a` to 1 for `b`.
 pub fn mixed(a: Rgb, b: Rgb, share: f64) -> Rgb {
     let part = |x: u8, y: u8| (f64::from(x) * (1.0 - share) + f64::from(y) * share).round() as u8;
     [part(a[0], b[0]), part(a[1], b[1]), part(a[2], b[2])]
 }
 
-/// One for each series; they keep apart for all common kinds of colour vision (after Okabe and Ito).
+/// Colours of the series; distinguishable with all common kinds of colour vision (after Okabe and Ito).
 pub const SERIES: [Rgb; 5] = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0]];
 
-/// Inks of everything that is no data, on white paper.
+/// Colours of everything but the data, on white paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inks {
-    /// Text and main lines.
+    /// Colour of text and main lines.
     pub ink: Rgb,
-    /// Secondary text.
+    /// Colour of secondary text.
     pub weak: Rgb,
-    /// Grid lines.
+    /// Colour of grid lines.
     pub grid: Rgb,
-    /// Borders of pictures.
+    /// Colour of the borders of pictures.
     pub outline: Rgb,
-    /// Ground of a picture without data.
+    /// Colour of the ground of a picture without data.
     pub face: Rgb,
-    /// Curves, the most important first.
+    /// Colours of the curves, the most important first.
     pub series: [Rgb; 5],
-    /// Dashes of the curves after the first: for prints without colours.
+    /// Whether the curves after the first are dashed: for prints without colours.
     pub dashes: bool,
-    /// The sun.
+    /// Colour of the sun.
     pub sun: Rgb,
-    /// Unscattered light.
+    /// Colour of unscattered light.
     pub beam: Rgb,
 }
 
@@ -140,7 +141,7 @@ impl Inks {
         beam: [215, 40, 40],
     };
 
-    /// For printers: black text and frames, and curves that are told apart without colours too.
+    /// Colours for printers: black text and frames, and curves that are distinguished without colours too.
     pub const PRINT: Self = Self {
         ink: [0; 3],
         weak: [40; 3],
@@ -153,7 +154,7 @@ impl Inks {
         beam: [0; 3],
     };
 
-    /// A curve's line by its number.
+    /// Returns the line of a curve by its number.
     pub fn curve(&self, number: usize, points: Vec<super::Point>, width: f64) -> super::Shape {
         const DASHES: [[f64; 2]; 4] = [[7.0, 3.0], [2.0, 2.5], [10.0, 4.0], [4.0, 5.0]];
         let colour = self.series[number % self.series.len()];

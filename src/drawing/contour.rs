@@ -4,20 +4,20 @@ use super::colours::ColourScale;
 use super::ticks::logarithmic;
 use std::collections::HashMap;
 
-/// One iso-line in grid units: x = column, y = row of the nodes.
+/// Iso-line in grid units: x = column, y = row of the nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IsoLine {
     /// Points in order; for a closed line the first is not repeated.
     pub points: Vec<[f64; 2]>,
-    /// Returns to its first point.
+    /// Whether the line returns to its first point.
     pub closed: bool,
 }
 
-/// An edge of the grid: from node (column, row) to the right (false) or upwards (true).
+/// Edge of the grid: from node (column, row) to the right (false) or upwards (true).
 type Edge = (usize, usize, bool);
 
-/// All lines on which the field has the value `level`. `values` holds `nx` · `ny` nodes, x running fastest. Squares
-/// with a node that is not finite are left out; saddles are decided by the mean of their four nodes.
+/// Returns all lines on which the field has the value `level`. `values` holds `nx` · `ny` nodes, x running fastest.
+/// Squares with a node that is not finite are left out; saddles are decided by the mean of their four nodes.
 pub fn iso_lines(nx: usize, ny: usize, values: &[f64], level: f64) -> Vec<IsoLine> {
     if nx < 2 || ny < 2 || values.len() != nx * ny {
         return vec![];
@@ -66,7 +66,7 @@ pub fn iso_lines(nx: usize, ny: usize, values: &[f64], level: f64) -> Vec<IsoLin
         .collect()
 }
 
-/// Follows the links: open chains from their ends first, then what is left as loops.
+/// Follows the links: open chains from their ends first, then the remaining ones as loops.
 fn trace(mut links: HashMap<Edge, Vec<Edge>>) -> Vec<(Vec<Edge>, bool)> {
     let mut starts: Vec<Edge> = links.keys().copied().collect();
     // A fixed order, so that labels do not jump; ends (one link) before inner points (two).
@@ -99,7 +99,7 @@ fn trace(mut links: HashMap<Edge, Vec<Edge>>) -> Vec<(Vec<Edge>, bool)> {
     chains
 }
 
-/// Round levels inside the range of the data, few enough to be told apart.
+/// Returns round levels inside the range of the data, few enough to be distinguished.
 pub fn iso_levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
     let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
     if min >= max || totals.is_empty() {
@@ -116,7 +116,7 @@ pub fn iso_levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
     levels
 }
 
-/// Levels that standards ask for: their lines always have their names. \[lx\]
+/// Levels that standards demand: their lines always have their names. \[lx\]
 pub const ASKED_FOR: [f64; 2] = [300.0, 500.0];
 
 #[cfg(test)]

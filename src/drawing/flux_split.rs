@@ -1,27 +1,27 @@
-//! Where transmitted light goes, in shares and in words.
+//! Split of the transmitted light by the zones of the room that it reaches, in shares and in words.
 
 use crate::texts::{Text, fixed, tiles as say};
 
-/// Where the transmitted light goes, as shares of the light that arrives; their sum is τ of that situation.
+/// Transmitted light by zone of the room, as shares of the incident light; their sum is τ of that situation.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FluxSplit {
-    /// Upwards, on the ceiling.
+    /// Share upwards, on the ceiling.
     pub ceiling: f64,
-    /// On the work plane.
+    /// Share on the work plane.
     pub work_zone: f64,
-    /// At the height of the eyes.
+    /// Share at the height of the eyes.
     pub eye_zone: f64,
-    /// Steeply down, on the floor near the façade.
+    /// Share steeply down, on the floor near the façade.
     pub floor: f64,
 }
 
 impl FluxSplit {
-    /// Sum of the shares.
+    /// Returns the sum of the shares.
     pub fn total(&self) -> f64 {
         self.parts().iter().map(|(_, share)| share).sum()
     }
 
-    /// The zones from top to bottom with their names.
+    /// Returns the zones from top to bottom with their names and shares.
     pub fn parts(&self) -> [(Text, f64); 4] {
         [
             (say::CEILING, self.ceiling),
@@ -31,13 +31,13 @@ impl FluxSplit {
         ]
     }
 
-    /// Number of the zone that gets most, from top to bottom.
+    /// Returns the number of the zone with the largest share, from top to bottom.
     fn greatest(&self) -> usize {
         let parts = self.parts();
         (0..4).fold(0, |best, zone| if parts[zone].1 > parts[best].1 { zone } else { best })
     }
 
-    /// "Of 41 % transmitted, 28 goes to the ceiling."
+    /// Returns a sentence on the zone with the largest share, as "Of 41 % transmitted, 28 goes to the ceiling."
     pub fn sentence(&self) -> String {
         if self.total() <= 0.0 {
             return say::NOTHING_TRANSMITTED.into();
@@ -52,7 +52,7 @@ impl FluxSplit {
         }
     }
 
-    /// All zones in one line, in the order of the bar, and shorter.
+    /// Returns all zones in one line, in the order of the bar, then ever shorter versions of it.
     pub fn lines(&self) -> [String; 4] {
         let all = percent(self.total());
         let [ceiling, eye, work, floor] = self.parts().map(|(_, share)| percent(share));
@@ -67,7 +67,7 @@ impl FluxSplit {
     }
 }
 
-/// Whole percents; one decimal below 1 %.
+/// Returns a share as whole percents; with one decimal below 1 %.
 pub fn percent(share: f64) -> String {
     let value = 100.0 * share;
     fixed(value, usize::from(value < 1.0 && value > 0.0))

@@ -1,33 +1,33 @@
-//! The font of all drawings: DejaVu Sans as it is shipped, read as far as widths and outlines of letters need (TrueType:
-//! `cmap`, `hmtx`, `loca`, `glyf`). Letters that it does not have are drawn as its empty box. Words that are written from
-//! right to left are shaped by a library, which joins Arabic letters.
+//! Font of all drawings: DejaVu Sans as it is shipped, read as far as widths and outlines of letters need (TrueType:
+//! `cmap`, `hmtx`, `loca`, `glyf`). Letters that it does not have are drawn as its empty box. Words that are written
+//! from right to left are shaped by a library, which joins Arabic letters.
 
 use super::shape::Point;
 use crate::texts::visual_parts;
 use rustybuzz::{Direction, Face, UnicodeBuffer, shape};
 use std::sync::LazyLock;
 
-/// The file, for those who embed it.
+/// Font file, for embedding.
 pub static DEJAVU: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
 
-/// From the baseline up to the middle of capitals, of the size.
+/// Height of the middle of capitals above the baseline, relative to the size.
 pub const MIDDLE: f64 = 0.36;
-/// From one line of text to the next, of the size.
+/// Distance between lines of text, relative to the size.
 pub const LEADING: f64 = 1.4;
 
-/// The tables by their first byte.
+/// Tables of the font by their first byte.
 struct Font {
     glyf: usize,
     loca: usize,
     hmtx: usize,
-    /// The characters' glyphs: first, last, glyph of the first.
+    /// Glyphs of the characters: first character, last character, glyph of the first.
     groups: Vec<[u32; 3]>,
     metrics: u16,
     units: f64,
     long: bool,
 }
 
-/// Bytes beyond the end read as 0: the file is ours and whole.
+/// Returns a byte of the font file; 0 beyond its end, which a whole file never needs.
 fn byte(at: usize) -> u8 {
     DEJAVU.get(at).copied().unwrap_or(0)
 }
@@ -50,7 +50,7 @@ fn table(tag: &[u8; 4]) -> usize {
     record.map_or(DEJAVU.len(), |at| u32_at(at + 8) as usize)
 }
 
-/// The groups of the character map in format 12, which covers all planes.
+/// Returns the groups of the character map in format 12, which covers all planes.
 fn groups(cmap: usize) -> Vec<[u32; 3]> {
     let count = usize::from(u16_at(cmap + 2));
     let starts = (0..count).map(|k| cmap + u32_at(cmap + 4 + 8 * k + 4) as usize);
@@ -84,7 +84,7 @@ impl Font {
         f64::from(u16_at(self.hmtx + 4 * usize::from(row))) / self.units
     }
 
-    /// First byte of a glyph; `None` for one without ink.
+    /// Returns the first byte of a glyph; `None` for one without ink.
     fn place(&self, glyph: u16) -> Option<usize> {
         let index = usize::from(glyph);
         let [from, to] = [index, index + 1].map(|k| {
@@ -93,7 +93,7 @@ impl Font {
         (to > from).then_some(self.glyf + from)
     }
 
-    /// Contours in units of the font, y up. `depth` limits parts of parts.
+    /// Adds the contours of a glyph in units of the font, y up. `depth` limits the nesting of composite glyphs.
     fn contours(&self, glyph: u16, depth: usize, out: &mut Vec<Vec<Point>>) {
         let Some(start) = self.place(glyph) else { return };
         let count = i16_at(start);
@@ -139,10 +139,10 @@ impl Font {
     }
 }
 
-/// Steps of a curve.
+/// Number of line pieces per curve.
 const STEPS: usize = 5;
 
-/// Contours of a glyph of its own: end points, instructions, flags, x, y.
+/// Adds the contours of a simple glyph: end points, instructions, flags, x, y.
 fn simple(start: usize, count: usize, out: &mut Vec<Vec<Point>>) {
     if count == 0 {
         return;
@@ -192,7 +192,7 @@ fn middle(a: Point, b: Point) -> Point {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// Quadratic curves as short lines; between two control points lies a point of the curve.
+/// Returns quadratic curves as short lines; between two control points lies a point of the curve.
 fn flattened(contour: &[(Point, bool)]) -> Vec<Point> {
     let n = contour.len();
     let mut out = Vec::new();
@@ -214,14 +214,14 @@ fn flattened(contour: &[(Point, bool)]) -> Vec<Point> {
     out
 }
 
-/// The font as the shaper reads it.
+/// Font as the shaper reads it.
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::from_slice(DEJAVU, 0));
 
-/// A glyph of a line. Lengths are relative to the size.
+/// Glyph of a line. Lengths are relative to the size.
 struct Placed {
     glyph: u16,
     advance: f64,
-    /// Shift of its outline, to the right and up: of vowel signs.
+    /// Shift of the glyph's outline, to the right and up: for vowel signs.
     shift: Point,
 }
 
@@ -255,12 +255,12 @@ pub fn missing_characters(text: &str) -> impl Iterator<Item = char> {
     text.chars().filter(|c| !c.is_control() && FONT.glyph(*c) == 0)
 }
 
-/// Width of a text of a size.
+/// Returns the width of a text of a given size.
 pub fn width(text: &str, size: f64) -> f64 {
     size * placed(text).iter().map(|one| one.advance).sum::<f64>()
 }
 
-/// Outlines of a text's letters, a list for each letter, y down, the baseline at 0 and beginning at 0.
+/// Returns the outlines of a text's letters, one list per letter, y down, the baseline at 0 and beginning at 0.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let font = &*FONT;
     let scale = size / font.units;
@@ -280,7 +280,8 @@ pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
         .collect()
 }
 
-/// Lines of a text that are at most so wide, broken between words, and within a word that is wider than a line.
+/// Returns the lines of a text that are at most `most` wide, broken between words, and within a word that is wider than
+/// a line.
 pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in text.lines() {
@@ -306,7 +307,7 @@ pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     lines
 }
 
-/// A text that is at most so wide, its end as "…" where it would be wider.
+/// Returns a text that is at most `most` wide, its end as "…" where it would be wider.
 pub fn shortened(text: &str, size: f64, most: f64) -> String {
     if width(text, size) <= most {
         return text.to_owned();

@@ -1,8 +1,8 @@
 //! A hemisphere as a disk, seen from inside the room: up is up, right is the viewer's right.
 //!
-//! The façade frame counts x to the right seen from **outside**; a viewer inside has −x on his right. Both disks use
-//! the same axes: an incident direction is drawn where its source is seen, an emergent one where its light **goes**,
-//! so light that goes up is drawn up, and a clear pane sends a sun from the top to the bottom.
+//! The façade frame counts x to the right seen from **outside**; a viewer inside has −x on the right. Both disks use
+//! the same axes: an incident direction is drawn where its source is seen, an emergent one where its light **arrives**,
+//! so light that leaves upwards is drawn up, and a clear pane sends a sun from the top to the bottom.
 //! Disk coordinates: (right, up), the rim at radius 1.
 
 use super::colours::Inks;
@@ -14,7 +14,7 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::texts::tiles as say;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
-/// How the polar angle becomes a radius.
+/// Projection of the polar angle to a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Projection {
     /// r = sin θ: equal areas are equal **projected** solid angles, so area × value is flux.
@@ -25,7 +25,7 @@ pub enum Projection {
 }
 
 impl Projection {
-    /// Radius of a polar angle. \[rad\]
+    /// Returns the radius of a polar angle. \[rad\]
     pub fn radius(self, theta: f64) -> f64 {
         match self {
             Self::ProjectedSolidAngle => theta.sin(),
@@ -33,7 +33,7 @@ impl Projection {
         }
     }
 
-    /// Polar angle of a radius, 0 … 1. \[rad\]
+    /// Returns the polar angle of a radius, 0 … 1. \[rad\]
     pub fn theta(self, radius: f64) -> f64 {
         match self {
             Self::ProjectedSolidAngle => radius.clamp(0.0, 1.0).asin(),
@@ -42,22 +42,22 @@ impl Projection {
     }
 }
 
-/// Which hemisphere, thus how a through-name's azimuth is drawn.
+/// Hemisphere of a disk, which determines how a through direction's azimuth is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// Where light comes from.
+    /// Hemisphere of the incident directions.
     Incident,
-    /// Where light goes.
+    /// Hemisphere of the emergent directions.
     Emergent,
 }
 
 impl Side {
-    /// Disk point of a through-name (for [`Side::Incident`] the incident direction itself).
+    /// Returns the disk point of a through direction (for [`Side::Incident`] of the incident direction itself).
     pub fn disk(self, projection: Projection, through: Dir<Facade>) -> [f64; 2] {
         self.polar(projection.radius(through.theta().min(FRAC_PI_2)), through.phi())
     }
 
-    /// Disk point of a radius and a through-name's azimuth.
+    /// Returns the disk point of a radius and a through direction's azimuth.
     pub fn polar(self, radius: f64, phi: f64) -> [f64; 2] {
         let (sin, cos) = phi.sin_cos();
         match self {
@@ -66,7 +66,7 @@ impl Side {
         }
     }
 
-    /// Through-name of a disk point; `None` outside the rim.
+    /// Returns the through direction of a disk point; `None` outside the rim.
     pub fn through_name(self, projection: Projection, [right, up]: [f64; 2]) -> Option<Dir<Facade>> {
         let radius = right.hypot(up);
         if radius > 1.0 {
@@ -80,22 +80,22 @@ impl Side {
     }
 }
 
-/// Disk point of where light comes from.
+/// Returns the disk point of an incident direction.
 pub fn incident_disk(projection: Projection, incident: Incident) -> [f64; 2] {
     Side::Incident.disk(projection, incident.0)
 }
 
-/// Disk point of where light goes.
+/// Returns the disk point of an emergent direction.
 pub fn emergent_disk(projection: Projection, emergent: Emergent) -> [f64; 2] {
     Side::Emergent.disk(projection, emergent.through_name())
 }
 
-/// Steps of 3° or less along the arcs of a cell.
+/// Returns the number of steps along the arcs of a cell, each 3° or less.
 pub fn arc_steps(cell: &Cell) -> usize {
     ((cell.width / 3_f64.to_radians()).ceil() as usize).max(1)
 }
 
-/// Outline of a cell as a closed polygon in disk coordinates.
+/// Returns the outline of a cell as a closed polygon in disk coordinates.
 pub fn cell_outline(projection: Projection, side: Side, cell: &Cell) -> Vec<[f64; 2]> {
     let n = arc_steps(cell);
     let (inner, outer) = (projection.radius(cell.theta_min), projection.radius(cell.theta_max));
@@ -112,7 +112,8 @@ pub fn cell_outline(projection: Projection, side: Side, cell: &Cell) -> Vec<[f64
     points
 }
 
-/// The data, when they are of a list of incident directions that are no lattice's: these have no cells of their own.
+/// Returns the scattering data if they are of listed incident directions that do not form a lattice: these have no
+/// cells of their own.
 pub fn listed(btdf: &Btdf) -> Option<&Indicatrices> {
     match &btdf.scattered {
         Some(Scattered::Directions(data)) if data.lattice().is_none() => Some(data),
@@ -120,39 +121,40 @@ pub fn listed(btdf: &Btdf) -> Option<&Indicatrices> {
     }
 }
 
-/// Cells to draw incidence by: the data's own; for listed directions fine ones, each with its nearest direction.
+/// Returns the cells by which incidence is drawn: the data's own; for listed directions fine ones, each with its
+/// nearest direction.
 pub fn incident_cells(btdf: &Btdf) -> RingBasis {
     if listed(btdf).is_some() { RingBasis::equal_area(20) } else { btdf.incident_basis() }
 }
 
-/// Disk point (right, up) of a place in the sky as seen lying on one's back: north up, so east is left; the zenith in the
-/// middle, equal steps of altitude. \[rad\]
+/// Returns the disk point (right, up) of a place in the sky as seen lying on one's back: north up, so east is left; the
+/// zenith in the middle, equal steps of altitude. \[rad\]
 pub fn dome_point(altitude: f64, bearing: f64) -> [f64; 2] {
     let r = 1.0 - altitude / FRAC_PI_2;
     [-r * bearing.sin(), r * bearing.cos()]
 }
 
-/// Where a disk lies on paper.
+/// Place of a disk on paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Round {
-    /// Centre.
+    /// Centre of the disk.
     pub centre: Point,
     /// Radius of the rim.
     pub radius: f64,
 }
 
 impl Round {
-    /// The largest within a frame that leaves a margin round it.
+    /// Creates the largest disk within a frame that leaves a margin round it.
     pub fn within(frame: Frame, margin: f64) -> Self {
         Self { centre: frame.centre(), radius: (0.5 * frame.width.min(frame.height) - margin).max(8.0) }
     }
 
-    /// Place on paper of a disk point.
+    /// Returns the place on paper of a disk point.
     pub fn place(&self, [right, up]: [f64; 2]) -> Point {
         [self.centre[0] + right * self.radius, self.centre[1] - up * self.radius]
     }
 
-    /// All cells of a basis in flat colours.
+    /// Draws all cells of a basis in flat colours.
     pub fn cells(
         &self,
         (projection, side): (Projection, Side),
@@ -166,7 +168,7 @@ impl Round {
         basis.cells().enumerate().map(cell).collect()
     }
 
-    /// A continuous function of the disk's points, in small flat cells.
+    /// Draws a continuous function of the disk's points, in small flat cells.
     pub fn field(&self, colour: impl Fn([f64; 2]) -> Rgb) -> Vec<Shape> {
         const RINGS: usize = 30;
         const SECTORS: usize = 72;
@@ -186,7 +188,7 @@ impl Round {
         shapes
     }
 
-    /// Rings at 30° and 60° from the normal with their names, the rim, and which way is up.
+    /// Draws rings at 30° and 60° from the normal with their names, the rim, and the names of its sides.
     pub fn rim(&self, projection: Projection, inks: &Inks) -> Vec<Shape> {
         let mut shapes = Vec::new();
         for degrees in [30.0_f64, 60.0] {
@@ -213,7 +215,7 @@ impl Round {
     }
 }
 
-/// Small text on data: a light ground makes it readable on every colour.
+/// Draws small text on data: a light ground makes it legible on every colour.
 pub fn on_halo(at: Point, text: &str, inks: &Inks) -> [Shape; 2] {
     let half = 0.5 * width(text, TEXT) + 2.0;
     let ground = Frame::new(at[0] - half, at[1] - 7.5, 2.0 * half, 15.0).corners().to_vec();

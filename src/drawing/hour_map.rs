@@ -1,5 +1,5 @@
-//! A map of hours: a column a day, a row a part of the day, midnight at the bottom, a colour a value. The window and
-//! files draw the same map.
+//! Map of the hours of a year: one column per day, one row per part of the day, midnight at the bottom, one colour per
+//! value. The window and files draw the same map.
 
 use super::chart::{self, Panel};
 use super::colours::{ColourMap, ColourScale, Inks};
@@ -9,51 +9,51 @@ use super::{Align, Drawing, Frame, Rgb, Shape, TEXT, font, legend};
 use crate::texts::{csv_cell, words::MONTHS, year as say};
 use std::fmt::Write as _;
 
-/// Days before each month of a common year, and of a leap year.
+/// Number of days before each month of a common year, and of a leap year.
 const BEFORE: [[u16; 12]; 2] =
     [[0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334], [0, 31, 60, 91, 121, 152, 182, 213, 244, 274, 305, 335]];
 
-/// What the colours of a map mean.
+/// Meaning of the colours of a map.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colours {
     /// Values on a scale, in a unit.
     Scale(ColourScale, &'static str),
-    /// Values are places in this list: states, by what they are called.
+    /// Names of states, whose places in the list are the values.
     Names(Vec<String>),
 }
 
-/// An interval that a map is made of.
+/// Interval of a map with its value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// 1 … 12.
+    /// Month, 1 … 12.
     pub month: u8,
-    /// 1 … 31.
+    /// Day of the month, 1 … 31.
     pub day: u8,
-    /// Minutes from midnight to its middle.
+    /// Minutes from midnight to the interval's middle.
     pub minute: u16,
-    /// NaN: nothing to show.
+    /// Value; NaN if there is none.
     pub value: f64,
 }
 
-/// A map of hours over the days of a year.
+/// Map of hours over the days of a year.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HourMap {
-    /// What is mapped, in words without unit.
+    /// Quantity of the map, in words without unit.
     pub name: String,
-    /// Columns: 365, or 366 where a 29 February is among the intervals.
+    /// Number of columns: 365, or 366 where a 29 February is among the intervals.
     pub days: usize,
-    /// Rows: parts of a day.
+    /// Number of rows: parts of a day.
     pub rows: usize,
-    /// Day after day, rows rising; NaN where there is nothing.
+    /// Values of the cells, day after day, rows rising; NaN where there is none.
     pub values: Vec<f64>,
-    /// Which of the intervals stands in a cell.
+    /// Index of the interval in each cell.
     pub from: Vec<Option<u32>>,
-    /// What colours mean.
+    /// Meaning of the colours.
     pub colours: Colours,
 }
 
 impl HourMap {
-    /// Of intervals of `length` minutes; of several at one place of the calendar the first is shown.
+    /// Creates a map of intervals of `length` minutes; of several at one place of the calendar the first is shown.
     pub fn of(name: String, colours: Colours, length: f64, intervals: &[Interval]) -> Self {
         let leap = intervals.iter().any(|one| (one.month, one.day) == (2, 29));
         let days = 365 + usize::from(leap);
@@ -73,7 +73,7 @@ impl HourMap {
         map
     }
 
-    /// The cell at a place of the calendar; `None` beyond it.
+    /// Returns the cell at a place of the calendar; `None` beyond it.
     pub fn cell(&self, month: u8, day: u8, minute: u16) -> Option<usize> {
         let month = usize::from(month.checked_sub(1)?);
         let leap = usize::from(self.days > 365);
@@ -82,26 +82,26 @@ impl HourMap {
         (column < self.days && row < self.rows).then_some(column * self.rows + row)
     }
 
-    /// The cell at a day (from 0) and an hour of the day, nearest where they lie beyond.
+    /// Returns the cell at a day (from 0) and an hour of the day; the nearest one where they lie beyond the map.
     pub fn at(&self, day: f64, hour: f64) -> usize {
         let row = ((hour / 24.0 * self.rows as f64).max(0.0) as usize).min(self.rows - 1);
         (day.max(0.0) as usize).min(self.days - 1) * self.rows + row
     }
 
-    /// Middle of a cell: day from 0, and hour.
+    /// Returns the middle of a cell: day from 0, and hour.
     pub fn middle(&self, cell: usize) -> [f64; 2] {
         let (day, row) = (cell / self.rows, cell % self.rows);
         [day as f64 + 0.5, (row as f64 + 0.5) * 24.0 / self.rows as f64]
     }
 
-    /// The cell so many days and rows away; `None` beyond the map.
+    /// Returns the cell `days` days and `rows` rows away; `None` beyond the map.
     pub fn beside(&self, cell: usize, days: i32, rows: i32) -> Option<usize> {
         let rows = i64::from(days) * self.rows as i64 + i64::from(rows);
         let other = usize::try_from(cell as i64 + rows).ok()?;
         (other < self.values.len()).then_some(other)
     }
 
-    /// Month, day and minute at which a cell begins.
+    /// Returns month, day and minute at which a cell begins.
     pub fn date(&self, cell: usize) -> (u8, u8, u16) {
         let day = (cell / self.rows) as u16;
         let before = BEFORE[usize::from(self.days > 365)];
@@ -109,7 +109,7 @@ impl HourMap {
         ((month + 1) as u8, (day - before[month] + 1) as u8, (cell % self.rows * 1440 / self.rows) as u16)
     }
 
-    /// `21 Jun, 12:00–13:00`.
+    /// Returns the time of a cell as `21 Jun, 12:00–13:00`.
     pub fn when(&self, cell: usize) -> String {
         let (month, day, start) = self.date(cell);
         let at = |minutes: usize| format!("{:02}:{:02}", minutes / 60, minutes % 60);
@@ -117,7 +117,7 @@ impl HourMap {
         say::day_span(day, MONTHS[usize::from(month) - 1], at(usize::from(start)), at(end))
     }
 
-    /// Value of a cell with its unit, or the state's name; nothing, in words.
+    /// Returns the value of a cell with its unit, or the state's name, or that there is no value.
     pub fn words(&self, cell: usize) -> String {
         match (&self.colours, self.values[cell]) {
             (_, value) if value.is_nan() => {
@@ -132,7 +132,7 @@ impl HourMap {
         }
     }
 
-    /// Colour of a cell; `None` where there is nothing.
+    /// Returns the colour of a cell; `None` where there is no value.
     pub fn colour(&self, cell: usize) -> Option<Rgb> {
         let value = self.values[cell];
         let coloured = |value: f64| match &self.colours {
@@ -142,7 +142,7 @@ impl HourMap {
         (!value.is_nan()).then(|| coloured(value))
     }
 
-    /// Axes without series.
+    /// Returns the plot of the axes, without series.
     pub fn plot(&self) -> Plot {
         Plot {
             x: Axis::linear([0.0, self.days as f64], "", Unit::Days),
@@ -152,7 +152,7 @@ impl HourMap {
         }
     }
 
-    /// Map and legend on paper; `mark`: a cell that is marked.
+    /// Draws map and legend; `mark`: a cell that is marked.
     pub fn draw(&self, drawing: &mut Drawing, frame: Frame, mark: Option<usize>, inks: &Inks) {
         let [above, below] = frame.cut_bottom(legend::HEIGHT);
         let plot = self.plot();
@@ -191,7 +191,8 @@ impl HourMap {
         }
     }
 
-    /// Month, day, hour at which each cell begins, and its value or its state's name; cells without one have none.
+    /// Returns a CSV table of month, day and hour at which each cell begins, and its value or its state's name; empty
+    /// for cells without one.
     pub fn csv(&self) -> String {
         let unit = match &self.colours {
             Colours::Scale(_, unit) if !unit.is_empty() => format!(" ({unit})"),
@@ -212,12 +213,12 @@ impl HourMap {
     }
 }
 
-/// Colour of one of so many states.
+/// Returns the colour of one of `count` states.
 pub fn name_colour(count: usize, index: usize) -> Rgb {
     ColourMap::Sequential.rgb(index as f32 / (count.max(2) - 1) as f32)
 }
 
-/// Which colour is which state; of many every so many.
+/// Draws the colours with the names of the states; of many only every n-th.
 fn names_legend(drawing: &mut Drawing, frame: Frame, names: &[String], inks: &Inks) {
     let widest = names.iter().map(|name| font::width(name, TEXT)).fold(0.0, f64::max) + 28.0;
     let room = (frame.width / widest).max(1.0) as usize;

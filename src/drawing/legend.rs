@@ -11,7 +11,7 @@ pub const HEIGHT: f64 = 34.0;
 /// Height of a line of names.
 pub const LINE: f64 = 19.0;
 
-/// A colour scale with marks, and its quantity and unit at the right.
+/// Draws a colour scale with marks, and its quantity and unit at the right.
 pub fn scale(drawing: &mut Drawing, frame: Frame, scale: &ColourScale, unit: &str, inks: &Inks) {
     let words = if scale.log { say::logarithmic(unit) } else { unit.to_owned() };
     let room = (frame.width - width(&words, TEXT) - 28.0).max(40.0);
@@ -38,16 +38,16 @@ pub fn scale(drawing: &mut Drawing, frame: Frame, scale: &ColourScale, unit: &st
     }
 }
 
-/// A name in a legend.
+/// Entry of a legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Name {
-    /// A short piece of the curve, from (0, 0) to (18, 0), or whatever stands for it there.
+    /// Sample of the curve, from (0, 0) to (18, 0), or a symbol in its place.
     pub sample: Shape,
-    /// What it is.
+    /// Name of the curve.
     pub text: String,
 }
 
-/// Names side by side, in as many lines as they need; returns their height.
+/// Draws names side by side, in as many lines as they need; returns their height.
 pub fn names(drawing: &mut Drawing, frame: Frame, names: &[Name], inks: &Inks) -> f64 {
     let mut at = [frame.left, frame.top + 0.5 * LINE];
     for name in names {

@@ -1,7 +1,7 @@
 //! Pictures that need no window: lines, areas and text, written as SVG, as PNG or (by `cfs-report`) as PDF, and what
-//! an ordinary plot shows, for these drawings ([`chart`]) as for the window. Pure: numbers in, shapes, text and bytes out.
+//! plots show, for these drawings ([`chart`]) as for the window. Pure: numbers in, shapes, text and bytes out.
 //!
-//! Coordinates are units of the drawing, x right, y down; files say how large a unit is. Text is set in DejaVu Sans
+//! Coordinates are units of the drawing, x right, y down; files state the size of a unit. Text is set in DejaVu Sans
 //! ([`font`]), whose widths are known here, so that SVG, PNG and PDF agree.
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]

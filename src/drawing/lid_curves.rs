@@ -1,22 +1,22 @@
-//! Cuts through a luminous-intensity distribution, as polar diagrams draw them.
+//! Section curves of a luminous intensity distribution, as polar diagrams draw them.
 
 use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::c_gamma::{Aim, Peak, Peaks};
 use crate::compute::lid::{EmergentLuminance, Lid};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// A cut through the distribution.
+/// Plane of a section through the distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LidPlane {
-    /// The vertical plane C – C + 180°, C in whole degrees: 0 is into the room, 90 along the façade.
+    /// Vertical plane C – C + 180°, C in whole degrees: 0 is into the room, 90 along the façade.
     Vertical(u16),
-    /// The horizontal plane γ = 90°, C 0° at the bottom.
+    /// Horizontal plane γ = 90°, C 0° at the bottom.
     Horizontal,
 }
 
 impl LidPlane {
-    /// Where light goes for an angle from straight down (C 0° for [`LidPlane::Horizontal`]) towards the right of the
-    /// drawing, with C and γ as the luminaire file of the aperture counts them.
+    /// Returns the emergent direction for an angle from nadir (C 0° for [`LidPlane::Horizontal`]) towards the right of
+    /// the drawing, with C and γ as the luminaire file of the aperture counts them.
     pub fn direction(self, aim: Aim, angle: f64) -> Emergent {
         match self {
             Self::Vertical(c) => aim.direction(f64::from(c).to_radians(), angle),
@@ -24,7 +24,7 @@ impl LidPlane {
         }
     }
 
-    /// Its name: both of its half-planes, the one to the right first.
+    /// Returns the name of the plane: both of its half-planes, the one to the right first.
     pub fn label(&self) -> String {
         match *self {
             Self::Vertical(c) => format!("C{c}–C{}", (c + 180) % 360),
@@ -33,8 +33,8 @@ impl LidPlane {
     }
 }
 
-/// The vertical planes drawn: across the aperture, and that of the greatest scattered intensity; where that is the same,
-/// and from a roof, also along the aperture. The greatest is never left out.
+/// Returns the vertical planes to draw: across the aperture, and that of the greatest scattered intensity; where that
+/// is the same, and from a roof, also along the aperture. The greatest is never left out.
 pub fn vertical_planes(surface: Surface, peaks: Option<&Peaks>) -> Vec<LidPlane> {
     let mut planes = vec![LidPlane::Vertical(0)];
     // At nadir and zenith all planes meet.
@@ -60,31 +60,31 @@ fn same_plane(a: LidPlane, b: LidPlane) -> bool {
     }
 }
 
-/// Samples of a cut, even over a whole turn from straight down.
+/// Number of samples of a section curve, evenly over a whole turn from nadir.
 pub const SAMPLES: usize = 720;
 
-/// Sampled cuts of a distribution. \[cd\]
+/// Sampled section curves of a distribution. \[cd\]
 #[derive(Debug, Clone)]
 pub struct Curves {
-    /// The vertical planes.
+    /// Curves of the vertical planes. \[cd\]
     pub vertical: Vec<(LidPlane, Vec<f64>)>,
-    /// γ = 90°.
+    /// Curve of the horizontal plane γ = 90°. \[cd\]
     pub horizontal: Vec<f64>,
-    /// The largest of all of them.
+    /// Maximum of all curves. \[cd\]
     pub max: f64,
 }
 
-/// Intensity of scattered light in a direction. \[cd\]
+/// Returns the intensity of scattered light in a direction. \[cd\]
 pub fn intensity(lid: &Lid, d: Emergent) -> f64 {
     lid.intensity(d).max(0.0)
 }
 
-/// Samples the cuts.
+/// Samples the section curves.
 pub fn sample(lid: &Lid, planes: &[LidPlane]) -> Curves {
     sample_at(lid, planes, SAMPLES)
 }
 
-/// The same with another number of samples.
+/// Samples the section curves with `count` samples each.
 pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     let cuts = Cuts::of(lid, count);
     let vertical: Vec<_> = planes.iter().map(|plane| (*plane, cuts.along(*plane, 1))).collect();
@@ -94,8 +94,8 @@ pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     Curves { vertical, horizontal, max }
 }
 
-/// Intensities as the curves show them, every `step` degrees (a divisor of 180): a list over γ from 0° to 180° for each C
-/// from 0° on. \[cd\]
+/// Returns the intensities as the curves show them, every `step` degrees (a divisor of 180): a list over γ from 0° to
+/// 180° for each C from 0° on. \[cd\]
 pub fn table(lid: &Lid, step: u16) -> Vec<Vec<f64>> {
     let turn = usize::from(360 / step);
     // Whole multiples of the samples of a curve, about as many.
@@ -108,15 +108,15 @@ pub fn table(lid: &Lid, step: u16) -> Vec<Vec<f64>> {
     here.chain(opposite).collect()
 }
 
-/// A distribution that is cut. Luminances on fine cells are means over them, constant inside; times the cosine they would
-/// be drawn as the teeth of a saw. A mean over the width of a cell is what they tell.
+/// Distribution prepared for sections. Luminances on fine cells are means over them, constant inside; times the cosine
+/// their curves would have a sawtooth shape. They are therefore smoothed by a mean over the width of a cell.
 struct Cuts {
-    /// What is on fine cells.
+    /// Luminances on fine cells.
     fine: Lid,
     rest: Lid,
-    /// Samples of a turn.
+    /// Number of samples of a turn.
     count: usize,
-    /// Of them in half a cell.
+    /// Number of samples in half a cell.
     half: usize,
 }
 
@@ -129,7 +129,7 @@ impl Cuts {
         Self { fine: part(fine), rest: part(rest), count, half }
     }
 
-    /// Every `every`-th sample of a cut.
+    /// Returns every `every`-th sample of a section.
     fn along(&self, section: LidPlane, every: usize) -> Vec<f64> {
         let aim = Aim::of(self.fine.surface);
         let of = |lid: &Lid, ahead: f64, every: usize| -> Vec<f64> {
@@ -148,23 +148,24 @@ impl Cuts {
     }
 }
 
-/// Wider cells are drawn as the steps that they are: the data know no better. \[rad\]
+/// Maximum width of cells that are smoothed: wider cells are drawn as steps, since the data have no finer information.
+/// \[rad\]
 const FINE: f64 = 4.0 * PI / 180.0;
 
-/// Width of the narrowest ring of cells; without end for what is not on cells. \[rad\]
+/// Returns the width of the narrowest ring of cells; infinite for luminances without cells. \[rad\]
 fn cell_width(part: &EmergentLuminance) -> f64 {
     let EmergentLuminance::Cells { basis, .. } = part else { return f64::INFINITY };
     basis.cells().map(|cell| cell.theta_max - cell.theta_min).fold(f64::INFINITY, f64::min)
 }
 
-/// Means over `half` samples before and after every `every`-th place; samples lie half a step after the places.
+/// Returns means over `half` samples before and after every `every`-th place; samples lie half a step after the places.
 fn moving_mean(values: &[f64], half: usize, every: usize) -> Vec<f64> {
     let n = values.len();
     let around = |k: usize| (0..2 * half).map(move |j| (k + n * half + j - half) % n);
     (0..n).step_by(every).map(|k| around(k).map(|at| values[at]).sum::<f64>() / (2 * half) as f64).collect()
 }
 
-/// Intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. \[cd\]
+/// Returns the intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. \[cd\]
 pub fn diffuser(flux: f64, d: Emergent) -> f64 {
     flux / PI * (-d.0.vector().z).max(0.0)
 }
@@ -175,7 +176,7 @@ mod tests {
     use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
     use std::sync::Arc;
 
-    /// Rings of so many degrees, each with the luminance of its middle.
+    /// Returns a distribution on rings of `degrees`, each with the luminance of its middle.
     fn on_rings(degrees: f64, luminance: fn(f64) -> f64) -> Lid {
         let step = degrees.to_radians();
         let ring = |i: u32| {
@@ -189,7 +190,7 @@ mod tests {
         Lid { surface: Surface::Facade, size: [1.0, 1.0], parts, beams: vec![] }
     }
 
-    /// Half-plane from straight down to the horizontal into the room.
+    /// Half-plane from nadir to the horizontal into the room.
     fn down(lid: &Lid) -> Vec<f64> {
         sample(lid, &[LidPlane::Vertical(0)]).vertical[0].1[..=SAMPLES / 4].to_vec()
     }

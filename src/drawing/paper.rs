@@ -1,4 +1,4 @@
-//! A drawing: shapes on paper, and the files that they become.
+//! Drawing: shapes on paper, and its output as files.
 
 use super::font;
 use super::raster::Raster;
@@ -13,27 +13,27 @@ pub struct Drawing {
     pub width: f64,
     /// Height of the paper.
     pub height: f64,
-    /// What is drawn.
+    /// Shapes of the drawing.
     pub shapes: Vec<Shape>,
 }
 
 impl Drawing {
-    /// Empty paper.
+    /// Creates empty paper.
     pub const fn new(width: f64, height: f64) -> Self {
         Self { width, height, shapes: Vec::new() }
     }
 
-    /// All of the paper.
+    /// Returns the frame of the whole paper.
     pub const fn frame(&self) -> Frame {
         Frame::new(0.0, 0.0, self.width, self.height)
     }
 
-    /// One more shape, on top.
+    /// Adds a shape on top.
     pub fn add(&mut self, shape: Shape) {
         self.shapes.push(shape);
     }
 
-    /// Another drawing as large as fits into a frame, in its middle.
+    /// Places another drawing as large as fits into a frame, in its middle.
     pub fn place(&mut self, other: &Self, frame: Frame) {
         let scale = (frame.width / other.width).min(frame.height / other.height);
         let [x, y] = frame.centre();
@@ -41,26 +41,26 @@ impl Drawing {
         self.shapes.extend(other.shapes.iter().map(|shape| moved(shape, scale, corner)));
     }
 
-    /// As SVG text, a pixel a unit.
+    /// Returns the drawing as SVG text, one pixel per unit.
     pub fn to_svg(&self) -> String {
         self.svg((1.0, "px"))
     }
 
-    /// As SVG text; `unit`: how large a unit is, in `px` or `mm`.
+    /// Returns the drawing as SVG text; `unit`: size of a unit, in `px` or `mm`.
     pub fn svg(&self, unit: (f64, &str)) -> String {
         svg::write(&self.shapes, [self.width, self.height], unit)
     }
 
-    /// As PNG bytes, a pixel a unit; everything is anti-aliased.
+    /// Returns the drawing as PNG bytes, one pixel per unit; everything is anti-aliased.
     ///
     /// # Errors
-    /// More pixels than a PNG can have.
+    /// Returns an error if there are more pixels than a PNG can have.
     pub fn to_png(&self) -> Result<Vec<u8>, png::EncodingError> {
         self.png(1.0, None)
     }
 
-    /// Returns the drawing as PNG bytes with `scale` pixels a unit. `per_metre`: pixels a metre of paper, which the file then
-    /// states, where the picture has a size on paper.
+    /// Returns the drawing as PNG bytes with `scale` pixels per unit. `per_metre`: pixels per metre of paper, which the
+    /// file then states, where the picture has a size on paper.
     ///
     /// # Errors
     /// Returns an error if there are more pixels than a PNG can have.
@@ -68,7 +68,7 @@ impl Drawing {
         self.raster(scale).to_png(per_metre)
     }
 
-    /// Width, height and the pixels, row by row from above.
+    /// Returns width, height and the pixels, row by row from above.
     pub fn to_pixels(&self, scale: f64) -> (usize, usize, Vec<u8>) {
         let raster = self.raster(scale);
         (raster.width, raster.height, raster.pixels)
@@ -84,7 +84,8 @@ impl Drawing {
     }
 }
 
-/// Returns a message that names the characters of drawings that the font does not have: PNG and PDF have a box for each.
+/// Returns a message that names the characters of drawings that the font does not have: PNG and PDF have a box for
+/// each.
 pub fn missing_characters(drawings: &[Drawing]) -> Option<String> {
     let (mut missing, mut first) = (Vec::new(), None);
     for shape in drawings.iter().flat_map(|drawing| &drawing.shapes) {

@@ -1,17 +1,17 @@
-//! What an ordinary plot shows, as data only: axes with units, series of points, lines to compare them with.
+//! Content of a plot, as data only: axes with units, series of points, lines to compare them with.
 //!
-//! The window draws it by egui_plot (`app::paint::plot`), files by [`chart`](super::chart): one set of numbers, whoever
-//! draws. Both work in an axis' *coordinate*, the value itself or, on a logarithmic axis, its decimal logarithm.
+//! The window draws it by egui_plot (`app::paint::plot`), files by [`chart`](super::chart): both use the same numbers.
+//! Both work in an axis' *coordinate*, the value itself or, on a logarithmic axis, its decimal logarithm.
 
 use super::ticks;
 use crate::texts::{tiles as say, words::MONTHS};
 
-/// What the numbers of an axis are counted in.
+/// Unit of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Written behind the axis' name; empty for plain numbers.
+    /// Unit written behind the axis' name; empty for plain numbers.
     Named(&'static str),
-    /// Ticks at angles that people know.
+    /// Degrees, with ticks at usual angles.
     Degrees,
     /// Hours of a day.
     Hours,
@@ -23,33 +23,33 @@ pub enum Unit {
     Share,
 }
 
-/// One axis.
+/// Axis of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// What it counts.
+    /// Name of the quantity.
     pub name: String,
-    /// In which unit.
+    /// Unit of the quantity.
     pub unit: Unit,
-    /// Logarithmic.
+    /// Whether the axis is logarithmic.
     pub log: bool,
-    /// First and last value at first sight; positive when `log`.
+    /// First and last value of the initial view; positive when `log`.
     pub range: [f64; 2],
 }
 
 impl Axis {
-    /// A linear axis.
+    /// Creates a linear axis.
     pub fn linear([lo, hi]: [f64; 2], name: impl Into<String>, unit: Unit) -> Self {
         Self { name: name.into(), unit, log: false, range: [lo, if hi > lo { hi } else { lo + 1.0 }] }
     }
 
-    /// A logarithmic axis.
+    /// Creates a logarithmic axis.
     pub fn log([lo, hi]: [f64; 2], name: impl Into<String>, unit: Unit) -> Self {
         let lo = if lo > 0.0 { lo } else { 1e-6 };
         Self { name: name.into(), unit, log: true, range: [lo, if hi > lo { hi } else { 10.0 * lo }] }
     }
 
-    /// A logarithmic axis over the powers of ten that enclose the finite numbers above 0; at most `most` decades, the
-    /// upper ones.
+    /// Creates a logarithmic axis over the powers of ten that enclose the finite numbers above 0; at most `most`
+    /// decades, the upper ones.
     pub fn decades(values: impl IntoIterator<Item = f64>, most: i32, name: &str, unit: Unit) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values {
@@ -65,12 +65,12 @@ impl Axis {
         Self::log([first.max(last - most.max(1)), last].map(|power| 10_f64.powi(power)), name, unit)
     }
 
-    /// Name and unit; units that stand at the ticks are not repeated.
+    /// Returns name and unit; units that stand at the ticks are not repeated.
     pub fn title(&self) -> String {
         format!("{}{}", self.name, self.unit_part())
     }
 
-    /// The unit alone, where there is no room for the name.
+    /// Returns the unit alone, where there is no room for the name.
     pub fn short_title(&self) -> String {
         self.unit_part().trim_start_matches(" / ").to_owned()
     }
@@ -84,7 +84,8 @@ impl Axis {
         }
     }
 
-    /// Where a value lies, `None` for what is no number. What a logarithm cannot take lies at the end of the range.
+    /// Returns the coordinate of a value, `None` if it is not a number. A value without a logarithm lies at the end of
+    /// the range.
     pub fn coordinate(&self, value: f64) -> Option<f64> {
         let [lo, hi] = self.range;
         match (self.log, value) {
@@ -95,17 +96,17 @@ impl Axis {
         }
     }
 
-    /// The value at a coordinate.
+    /// Returns the value at a coordinate.
     pub fn value(&self, coordinate: f64) -> f64 {
         if self.log { 10_f64.powf(coordinate) } else { coordinate }
     }
 
-    /// Coordinates of the range.
+    /// Returns the coordinates of the range.
     pub fn ends(&self) -> [f64; 2] {
         self.range.map(|end| if self.log { end.log10() } else { end })
     }
 
-    /// Coordinates of round values between two others, about `count` and rising.
+    /// Returns the coordinates of round values between two others, about `count` and rising.
     pub fn marks(&self, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
         let [lo, hi] = [from, to].map(|end| self.value(end));
         if self.log {
@@ -132,14 +133,14 @@ impl Axis {
         }
     }
 
-    /// Text of a tick whose neighbour is `step` away, both coordinates.
+    /// Returns the text of a tick whose neighbour is `step` away, both coordinates.
     pub fn tick(&self, coordinate: f64, step: f64) -> String {
         let value = self.value(coordinate);
         let step = if self.log { self.value(coordinate + step) - value } else { step };
         self.words(value, |number| ticks::fine_tick(number, step * (number / value)))
     }
 
-    /// A value with its unit.
+    /// Returns a value with its unit.
     pub fn text(&self, value: f64) -> String {
         match self.unit {
             Unit::Named(unit) => ticks::si(value, unit).trim_end().to_owned(),
@@ -148,7 +149,7 @@ impl Axis {
         }
     }
 
-    /// A number, with the unit where it belongs to the tick.
+    /// Returns a number, with the unit where it belongs to the tick.
     fn words(&self, value: f64, number: impl Fn(f64) -> String) -> String {
         // Powers of ten must not fall short of their unit by rounding.
         let reaches = |least: f64| value.abs() >= least * (1.0 - 1e-9);
@@ -175,78 +176,78 @@ impl Axis {
 /// First days of the months, from 0.
 const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
 
-/// A day of the year in words: the month alone on its first day.
+/// Returns a day of the year in words: the month alone on its first day.
 fn date(day: f64) -> String {
     let Some(month) = FIRST.iter().rposition(|first| *first <= day && day < 365.0) else { return String::new() };
     let past = (day - FIRST[month]).floor();
     if past > 0.0 { say::day_month(past + 1.0, MONTHS[month]) } else { MONTHS[month].into() }
 }
 
-/// How the points of a series are drawn.
+/// Form in which the points of a series are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// A line through them.
+    /// Line through the points.
     Line,
-    /// A line and a mark at each.
+    /// Line with a mark at each point.
     Marked,
-    /// A dot each.
+    /// Dot at each point.
     Dots,
 }
 
-/// Points that belong together.
+/// Series of points that belong together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// For the legend.
+    /// Name in the legend.
     pub name: String,
-    /// Values on x and y; one that is no number parts the line.
+    /// Values on x and y; a value that is not a number divides the line.
     pub points: Vec<[f64; 2]>,
     /// Lowest and highest y at each point; empty: no band.
     pub band: Vec<[f64; 2]>,
-    /// Line or dots.
+    /// Form of the points.
     pub form: Form,
 }
 
 impl Series {
-    /// A line without a band.
+    /// Creates a line without a band.
     pub fn line(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         Self { name: name.into(), points: points.into_iter().collect(), band: Vec::new(), form: Form::Line }
     }
 }
 
-/// A line to compare with: a limit, the present.
+/// Line for comparison, as a limit or the present value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide {
-    /// Written at its end; may be empty.
+    /// Name written at the line's end; may be empty.
     pub name: String,
-    /// Values on x and y.
+    /// Values of the two ends on x and y.
     pub ends: [[f64; 2]; 2],
 }
 
-/// A plot.
+/// Plot with axes, series and guides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// To the right.
+    /// Axis to the right.
     pub x: Axis,
-    /// Up.
+    /// Axis upwards.
     pub y: Axis,
-    /// The first is the most important.
+    /// Series, the most important first.
     pub series: Vec<Series>,
-    /// Behind the series.
+    /// Guides, drawn behind the series.
     pub guides: Vec<Guide>,
 }
 
 impl Plot {
-    /// Coordinates of a point.
+    /// Returns the coordinates of a point.
     pub fn place(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         Some([self.x.coordinate(x)?, self.y.coordinate(y)?])
     }
 
-    /// The lines of a series in coordinates, parted where a value is missing.
+    /// Returns the lines of a series in coordinates, divided where a value is missing.
     pub fn runs(&self, series: &Series) -> Vec<Vec<[f64; 2]>> {
         parted(series.points.iter().map(|point| self.place(*point)))
     }
 
-    /// The same of its band: x, lowest and highest y.
+    /// Returns the bands of a series in coordinates, divided where a value is missing: x, lowest and highest y.
     pub fn bands(&self, series: &Series) -> Vec<Vec<[f64; 3]>> {
         parted(series.points.iter().zip(&series.band).map(|([x, _], [low, high])| {
             Some([self.x.coordinate(*x)?, self.y.coordinate(*low)?, self.y.coordinate(*high)?])

@@ -1,4 +1,4 @@
-//! A drawing as pixels: areas by the share of every pixel that they cover, lines by their distance.
+//! Output of a drawing as pixels: areas by the share of every pixel that they cover, lines by their distance.
 
 use super::font::{MIDDLE, outlines, width};
 use super::shape::{Point, Rgb, Shape};
@@ -17,7 +17,7 @@ impl Raster {
         Self { width, height, pixels: vec![255; 3 * width * height], cover: vec![0.0; width * height] }
     }
 
-    /// Returns PNG bytes. `per_metre`: pixels a metre of paper, where the picture has a size on paper.
+    /// Returns PNG bytes. `per_metre`: pixels per metre of paper, where the picture has a size on paper.
     pub(super) fn to_png(&self, per_metre: Option<f64>) -> Result<Vec<u8>, EncodingError> {
         // More than a PNG can have fails in the encoder, which checks the bytes against the size.
         let [width, height] = [self.width, self.height].map(|size| u32::try_from(size).unwrap_or(u32::MAX));
@@ -33,7 +33,7 @@ impl Raster {
         Ok(bytes)
     }
 
-    /// A shape in pixels.
+    /// Draws a shape in pixels.
     pub(super) fn draw(&mut self, shape: &Shape) {
         match shape {
             Shape::Line { points, colour, width, dash: None } => self.line(points, *colour, *width),
@@ -73,7 +73,7 @@ impl Raster {
         }
     }
 
-    /// Coverage of a pixel by its distance to the line: one pixel of transition.
+    /// Draws a line with the coverage of a pixel by its distance to the line: one pixel of transition.
     fn line(&mut self, points: &[Point], colour: Rgb, width: f64) {
         // What is thinner than a pixel is drawn as wide as one, and paler.
         let (width, ink) = if width < 1.0 { (1.0, width) } else { (width, 1.0) };
@@ -118,7 +118,7 @@ impl Raster {
         }
     }
 
-    /// The inside of contours by signed areas: each edge adds to every pixel right of it what it covers of its row.
+    /// Fills the inside of contours by signed areas: each edge adds to every pixel right of it its coverage of the row.
     fn fill(&mut self, contours: &[Vec<Point>], colour: Rgb, opacity: f64) {
         let all = || contours.iter().flatten().filter(|p| p[0].is_finite() && p[1].is_finite());
         let bound = |axis: usize| {
@@ -207,7 +207,7 @@ fn edge(sums: &mut [f64], columns: usize, rows: usize, [a, b]: [Point; 2]) {
     }
 }
 
-/// The strokes of a dashed line.
+/// Returns the strokes of a dashed line.
 fn strokes(points: &[Point], [on, off]: [f64; 2]) -> Vec<Vec<Point>> {
     if !(on > 0.0 && off > 0.0) {
         return vec![points.to_vec()];

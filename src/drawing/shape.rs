@@ -1,16 +1,16 @@
-//! What drawings are made of: lines, areas and text, and rectangles to lay them out in.
+//! Shapes of drawings: lines, areas and text, and rectangles for their layout.
 
 use std::f64::consts::TAU;
 
-/// Red, green, blue.
+/// Colour: red, green, blue.
 pub type Rgb = [u8; 3];
-/// A point, x right and y down.
+/// Point, x right and y down.
 pub type Point = [f64; 2];
 
-/// A part of a drawing.
+/// Shape of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// A line through points.
+    /// Line through points.
     Line {
         /// Corner points.
         points: Vec<Point>,
@@ -18,51 +18,51 @@ pub enum Shape {
         colour: Rgb,
         /// Width.
         width: f64,
-        /// Lengths of stroke and gap; `None`: drawn through.
+        /// Lengths of stroke and gap; `None`: solid.
         dash: Option<[f64; 2]>,
     },
-    /// The inside of a polygon that does not cross itself.
+    /// Inside of a polygon that does not cross itself.
     Area {
         /// Corner points.
         points: Vec<Point>,
         /// Colour.
         colour: Rgb,
-        /// 0 … 1.
+        /// Opacity, 0 … 1.
         opacity: f64,
         /// Width of an outline in the same colour: neighbours that share a border leave no seam.
         edge: f64,
     },
-    /// One line of text.
+    /// Line of text.
     Text {
-        /// Middle of the height of its letters; across, what `align` says.
+        /// Middle of the height of the letters; across, the point that `align` states.
         at: Point,
-        /// The words.
+        /// Text of the line.
         text: String,
         /// Colour.
         colour: Rgb,
         /// Size of the font.
         size: f64,
-        /// Which end stands at the point.
+        /// End of the text that lies at the point.
         align: Align,
-        /// Turned clockwise. \[°\]
+        /// Rotation, clockwise. \[°\]
         turn: f64,
     },
 }
 
-/// Which end of a text stands at its place.
+/// Alignment: the end of a text that lies at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Align {
-    /// Left.
+    /// Left end.
     Start,
-    /// Centred.
+    /// Centre.
     #[default]
     Middle,
-    /// Right.
+    /// Right end.
     End,
 }
 
 impl Align {
-    /// Share of the width that lies left of the place.
+    /// Returns the share of the width that lies left of the place.
     pub const fn share(self) -> f64 {
         match self {
             Self::Start => 0.0,
@@ -72,129 +72,129 @@ impl Align {
     }
 }
 
-/// Size of text where nothing else is said.
+/// Default size of text.
 pub const TEXT: f64 = 13.0;
 
 impl Shape {
-    /// A line drawn through.
+    /// Creates a solid line.
     pub fn line(points: impl Into<Vec<Point>>, colour: Rgb, width: f64) -> Self {
         Self::Line { points: points.into(), colour, width, dash: None }
     }
 
-    /// A line of strokes.
+    /// Creates a dashed line.
     pub fn dashed(points: impl Into<Vec<Point>>, colour: Rgb, width: f64, dash: [f64; 2]) -> Self {
         Self::Line { points: points.into(), colour, width, dash: Some(dash) }
     }
 
-    /// An area in one colour.
+    /// Creates an area in one colour.
     pub fn area(points: impl Into<Vec<Point>>, colour: Rgb) -> Self {
         Self::Area { points: points.into(), colour, opacity: 1.0, edge: 0.0 }
     }
 
-    /// An area that others touch.
+    /// Creates an area whose neighbours share its borders.
     pub fn cell(points: impl Into<Vec<Point>>, colour: Rgb) -> Self {
         Self::Area { points: points.into(), colour, opacity: 1.0, edge: 0.8 }
     }
 
-    /// A filled circle.
+    /// Creates a filled circle.
     pub fn dot(centre: Point, radius: f64, colour: Rgb) -> Self {
         Self::area(circle(centre, radius), colour)
     }
 
-    /// The line round a circle.
+    /// Creates the outline of a circle.
     pub fn ring(centre: Point, radius: f64, colour: Rgb, width: f64) -> Self {
         Self::line(circle(centre, radius), colour, width)
     }
 
-    /// Text centred on a point.
+    /// Creates a text centred on a point.
     pub fn text(at: Point, text: impl Into<String>, colour: Rgb) -> Self {
         Self::words(at, text, colour, TEXT, Align::Middle)
     }
 
-    /// Text of a size, aligned.
+    /// Creates a text of a given size and alignment.
     pub fn words(at: Point, text: impl Into<String>, colour: Rgb, size: f64, align: Align) -> Self {
         Self::Text { at, text: text.into(), colour, size, align, turn: 0.0 }
     }
 }
 
-/// A closed circle as a polygon; the last point is the first.
+/// Returns a closed circle as a polygon; the last point is the first.
 pub fn circle([x, y]: Point, radius: f64) -> Vec<Point> {
     let count = (24.0 + radius).min(180.0) as usize;
     let angle = |k: usize| TAU * k as f64 / count as f64;
     (0..=count).map(|k| [x + radius * angle(k).cos(), y + radius * angle(k).sin()]).collect()
 }
 
-/// A rectangle of a drawing.
+/// Rectangle of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// x of the left edge.
     pub left: f64,
     /// y of the upper edge.
     pub top: f64,
-    /// To the right.
+    /// Width, to the right.
     pub width: f64,
-    /// Downwards.
+    /// Height, downwards.
     pub height: f64,
 }
 
 impl Frame {
-    /// By its left upper corner and its size.
+    /// Creates a frame from its upper left corner and its size.
     pub const fn new(left: f64, top: f64, width: f64, height: f64) -> Self {
         Self { left, top, width, height }
     }
 
-    /// x of the right edge.
+    /// Returns x of the right edge.
     pub const fn right(&self) -> f64 {
         self.left + self.width
     }
 
-    /// y of the lower edge.
+    /// Returns y of the lower edge.
     pub const fn bottom(&self) -> f64 {
         self.top + self.height
     }
 
-    /// The middle.
+    /// Returns the middle.
     pub const fn centre(&self) -> Point {
         [self.left + 0.5 * self.width, self.top + 0.5 * self.height]
     }
 
-    /// Smaller by margins left, above, right and below.
+    /// Returns the frame reduced by margins left, above, right and below.
     pub const fn inside(&self, [left, above, right, below]: [f64; 4]) -> Self {
         let (width, height) = (self.width - left - right, self.height - above - below);
         Self::new(self.left + left, self.top + above, width.max(1.0), height.max(1.0))
     }
 
-    /// A part of its width, left and right.
+    /// Splits the frame into a left part of a share of its width and a right one.
     pub const fn split(&self, share: f64) -> [Self; 2] {
         let width = self.width * share;
         let right = Self::new(self.left + width, self.top, self.width - width, self.height);
         [Self::new(self.left, self.top, width, self.height), right]
     }
 
-    /// So much from below, and the rest above it.
+    /// Splits the frame into the part above and a strip of `height` at the bottom.
     pub const fn cut_bottom(&self, height: f64) -> [Self; 2] {
         let above = Self::new(self.left, self.top, self.width, self.height - height);
         [above, Self::new(self.left, self.top + self.height - height, self.width, height)]
     }
 
-    /// Its corners, round.
+    /// Returns the corners in order around the frame.
     pub const fn corners(&self) -> [Point; 4] {
         let (right, bottom) = (self.right(), self.bottom());
         [[self.left, self.top], [right, self.top], [right, bottom], [self.left, bottom]]
     }
 
-    /// Its corners as a closed line.
+    /// Returns the corners as a closed line.
     pub fn outline(&self) -> Vec<Point> {
         let [a, b, c, d] = self.corners();
         vec![a, b, c, d, a]
     }
 
-    /// Does any part of another lie in it?
+    /// Whether any part of another frame lies in this one.
     pub fn meets(&self, other: &Self) -> bool {
         self.left < other.right() && other.left < self.right() && self.top < other.bottom() && other.top < self.bottom()
     }
 
-    /// Does all of another lie in it?
+    /// Whether all of another frame lies in this one.
     pub fn holds(&self, other: &Self) -> bool {
         other.left >= self.left
             && other.right() <= self.right()
@@ -203,7 +203,7 @@ impl Frame {
     }
 }
 
-/// A shape made larger about the origin, then moved.
+/// Returns a shape enlarged about the origin, then moved.
 pub fn moved(shape: &Shape, scale: f64, [right, down]: Point) -> Shape {
     let place = |[x, y]: &Point| [right + scale * x, down + scale * y];
     let all = |points: &[Point]| points.iter().map(place).collect();

@@ -1,10 +1,10 @@
-//! A drawing as SVG text: vectors and text as they are.
+//! Output of a drawing as SVG text, with vectors and text preserved.
 
 use super::font::MIDDLE;
 use super::shape::{Align, Point, Rgb, Shape};
 use std::fmt::Write as _;
 
-/// The font, and what stands for it where it is not there.
+/// Font, and its substitutes where it is not installed.
 const FAMILY: &str = "'DejaVu Sans', Verdana, sans-serif";
 
 fn path(points: &[Point]) -> String {
@@ -15,7 +15,7 @@ fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Text with the characters that XML keeps for itself written out, and those that it refuses left out.
+/// Returns text with the reserved characters of XML escaped, and those that it refuses replaced by spaces.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -30,7 +30,7 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// A length without needless zeros.
+/// Returns a length without needless zeros.
 fn length(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()

@@ -1,4 +1,4 @@
-//! Where a product sends the sun, small: a picture for lists and galleries.
+//! Small picture of the transmitted sunlight of a product, for lists and galleries.
 
 use super::colours::{ColourMap, ColourScale};
 use super::hemisphere::{Projection, Side, emergent_disk};
@@ -7,13 +7,14 @@ use crate::compute::direction::{Emergent, Incident};
 
 /// Side of the picture. \[pixels\]
 pub const SIDE: usize = 72;
-/// Decades of the logarithmic colour scale below the greatest value.
+/// Number of decades of the logarithmic colour scale below the greatest value.
 const DECADES: i32 = 3;
-/// Radius of the dot for light that goes straight on, of the disk's.
+/// Radius of the dot for regular transmission, relative to the disk's.
 const DOT: f64 = 0.1;
 
-/// The indicatrix of one incident direction as the emergent hemisphere seen from inside, up is up: red, green, blue and
-/// opacity of [`SIDE`]² pixels, row by row from the top. Every picture has its own scale, up to its greatest value.
+/// Returns the indicatrix of one incident direction as the emergent hemisphere seen from inside, up is up: red, green,
+/// blue and opacity of [`SIDE`]² pixels, row by row from the top. Every picture has its own scale, up to its greatest
+/// value.
 pub fn indicatrix(btdf: &Btdf, incident: Incident) -> Vec<[u8; 4]> {
     const PROJECTION: Projection = Projection::ProjectedSolidAngle;
     let scattered = btdf.indicatrix(incident);

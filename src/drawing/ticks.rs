@@ -2,7 +2,7 @@
 
 use crate::texts;
 
-/// The next of 1, 2, 5 · 10ⁿ that is at least `value`; 1 for what is not positive and finite.
+/// Returns the next of 1, 2, 5 · 10ⁿ that is at least `value`; 1 for a value that is not positive and finite.
 pub fn nice_ceil(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
@@ -13,7 +13,7 @@ pub fn nice_ceil(value: f64) -> f64 {
     rounded * decade
 }
 
-/// Round values within lo … hi, at most `count` + 1 of them.
+/// Returns round values within lo … hi, at most `count` + 1 of them.
 pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     if !(hi > lo && (hi - lo).is_finite()) || count == 0 {
         return vec![];
@@ -21,14 +21,15 @@ pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     multiples(lo, hi, nice_ceil((hi - lo) / count as f64))
 }
 
-/// Multiples of a step within lo … hi.
+/// Returns the multiples of a step within lo … hi.
 pub fn multiples(lo: f64, hi: f64, step: f64) -> Vec<f64> {
     let first = (lo / step - 1e-9).ceil() as i64;
     let last = (hi / step + 1e-9).floor() as i64;
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// Like [`nice_ceil`] in finer steps (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8), so that a scale is well filled.
+/// Returns the next number like [`nice_ceil`] in finer steps (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8), so that a scale is well
+/// filled.
 pub fn fine_ceil(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
@@ -40,8 +41,8 @@ pub fn fine_ceil(value: f64) -> f64 {
     scaled(steps.into_iter().find(|m| value <= scaled(*m) * (1.0 + 1e-9)).unwrap_or(10.0))
 }
 
-/// Marks of a logarithmic axis within lo … hi, about `count`: 1-2-5 steps where they fit, else decades, else every
-/// second decade and so on; where there is less than two decades the 1-2-5 steps are thinned instead.
+/// Returns the marks of a logarithmic axis within lo … hi, about `count`: 1-2-5 steps where they fit, else decades,
+/// else every second decade and so on; where there is less than two decades the 1-2-5 steps are thinned instead.
 pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     if !(lo > 0.0 && hi > lo && hi.is_finite()) || count == 0 {
         return vec![];
@@ -57,7 +58,7 @@ pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     chosen.into_iter().step_by(stride).collect()
 }
 
-/// A number with nine significant digits and no trailing zeros.
+/// Returns a number with nine significant digits and no trailing zeros.
 pub fn nine_digits(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}").replace("-0", "0");
@@ -71,7 +72,7 @@ pub fn nine_digits(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// A number to `digits` significant digits, without needless zeros: "0.0123", "412", "12 300".
+/// Returns a number to `digits` significant digits, without needless zeros: "0.0123", "412", "12 300".
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
@@ -99,7 +100,7 @@ impl RoundIf for f64 {
     }
 }
 
-/// Thin groups of three for whole parts of five digits and more.
+/// Separates groups of three by thin spaces in whole parts of five digits and more.
 fn group(text: &str) -> String {
     let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("−", rest));
     let (whole, fraction) = rest.split_once('.').map_or((rest, ""), |(a, b)| (a, b));
@@ -117,7 +118,7 @@ fn group(text: &str) -> String {
     out
 }
 
-/// A quantity with its unit, kilo and mega from ten thousand up: "12.3 klx", "850 lx".
+/// Returns a quantity with its unit, kilo and mega from ten thousand up: "12.3 klx", "850 lx".
 pub fn si(value: f64, unit: &str) -> String {
     let size = value.abs();
     if size >= 1e7 {
@@ -129,12 +130,12 @@ pub fn si(value: f64, unit: &str) -> String {
     }
 }
 
-/// A tick's text: few digits, no trailing zeros, thousands as "k".
+/// Returns a tick's text: few digits, no trailing zeros, thousands as "k".
 pub fn tick(value: f64) -> String {
     fine_tick(value, value)
 }
 
-/// A tick's text with the digits that tell it from its neighbour, a step further.
+/// Returns a tick's text with the digits that distinguish it from its neighbour, a step further.
 pub fn fine_tick(value: f64, step: f64) -> String {
     let size = value.abs();
     let (scale, unit, least) = match size {
@@ -149,7 +150,7 @@ pub fn fine_tick(value: f64, step: f64) -> String {
     format!("{}{unit}", if plain { text.trim_end_matches('0').trim_end_matches(sign) } else { &text })
 }
 
-/// An angle in radians as whole degrees: "40°".
+/// Returns an angle in radians as whole degrees: "40°".
 pub fn degrees(radians: f64) -> String {
     format!("{:.0}°", radians.to_degrees() + 0.0)
 }

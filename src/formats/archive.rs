@@ -1,4 +1,4 @@
-//! A zip archive of files, as folders of data are sent around: its files by name, within limits that no archive gets past.
+//! Zip archives of data files: their files by name, within limits that hold for every archive.
 
 use super::encoding::{NotText, is_web_page};
 use crate::compute::limits;
@@ -6,51 +6,52 @@ use std::collections::{HashMap, HashSet};
 use std::io::{Cursor, Read};
 use zip::ZipArchive;
 
-/// Most entries of an archive.
+/// Maximum number of entries of an archive.
 pub const MOST_ENTRIES: usize = limits::ARCHIVE_ENTRIES;
-/// Largest file in an archive. \[bytes\]
+/// Maximum size of a file in an archive. \[bytes\]
 pub const MOST_FILE: u64 = limits::ENTRY_BYTES;
 
-/// Why an archive, or a file in it, cannot be read.
+/// Error of reading an archive, or a file in it.
 #[derive(Debug, thiserror::Error)]
 pub enum ArchiveError {
-    /// A web page that was saved in place of the archive.
+    /// Web page that was saved in place of the archive.
     #[error(transparent)]
     WebPage(#[from] NotText),
-    /// Not a zip file, or damaged.
+    /// Bytes that are not a zip file, or are damaged.
     #[error("not a readable zip archive: {0}")]
     Zip(#[from] zip::result::ZipError),
-    /// More files than any collection of data has.
+    /// Archive with more files than any collection of data.
     #[error("{0} entries; expected at most {MOST_ENTRIES}")]
     Entries(usize),
-    /// A file that is larger than it may be.
+    /// File larger than allowed.
     #[error("larger than {0} MB when unpacked")]
     Large(u64),
-    /// Damaged inside.
+    /// File that is damaged inside the archive.
     #[error("cannot be unpacked: {0}")]
     Unpack(std::io::Error),
 }
 
-/// Is this a zip archive? Packages are too; see [`holds_package`].
+/// Whether the bytes are a zip archive. Packages are too; see [`holds_package`].
 pub fn looks_like_archive(bytes: &[u8]) -> bool {
     super::package::looks_like_package(bytes)
 }
 
-/// A file in an archive.
+/// File in an archive.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// Place in the archive, to read it by.
+    /// Index in the archive, by which it is read.
     pub index: usize,
-    /// Name with its folders, divided by `/`; as it is stored where another file differs from it in `\\` alone.
+    /// Name with its folders, divided by `/`; unchanged as stored where another file differs from it in `\\` alone.
     pub name: String,
 }
 
-/// The files in an archive.
+/// Files in an archive.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Contents {
     /// Files that can be read, by name.
     pub files: Vec<Entry>,
-    /// Names that several files have, of which none can be told from the others: without [`with_distinct_names`].
+    /// Names that several files share, so that none can be distinguished from the others: without
+    /// [`with_distinct_names`].
     pub clashes: Vec<String>,
 }
 
@@ -62,10 +63,10 @@ fn opened(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, ArchiveError> {
     if zip.len() > MOST_ENTRIES { Err(ArchiveError::Entries(zip.len())) } else { Ok(zip) }
 }
 
-/// Lists the files in an archive; what systems put there for themselves is left out.
+/// Lists the files in an archive; entries that operating systems add for themselves are left out.
 ///
 /// # Errors
-/// Returns an error if the bytes are not a zip archive, or one of too many entries.
+/// Returns an error if the bytes are not a zip archive, or have too many entries.
 pub fn contents(bytes: &[u8]) -> Result<Contents, ArchiveError> {
     let zip = opened(bytes)?;
     let own = |name: &str| name.split(['/', '\\']).any(|part| part.starts_with('.') || part == "__MACOSX");
@@ -96,15 +97,15 @@ pub fn contents(bytes: &[u8]) -> Result<Contents, ArchiveError> {
     Ok(contents)
 }
 
-/// Divides folders by `/` alone.
+/// Returns a name with its folders divided by `/` alone.
 fn with_slashes(name: &str) -> String {
     name.replace('\\', "/")
 }
 
-/// Bytes of a header in the list at the end of an archive, before its name: APPNOTE 4.3.12. \[bytes\]
+/// Size of a header in the list at the end of an archive, before its name: APPNOTE 4.3.12. \[bytes\]
 const HEADER: usize = 46;
 
-/// A header in the list at the end of an archive with the name in it.
+/// Header in the list at the end of an archive, with the name in it.
 type Listed<'a> = (&'a [u8], &'a [u8]);
 
 /// Returns the list at the end of an archive, and what follows it.
@@ -122,8 +123,8 @@ fn listed<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> (Vec<Listed<'
     (list, rest)
 }
 
-/// Returns the names that stand several times in the list at the end of an archive; the reader knows the last file of each
-/// alone.
+/// Returns the names that occur several times in the list at the end of an archive; the reader knows only the last file
+/// of each.
 fn repeated<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> HashSet<&'a [u8]> {
     if !zip.has_duplicate_names() {
         return HashSet::new();
@@ -132,8 +133,9 @@ fn repeated<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> HashSet<&'a
     listed(bytes, zip).0.into_iter().map(|(_, name)| name).filter(|name| !seen.insert(*name)).collect()
 }
 
-/// Numbers the files of an archive that have the name of one before them, as in `x (2).xml`: the reader knows one file of each
-/// name. Where the list of files is in the form of archives above 4 GB, it stays as it is, see [`Contents::clashes`].
+/// Numbers the files of an archive that have the name of one before them, as in `x (2).xml`: the reader knows one file
+/// of each name. Where the list of files is in the form of archives above 4 GB, it stays as it is, see
+/// [`Contents::clashes`].
 pub fn with_distinct_names(mut bytes: Vec<u8>) -> Vec<u8> {
     if let Some((start, end)) =
         opened(&bytes).ok().filter(ZipArchive::has_duplicate_names).and_then(|zip| renamed(&bytes, &zip))
@@ -148,7 +150,8 @@ pub fn with_distinct_names(mut bytes: Vec<u8>) -> Vec<u8> {
 fn renamed(bytes: &[u8], zip: &ZipArchive<Cursor<&[u8]>>) -> Option<(usize, Vec<u8>)> {
     let start = usize::try_from(zip.central_directory_start()).ok()?;
     let (list, rest) = listed(bytes, zip);
-    // APPNOTE 4.3.16: the record at the end has the length of the list at 12. Longer archives have another one before it.
+    // APPNOTE 4.3.16: the record at the end has the length of the list at 12. Longer archives have another one before
+    // it.
     if list.len() > MOST_ENTRIES || !rest.starts_with(b"PK\x05\x06") || rest.len() < 22 {
         return None;
     }
@@ -180,19 +183,19 @@ fn renamed(bytes: &[u8], zip: &ZipArchive<Cursor<&[u8]>>) -> Option<(usize, Vec<
     Some((start, written))
 }
 
-/// Makes `a/x (2).xml` of `a/x.xml` and 2.
+/// Returns a numbered name: `a/x (2).xml` from `a/x.xml` and 2.
 fn numbered(name: &[u8], number: usize) -> Vec<u8> {
     let file = name.iter().rposition(|byte| matches!(byte, b'/' | b'\\')).map_or(0, |at| at + 1);
     let stem = name[file..].iter().rposition(|byte| *byte == b'.').map_or(name.len(), |at| file + at);
     [&name[..stem], format!(" ({number})").as_bytes(), &name[stem..]].concat()
 }
 
-/// Whether these files are those of an exchange package.
+/// Whether the files are those of an exchange package.
 pub fn holds_package(files: &[Entry]) -> bool {
     files.iter().any(|file| file.name == "manifest.json")
 }
 
-/// Returns the bytes of the file at `index`; never more than `most`, whatever the archive says of itself.
+/// Returns the bytes of the file at `index`; never more than `most`, whatever the archive's headers say.
 ///
 /// # Errors
 /// Returns an error if there is no such file, or it is damaged or larger.

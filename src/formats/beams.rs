@@ -1,29 +1,29 @@
-//! The description that goes with the numbers of a file, from which beams are computed again.
+//! Descriptions in data files, from which sharp beams are computed again.
 //!
-//! Cells spread a beam over their width; where the numbers were computed from a description, what happens to a beam is
-//! better asked of that. A file says so with the version of this addition ("cfs-beams 1"), the text of a system file
-//! that names no other files, the key of the state, and a fingerprint of all of it with the numbers. Numbers that
-//! somebody changed are no longer those of the description: it is left out then, and a finding tells.
+//! Cells spread a beam over their width; where the numbers were computed from a description, that gives the beam more
+//! exactly. A file contains for this the version of the addition ("cfs-beams 1"), the text of a system file that names
+//! no other files, the key of the state, and a fingerprint of all of it with the numbers. If the numbers were changed
+//! since, they are no longer those of the description: it is left out then, and a finding reports it.
 
 use crate::compute::btdf::{DescribedState, Finding};
 use crate::formats::system_toml;
 
 /// Name of the addition.
 pub(super) const NAME: &str = "cfs-beams";
-/// The version that is written, and the newest that is read.
+/// Version that is written, and the newest that is read.
 pub(super) const VERSION: u32 = 1;
 
-/// What a file says: a description, its state, and the fingerprint that was written with them.
+/// Description in a file, with its state and the fingerprint that was written with them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Told {
     /// Description and state.
     pub described: DescribedState,
-    /// As it was written; hexadecimal.
+    /// Fingerprint in the file, hexadecimal.
     pub fingerprint: String,
 }
 
 impl Told {
-    /// The description, when it is that of the numbers that the file holds now.
+    /// Returns the description if it is that of the numbers that the file holds now, else a finding.
     pub fn restored(self, fingerprint: &str) -> Result<DescribedState, Finding> {
         let Self { described: DescribedState { text, state }, fingerprint: written } = self;
         if written != fingerprint {
@@ -34,7 +34,7 @@ impl Told {
     }
 }
 
-/// Why beams stay what the cells say.
+/// Returns the finding that the description was left out, for the reason `why`.
 pub(super) fn not_restored(why: &str) -> Finding {
     Finding::warning(
         "beams-not-restored",
@@ -42,11 +42,11 @@ pub(super) fn not_restored(why: &str) -> Finding {
     )
 }
 
-/// A hash that does not change with blanks, line ends or the way a number is written.
+/// Hash of numbers and texts that does not depend on blanks, line ends or the notation of a number.
 pub(super) struct Fingerprint(blake3::Hasher);
 
 impl Fingerprint {
-    /// Begins with a description and its state.
+    /// Creates a hash of a description and its state, to which more is added.
     pub fn new(described: &DescribedState) -> Self {
         let mut new = Self(blake3::Hasher::new());
         // Line ends differ between machines.
@@ -66,7 +66,7 @@ impl Fingerprint {
         self.0.update(&(number + 0.0).to_bits().to_le_bytes());
     }
 
-    /// Numbers by their value, all else by its letters.
+    /// Adds a text: its numbers by their value, all else by its letters.
     pub fn text(&mut self, text: &str) {
         for part in text.split(|c: char| c.is_ascii_whitespace() || c == ',').filter(|part| !part.is_empty()) {
             match part.parse::<f64>() {
@@ -76,7 +76,7 @@ impl Fingerprint {
         }
     }
 
-    /// 32 hexadecimal digits.
+    /// Returns the hash as 32 hexadecimal digits.
     pub fn finish(self) -> String {
         self.0.finalize().to_hex()[..32].to_owned()
     }

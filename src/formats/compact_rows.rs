@@ -1,8 +1,9 @@
-//! The bytes of indicatrices in compact form ([`CompactRows`]).
+//! Bytes of indicatrices in compact form ([`CompactRows`]).
 //!
-//! Exponent of the steps; for each order of wavelets that is used a table of chances; heads of all rows (τ, step,
-//! order, length), compressed together with zstd; then one string of an arithmetic coder a row. A row is found by its
-//! head and read alone. Tables are those of the whole dataset, so that short rows need not learn them.
+//! The bytes begin with the exponent of the steps; then come a table of chances for each order of wavelets that is
+//! used, and the heads of all rows (τ, step, order, length), compressed together with zstd; then one string of an
+//! arithmetic coder per row. A row is found by its head and read alone. Tables are those of the whole dataset, so that
+//! short rows need not learn them.
 
 mod model;
 pub mod range_coder;
@@ -13,10 +14,10 @@ use model::{CONTEXTS, Counter, Reader, Writer, visit};
 use rayon::prelude::*;
 use std::io::Read as _;
 
-/// Bytes of a head: τ, step, order, length of the string.
+/// Size of a head: τ, step, order, length of the string. \[bytes\]
 const HEAD: usize = 15;
 
-/// The bytes.
+/// Returns the bytes of the rows.
 pub fn write(rows: &CompactRows) -> Vec<u8> {
     let all: Vec<(Order, QuantisedRow)> = (0..rows.len()).map(|row| rows.quantised(row)).collect();
     let mut tables: [Option<Vec<u8>>; 3] = [None, None, None];
@@ -65,7 +66,7 @@ pub fn write(rows: &CompactRows) -> Vec<u8> {
     out
 }
 
-/// Bytes opened: heads are read, rows are made one by one.
+/// Opened bytes of compact rows: heads are read, rows are decoded one by one.
 #[derive(Debug)]
 pub struct RowFile<'a> {
     decoder: RowDecoder,
@@ -85,7 +86,7 @@ impl<'a> RowFile<'a> {
     /// Opens the bytes of `count` rows on the cells of `basis`.
     ///
     /// # Errors
-    /// Anything that [`write()`] does not write.
+    /// Returns an error if [`write()`] cannot have written the bytes.
     pub fn open(basis: RingBasis, count: usize, bytes: &'a [u8]) -> Result<Self, String> {
         let cut_off = || "compact rows cut off".to_owned();
         let (fixed, rest) = bytes.split_first_chunk::<6>().ok_or_else(cut_off)?;
@@ -142,10 +143,10 @@ impl<'a> RowFile<'a> {
         Ok(Self { decoder, tables, heads })
     }
 
-    /// The coefficients of one row.
+    /// Returns the coefficients of one row.
     ///
     /// # Errors
-    /// Strings that no writer writes.
+    /// Returns an error if no writer writes such a string.
     pub fn quantised(&self, row: usize) -> Result<(Order, QuantisedRow), String> {
         let head = &self.heads[row];
         let order = ORDERS[head.order];
@@ -159,20 +160,20 @@ impl<'a> RowFile<'a> {
         Ok((order, QuantisedRow { tau: head.tau, step: head.step, levels }))
     }
 
-    /// One indicatrix. \[1/sr\]
+    /// Returns one indicatrix. \[1/sr\]
     ///
     /// # Errors
-    /// As [`Self::quantised`].
+    /// Returns an error under the conditions of [`Self::quantised`].
     pub fn row(&self, row: usize) -> Result<Vec<f64>, String> {
         let (order, quantised) = self.quantised(row)?;
         let made = self.decoder.row(order, &quantised);
         made.ok_or_else(|| format!("compact row {row} holds numbers that no writer writes"))
     }
 
-    /// All rows, still compact.
+    /// Returns all rows, still compact.
     ///
     /// # Errors
-    /// As [`Self::quantised`].
+    /// Returns an error under the conditions of [`Self::quantised`].
     pub fn into_rows(self) -> Result<CompactRows, String> {
         let rows = (0..self.heads.len()).map(|row| self.quantised(row)).collect::<Result<Vec<_>, _>>()?;
         CompactRows::from_rows(self.decoder, rows)

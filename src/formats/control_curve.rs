@@ -5,54 +5,54 @@
 
 use super::encoding::{NotText, TooLong, decode, not_too_long};
 
-/// Most points that a curve may have.
+/// Maximum number of points of a curve.
 const MOST_POINTS: usize = 10_000;
 
-/// Why the text is no control curve.
+/// Error of reading a control curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurveError {
-    /// Not text.
+    /// Bytes that are not text.
     #[error(transparent)]
     NotText(#[from] NotText),
-    /// Longer than any.
+    /// Text longer than any control curve.
     #[error(transparent)]
     TooLong(#[from] TooLong),
-    /// A header that names other things.
+    /// Header without the two columns.
     #[error("line {line}: the header needs the columns profile_angle_deg and value_deg")]
     Header {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
     },
-    /// A field that is no number.
+    /// Field that is not a number.
     #[error("line {line}: \"{found}\" is no number of degrees")]
     Number {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// The field.
+        /// Text of the field.
         found: String,
     },
-    /// A profile angle that is not above the one before.
+    /// Profile angle that is not above the one before.
     #[error("line {line}: profile angle {found}° does not rise")]
     Order {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// The angle.
+        /// Profile angle. \[°\]
         found: f64,
     },
-    /// Out of range.
+    /// Profile angle out of range.
     #[error("line {line}: profile angle {found}° is out of range (allowed: -90 to 90)")]
     Range {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// The angle.
+        /// Profile angle. \[°\]
         found: f64,
     },
-    /// No rows, or too many.
+    /// Number of points that is 0 or too large.
     #[error("{0} points (expected 1 to 10000)")]
     Count(usize),
 }
 
-/// Reads (profile angle \[°\], value) points.
+/// Reads the points (profile angle \[°\], value) of a control curve.
 pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
     let text = decode(not_too_long(bytes)?)?;
     let mut columns = [0, 1];
@@ -69,7 +69,7 @@ pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
             Some(_) => line.split([',', ';']).map(str::trim).collect(),
             None => line.split_whitespace().collect(),
         };
-        // A header is told by its words: the first line with content that is not all numbers.
+        // A header is recognised as the first line with content that is not all numbers.
         if std::mem::take(&mut first) && fields.iter().any(|field| field.parse::<f64>().is_err()) {
             let named = |names: &[&str]| fields.iter().position(|field| names.contains(&field.trim_matches('"')));
             let found = named(&["profile_angle_deg"]).zip(named(&["value_deg", "value"]));

@@ -1,9 +1,10 @@
-//! The compact binary form of a [`Dataset`](crate::compute::btdf::Dataset), as the catalogue and exchange packages keep it.
+//! Compact binary form of a [`Dataset`](crate::compute::btdf::Dataset), in which the catalogue and exchange packages
+//! store it.
 //!
 //! `CFSD`, a version byte, then fields in a fixed order, little-endian; texts and lists carry their length. Values of
-//! cell matrices are rounded to f32 (relative 6e-8), split into their four byte planes and compressed with zstd; or they
-//! are in compact form already ([`super::compact_rows`]) and keep it.
-//! Equal datasets have equal bytes, so that the BLAKE3 hash of a blob names its content.
+//! cell matrices are rounded to f32 (relative 6e-8), split into their four byte planes and compressed with zstd; or
+//! they are in compact form already ([`super::compact_rows`]) and keep it. Equal datasets have equal bytes, so that the
+//! BLAKE3 hash of a blob names its content.
 
 mod read;
 mod write;
@@ -13,50 +14,51 @@ pub use write::{encode, encode_with_wordless};
 
 /// First bytes of every blob.
 pub(crate) const MAGIC: &[u8; 4] = b"CFSD";
-/// First version of the layout: light alone.
+/// First version of the layout, without thermal data.
 pub(crate) const FIRST: u8 = 1;
 /// Newest version: thermal data follow the findings. Written where there are any.
 pub(crate) const VERSION: u8 = 2;
 
-/// Why bytes are no dataset.
+/// Error of reading a binary dataset.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum BlobError {
-    /// Other bytes at the beginning.
+    /// Bytes that do not begin with the mark of a dataset.
     #[error("not a binary dataset: it does not begin with CFSD")]
     Magic,
-    /// Written by a newer program.
+    /// Bytes written by a newer program.
     #[error(
         "the binary dataset was written by a newer version of cfs (version {0}; this program reads {FIRST} to {VERSION})"
     )]
     Version(u8),
-    /// The bytes end early.
+    /// Bytes that end early.
     #[error("binary dataset cut off at byte {0}")]
     Truncated(usize),
-    /// Bytes remain behind the last field.
+    /// Bytes after the last field.
     #[error("{0} bytes behind the end of the binary dataset")]
     Trailing(usize),
-    /// A field that cannot be.
+    /// Field that is not valid.
     #[error("binary dataset, byte {at}: {what}")]
     Invalid {
-        /// Where reading stopped.
+        /// Offset at which reading stopped. \[bytes\]
         at: usize,
-        /// What is wrong.
+        /// Message: what is wrong.
         what: String,
     },
 }
 
-/// The BLAKE3 hash of a blob as 64 hexadecimal digits: the name of its content.
+/// Returns the BLAKE3 hash of a blob as 64 hexadecimal digits: the name of its content.
 pub fn content_hash(blob: &[u8]) -> String {
     blake3::hash(blob).to_hex().to_string()
 }
 
-/// Bytes that indicatrices take without loss (f32, byte planes, zstd), each on its own as it would be read alone.
+/// Returns the size of indicatrices without loss (f32, byte planes, zstd), each packed on its own as it would be read.
+/// \[bytes\]
 pub fn lossless_bytes(rows: usize, row: impl Fn(usize) -> Vec<f64>) -> usize {
     let packed = |values: Vec<f64>| zstd::bulk::compress(&split_planes(values.len(), values.into_iter()), 19);
     (0..rows).map(|index| packed(row(index)).map_or(0, |bytes| bytes.len())).sum()
 }
 
-/// Two bytes planes apart: byte k of every value in a row, which compresses far better than values one by one.
+/// Splits values into byte planes: byte k of all values together, which compresses far better than values one by one.
 pub(crate) fn split_planes(count: usize, values: impl Iterator<Item = f64>) -> Vec<u8> {
     let mut planes = vec![0; count * 4];
     for (index, value) in values.take(count).enumerate() {
@@ -67,7 +69,7 @@ pub(crate) fn split_planes(count: usize, values: impl Iterator<Item = f64>) -> V
     planes
 }
 
-/// The inverse of [`split_planes`]; four bytes a value.
+/// Joins byte planes: the inverse of [`split_planes`], four bytes per value.
 pub(crate) fn join_planes(planes: &[u8]) -> impl Iterator<Item = f32> + '_ {
     let n = planes.len() / 4;
     (0..n).map(move |i| f32::from_le_bytes([planes[i], planes[n + i], planes[2 * n + i], planes[3 * n + i]]))

@@ -1,9 +1,9 @@
-//! Tables as a spreadsheet opens them by a double click where decimals have a comma, as in German: semicolons between fields.
+//! Tables with decimal commas and semicolons between fields, as a spreadsheet opens them by a double click in German.
 //! They are read wherever tables are.
 
 use std::borrow::Cow;
 
-/// Mark by which spreadsheets know UTF-8.
+/// Mark by which spreadsheets recognise UTF-8.
 const MARK: &str = "\u{feff}";
 
 /// Returns a CSV table with semicolons between its fields and a comma in its numbers, in UTF-8 with its mark.
@@ -25,7 +25,7 @@ pub fn with_decimal_commas(table: &str) -> Vec<u8> {
     writer.into_inner().expect("memory takes all that is written to it")
 }
 
-/// Returns a table with commas between its fields and a point in its numbers, its lines where they were: the text itself,
+/// Returns a table with commas between its fields and a point in its numbers, its lines in place: the text itself,
 /// unless its first line has more fields between semicolons. Lines that begin with `#` are comments, and become empty.
 pub fn with_decimal_points(table: &str) -> Cow<'_, str> {
     let reader = |delimiter| {

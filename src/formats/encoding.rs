@@ -1,26 +1,26 @@
-//! How a file's text is encoded: UTF-8, UTF-16 and Windows-1252 with Latin-1 are read, with any line ends; everything else,
-//! and a web page that was saved in place of a file, is called by its name.
+//! Encodings of text files: UTF-8, UTF-16 and Windows-1252 with Latin-1 are read, with any line ends. Anything else,
+//! and a web page saved in place of a file, is refused by name.
 
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
 use std::borrow::Cow;
 use std::fmt;
 
-/// How text is encoded.
+/// Encoding of bytes that are not UTF-8.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Encoding {
-    /// Two bytes a character.
+    /// UTF-16, two bytes per character.
     Utf16,
-    /// One byte a character, read as Windows-1252.
+    /// Text with one byte per character, read as Windows-1252.
     Latin1,
-    /// Not at all.
+    /// Bytes that are not text.
     Binary,
-    /// HTML, in whatever encoding.
+    /// HTML in any encoding.
     WebPage,
 }
 
 impl Encoding {
-    /// Its name.
+    /// Returns the name of the encoding.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Utf16 => "UTF-16",
@@ -34,16 +34,16 @@ impl Encoding {
 /// Bytes that are not the text that was expected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub struct NotText {
-    /// The first byte that is wrong.
+    /// Offset of the first wrong byte.
     pub byte: usize,
     /// Line of that byte, from 1.
     pub line: usize,
-    /// What the bytes seem to be.
+    /// Encoding that the bytes seem to have.
     pub encoding: Encoding,
 }
 
 impl NotText {
-    /// A web page in place of the file that it shows.
+    /// Error for a web page in place of the file that it shows.
     pub(super) const WEB_PAGE: Self = Self { byte: 0, line: 1, encoding: Encoding::WebPage };
 }
 
@@ -57,18 +57,18 @@ impl fmt::Display for NotText {
     }
 }
 
-/// The file that is expected in place of a web page, and how to get it.
+/// Text for messages: the file that is expected in place of a web page, and how to get it.
 pub(super) const RAW_FILE: &str = "the file that the page shows: download the raw file";
 
-/// A text of more bytes than its kind of file ever has: its lines and words alone would fill memory.
+/// Error for a text of more bytes than its kind of file ever has: its lines and words alone would fill memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a text of {0} bytes; expected at most {most} MB", most = limits::TEXT_BYTES >> 20)]
 pub struct TooLong(pub usize);
 
-/// The text if it is not longer than such files are.
+/// Returns the text if it is not longer than such files are.
 ///
 /// # Errors
-/// Its length.
+/// Returns an error with the length of the text if it is longer.
 pub fn not_too_long<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<&T, TooLong> {
     match text.as_ref().len() {
         length if length > limits::TEXT_BYTES => Err(TooLong(length)),
@@ -76,7 +76,7 @@ pub fn not_too_long<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<&T, TooLong> {
     }
 }
 
-/// So much of a file is looked at for its encoding. \[bytes\]
+/// Number of bytes at the beginning of a file that are examined for its encoding.
 const LOOK: usize = 4096;
 
 /// Characters of the bytes 0x80 to 0x9F in Windows-1252, for which Latin-1 has control characters that no text holds.
@@ -94,10 +94,10 @@ fn of_byte(byte: u8) -> char {
     }
 }
 
-/// Text in UTF-8, without a byte-order mark.
+/// Returns the bytes as UTF-8 text, without a byte-order mark.
 ///
 /// # Errors
-/// What the bytes seem to be instead.
+/// Returns an error with the encoding that the bytes seem to have instead.
 pub fn utf8(bytes: &[u8]) -> Result<&str, NotText> {
     let wrong = |byte: usize, encoding| {
         let line = bytes[..byte].iter().filter(|b| **b == b'\n').count() + 1;
@@ -162,7 +162,7 @@ pub fn is_web_page(bytes: &[u8]) -> bool {
     }
 }
 
-/// Text in UTF-8 or UTF-16, else one byte a character; which of them.
+/// Returns text in UTF-8 or UTF-16, else read with one byte per character; also the encoding, `None` for UTF-8.
 pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
     match utf8(bytes) {
         Ok(text) => (text.to_owned(), None),
@@ -171,7 +171,7 @@ pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
     }
 }
 
-/// Does text begin with the mark of UTF-16, or is every second byte of Latin text zero?
+/// Whether text begins with the mark of UTF-16, or every second byte of Latin text is zero.
 fn is_utf16(bytes: &[u8]) -> bool {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return true;
@@ -182,7 +182,7 @@ fn is_utf16(bytes: &[u8]) -> bool {
     pairs >= 4 && zeros.iter().any(|count| 10 * count > 7 * pairs) && zeros.contains(&0)
 }
 
-/// Zeros at even and at odd places.
+/// Returns the numbers of zero bytes at even and at odd offsets.
 fn zeros(bytes: &[u8]) -> [usize; 2] {
     let head = &bytes[..bytes.len().min(LOOK) / 2 * 2];
     [0, 1].map(|side| head.iter().skip(side).step_by(2).filter(|byte| **byte == 0).count())

@@ -1,9 +1,9 @@
-//! EULUMDAT (`.ldt`), after Stockmar (1990): one value a line, intensities in cd/klm.
+//! EULUMDAT (`.ldt`), after Stockmar (1990): one value per line, intensities in cd/klm.
 //!
 //! Written: all planes of the full turn (Isym 0), CRLF, printable ASCII, millimetres. Read: every symmetry, one or more
 //! lamp sets (the first one counts: sets are alternatives), decimal commas, byte-order mark, blank lines after the
-//! header; LORL, DFF, tilt and steps are compared with the table, numbers after the last intensity are told. Not read:
-//! nothing is made of direct ratios and colour data.
+//! header; LORL, DFF, tilt and steps are compared with the table, numbers after the last intensity are reported. Not
+//! used: direct ratios and colour data.
 
 use super::FormatError;
 use super::location::excerpt;
@@ -19,7 +19,7 @@ const DOWNWARD_LINE: usize = 22;
 const OUTPUT_RATIO_LINE: usize = 23;
 const TILT_LINE: usize = 25;
 const LAMP_SETS_LINE: usize = 26;
-/// Lamps of less flux are written as lamps of 1000 lm. \[lm\]
+/// Minimum flux of the lamps; lamps of less flux are written as lamps of 1000 lm. \[lm\]
 const LEAST_LAMPS: f64 = 0.1;
 const MAX_PLANES: f64 = limits::LUMINAIRE_PLANES as f64;
 const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
@@ -27,8 +27,8 @@ const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
 /// Writes a luminaire of photometry C. Its planes must cover the full turn (or be one).
 ///
 /// The rated flux is the flux of the file's own zonal sum when the luminaire states none. Four heights of the luminous
-/// area are the opening's height on all sides, so that no direction divides by an area of nothing; a circle has a width
-/// of zero, so that another side of zero is written as 1 mm, but for a point.
+/// area are the opening's height on all sides, so that no direction divides by a zero area. A width of 0 marks a
+/// circle, so that another side of zero is written as 1 mm, except for a point.
 pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     let flux = luminaire.flux();
     let rated = luminaire.lamp_flux.unwrap_or(flux);
@@ -83,7 +83,7 @@ pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     out.into_bytes()
 }
 
-/// Step of evenly spaced angles, 0 when they are not (as the format wants it).
+/// Returns the step of equally spaced angles, 0 when they are not equally spaced (as the format defines).
 fn even_step(angles: &[f64], closes_the_turn: bool) -> f64 {
     let Some(step) = angles.windows(2).map(|pair| pair[1] - pair[0]).next() else { return 0.0 };
     let even = angles.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6);
@@ -91,9 +91,9 @@ fn even_step(angles: &[f64], closes_the_turn: bool) -> f64 {
     if even && closed { step } else { 0.0 }
 }
 
-/// Share of the downward flux that reaches the work plane without reflection, for the room indices 0.6, 0.8, 1, 1.25, 1.5, 2, 2.5, 3, 4, 5: the regular array
-/// of a ceiling, from the fluxes within 41.4°, 60°, 75.5° and 90° (zonal method of LiTG publication 3.5).
-/// For one aperture in a wall this is no more than a number that the format asks for.
+/// Returns the shares of the downward flux that reach the work plane without reflection, for the room indices 0.6, 0.8,
+/// 1, 1.25, 1.5, 2, 2.5, 3, 4, 5: a regular array on a ceiling, from the fluxes within 41.4°, 60°, 75.5° and 90° (zonal
+/// method of LiTG publication 3.5). For one aperture in a wall this is only a number that the format requires.
 pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
     // Weights of the four cumulated fluxes; each column of four sums to 1.
     const WEIGHTS: [[f64; 10]; 4] = [
@@ -115,9 +115,9 @@ pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
 /// Reads an EULUMDAT file.
 ///
 /// # Errors
-/// Returns an error if the header ends early, if counts or the symmetry indicator are out of range, if angles do not
-/// increase, if a listed plane is no image of one with intensities, if there is text where a number belongs, or if there
-/// are fewer intensities than the counts ask for. The first fault is told with its line.
+/// Returns an error with its line if the header ends early, if counts or the symmetry indicator are out of range, if
+/// angles do not increase, if a listed plane is not an image of one with intensities, if there is text where a number
+/// belongs, or if there are fewer intensities than the counts require.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let (text, mut findings) = decode(bytes)?;
     let lines = Lines { lines: text.lines().map(str::trim).collect() };
@@ -210,7 +210,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     checked(luminaire, &stated)
 }
 
-/// A step in the header that is not the one between the first two angles of its list.
+/// Returns a finding if a step in the header is not the one between the first two angles of its list.
 fn step_contradicts(name: &str, line: usize, step: f64, angles: &[f64]) -> Option<Finding> {
     let [first, second, ..] = angles else { return None };
     let listed = second - first;
@@ -225,19 +225,20 @@ fn step_contradicts(name: &str, line: usize, step: f64, angles: &[f64]) -> Optio
     })
 }
 
-/// The planes whose intensities are in the file.
+/// Planes whose intensities are in the file.
 struct StoredPlanes<'a> {
     symmetry: usize,
-    /// Planes of the list, without one at 360° that is the first again and has no intensities of its own. \[°\]
+    /// Planes of the list, without one at 360° that repeats the first and has no intensities of its own. \[°\]
     listed: &'a [f64],
     /// Angles of the stored planes, in the order of the table. \[°\]
     c_deg: Vec<f64>,
-    /// What of the list is not as the format wants it.
+    /// Finding on a list of planes that deviates from the format.
     remark: Option<Finding>,
 }
 
 impl<'a> StoredPlanes<'a> {
-    /// `c_all`: the list of the file, of which the format wants the planes of the full turn, whatever the symmetry.
+    /// Creates the stored planes from the list of the file `c_all`, which should contain the planes of the full turn,
+    /// whatever the symmetry.
     fn new(symmetry: usize, c_all: &'a [f64]) -> Self {
         let count = c_all.len();
         let (first, last) = (c_all[0], c_all[count - 1]);
@@ -274,7 +275,7 @@ impl<'a> StoredPlanes<'a> {
         Self { symmetry, listed, c_deg, remark }
     }
 
-    /// All planes of the turn, at the listed angles.
+    /// Returns all planes of the turn, at the listed angles.
     fn turn(&self, line: usize) -> Result<Turn, FormatError> {
         let (mirrors, about) = match self.symmetry {
             2 => (Mirrors::C0, "C0-C180"),
@@ -306,7 +307,7 @@ struct Lines<'a> {
 }
 
 impl Lines<'_> {
-    /// Fails when the file is shorter than the header.
+    /// Returns an error if the file is shorter than the header.
     fn header(&self, line: usize) -> Result<(), FormatError> {
         if self.lines.len() < line {
             return Err(at_line(
@@ -330,13 +331,13 @@ impl Lines<'_> {
         }
     }
 
-    /// A share that is stated in percent; `None` where the line is blank.
+    /// Returns a share that is stated in percent; `None` where the line is blank.
     fn percent(&self, line: usize, name: &str) -> Result<Option<f64>, FormatError> {
         let value = self.number_or_zero(line, name)?;
         Ok((!self.lines[line - 1].is_empty()).then_some(value / 100.0))
     }
 
-    /// The luminous area, of which a width of 0 says that the length is a diameter.
+    /// Returns the luminous opening; a width of 0 marks a circle whose diameter is the length.
     fn opening(&self, findings: &mut Vec<Finding>) -> Result<Opening, FormatError> {
         let mut sizes = [0.0; 6];
         for (size, line) in sizes.iter_mut().zip(OPENING_LINE..) {
@@ -368,15 +369,15 @@ impl Lines<'_> {
     }
 }
 
-/// Non-blank lines of numbers from a given line on.
+/// Lines of numbers from a given line on, without blank ones.
 struct Values<'a, 'b> {
     lines: &'a Lines<'b>,
-    /// Line to read next, from 1.
+    /// Number of the line to read next, from 1.
     next: usize,
 }
 
 impl Values<'_, '_> {
-    /// Tells numbers and text on the lines that were not read.
+    /// Returns a finding on numbers and text on the lines that were not read.
     fn rest(&self, due: usize, counts: &str) -> Option<Finding> {
         let left = self.lines.lines.iter().zip(1..).skip(self.next - 1);
         let left = left.map(|(text, line)| (text.trim_matches('\u{1a}'), line)).filter(|(text, _)| !text.is_empty());

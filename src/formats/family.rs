@@ -41,7 +41,7 @@ fn belongs(a: &Dataset, b: &Dataset) -> bool {
         && b.visible.components().into_iter().all(|component| a.visible.get(component).is_none())
 }
 
-/// Does it come from a format whose files hold one function each?
+/// Whether the dataset comes from a format whose files hold one function each.
 pub fn is_one_function(dataset: &Dataset) -> bool {
     dataset.format.starts_with(btdf_text::FAMILY)
 }

@@ -1,7 +1,7 @@
-//! The table of the built-in products' figures: CSV, a row a state, so that changes of single products are read in a
-//! difference of two versions.
+//! Table of the built-in products' figures: CSV, one row per state, so that changes of single products show up when two
+//! versions are compared.
 //!
-//! Columns: `product` (key), `fingerprint` of what the figures were computed from, `state`, the figures, and the
+//! Columns: `product` (key), `fingerprint` of the inputs of the computation, `state`, the figures, and the
 //! transmittances `t…` at rising profile angles in degrees. An empty field of `to_ceiling`: nothing is transmitted.
 
 use super::location::excerpt;
@@ -11,41 +11,41 @@ use std::fmt::Write as _;
 const HEAD: [&str; 8] =
     ["product", "fingerprint", "state", "tau_normal", "tau_hemispherical", "to_ceiling", "sun_blocked", "view"];
 
-/// A row: figures of a state, see [`crate::compute::btdf::LightFigures`] for the last three.
+/// Figures of a state, see [`crate::compute::btdf::LightFigures`] for the last three.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FigureRow {
     /// Key of the product.
     pub product: String,
-    /// Stands for everything that the figures were computed from.
+    /// Hash of the inputs that the figures were computed from.
     pub fingerprint: String,
     /// Key of the state; empty for the only one of a system without states.
     pub state: String,
-    /// Transmittance at normal incidence.
+    /// Visible transmittance at normal incidence.
     pub tau_normal: f64,
-    /// The same under uniform luminance.
+    /// Visible transmittance under uniform luminance.
     pub tau_hemispherical: f64,
-    /// Transmittances in the vertical plane, at profile angles that the caller knows.
+    /// Transmittances in the vertical plane, at profile angles that the caller defines.
     pub tau_profile: Vec<f64>,
-    /// Share of the transmitted skylight that goes up.
+    /// Share of the transmitted skylight that leaves upwards.
     pub to_ceiling: Option<f64>,
-    /// Share of a high sun that is kept out.
+    /// Share of direct sun blocked at 45° solar altitude (1 − τ).
     pub sun_blocked: f64,
-    /// Share of normal light that goes straight on.
+    /// Normal–normal transmittance.
     pub view: f64,
 }
 
-/// Why a table cannot be read.
+/// Error of reading a table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("line {line}: {what}")]
 pub struct TableError {
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// What is wrong, and what would be right.
+    /// Message: what is wrong, and what was expected.
     pub what: String,
 }
 
-/// The table's text; `angles`: profile angles of the transmittances \[°\]. Figures get five decimals, far finer than what
-/// they are known to.
+/// Returns the table as text; `angles`: profile angles of the transmittances \[°\]. Figures have five decimals, far
+/// finer than their uncertainty.
 pub fn write(rows: &[FigureRow], angles: &[f64]) -> String {
     let mut text = HEAD.join(",");
     for angle in angles {
@@ -68,10 +68,10 @@ pub fn write(rows: &[FigureRow], angles: &[f64]) -> String {
     text
 }
 
-/// Reads what [`write()`] wrote for these profile angles.
+/// Reads a table that [`write()`] wrote for these profile angles.
 ///
 /// # Errors
-/// The line that is none of a table, and what is wrong with it.
+/// Returns an error with the line that does not fit the table, and what is wrong with it.
 pub fn read(text: &str, angles: &[f64]) -> Result<Vec<FigureRow>, TableError> {
     let mut lines = text.lines().enumerate();
     let head: Vec<String> =

@@ -1,54 +1,54 @@
-//! The table of places: countries and cities as lines of text with tabs between their fields, compressed with zstd.
+//! Table of places: countries and cities as lines of text with tabs between their fields, compressed with zstd.
 //!
-//! First countries (code, name), then an empty line, then cities, the largest first: name, code of the country, state (may
-//! be empty), latitude and longitude \[°\], elevation \[m\] (may be empty), hours ahead of UTC, other names separated by
-//! commas. Not read: anything else; the table is drawn by `assets/places/draw.py`.
+//! Countries (code, name) come before an empty line, cities after it, the largest at the top: name, code of the
+//! country, state (may be empty), latitude and longitude \[°\], elevation \[m\] (may be empty), UTC offset \[h\], other
+//! names separated by commas. Not read: anything else; the table is made by `assets/places/draw.py`.
 
 use super::location::excerpt;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::sync::Arc;
 
-/// Larger tables are refused. \[bytes\]
+/// Maximum size of the table. \[bytes\]
 const LARGEST: u64 = 1 << 24;
 
-/// A city.
+/// City of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct City {
-    /// As it is written.
+    /// Name in its original spelling.
     pub name: Box<str>,
     /// Name of the country.
     pub country: Arc<str>,
     /// Code of the country, ISO 3166.
     pub code: [char; 2],
-    /// State, where cities are told apart by it; else empty.
+    /// State, where it is needed to distinguish cities of one name; else empty.
     pub region: Box<str>,
-    /// North positive. \[°\]
+    /// Latitude, north positive. \[°\]
     pub latitude: f64,
-    /// East positive. \[°\]
+    /// Longitude, east positive. \[°\]
     pub longitude: f64,
-    /// Above the sea. \[m\]
+    /// Elevation above sea level. \[m\]
     pub elevation: Option<f64>,
-    /// Hours that standard time is ahead of UTC.
+    /// UTC offset of standard time. \[h\]
     pub utc_offset: f64,
-    /// In lower case without accents; the plain form of the name is the first where the name has accents.
+    /// Other names in lower case without accents; the first is the plain form of the name where that has accents.
     pub other_names: Vec<Box<str>>,
 }
 
-/// Why the bytes are no such table.
+/// Error of reading the table.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GazetteerError {
-    /// Not compressed text.
+    /// Bytes that are not compressed text.
     #[error("no text compressed with zstd: {0}")]
     Packed(String),
-    /// A line that cannot be read.
+    /// Line that cannot be read.
     #[error("line {line}: {found} (expected {expected})")]
     Line {
         /// Line number, from 1.
         line: usize,
-        /// What is there.
+        /// Phrase for what was found there.
         found: String,
-        /// What should be.
+        /// Phrase for what was expected.
         expected: &'static str,
     },
 }
@@ -56,7 +56,7 @@ pub enum GazetteerError {
 /// Reads the table; the order is kept.
 ///
 /// # Errors
-/// The line and what is wrong with it.
+/// Returns an error with the line and what is wrong with it.
 pub fn read_cities(packed: &[u8]) -> Result<Vec<City>, GazetteerError> {
     let unreadable = |error: std::io::Error| GazetteerError::Packed(error.to_string());
     let mut text = String::new();

@@ -2,8 +2,8 @@
 //!
 //! Written: absolute photometry (−1 lm, multiplier 1) of type C with the full turn 0…360°, metres, lines of at most 132
 //! characters, CRLF, editions 2002 and 2019. Read: 1986 to 2019, types A, B and C (only C is expanded to a full turn),
-//! TILT=NONE and INCLUDE (the factors are told, not applied), openings of both generations of editions. Not read: tilt
-//! in another file.
+//! TILT=NONE and INCLUDE (the factors are reported, not applied), openings of both generations of editions. Not read:
+//! tilt in another file.
 
 use super::FormatError;
 use super::ies_tokens::Tokens;
@@ -15,20 +15,20 @@ use super::luminaire_text::{ascii, at_line, decode, number};
 use crate::compute::btdf::Finding;
 use std::borrow::Cow;
 
-/// Editions that are written.
+/// Edition of LM-63 that is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IesEdition {
-    /// `IESNA:LM-63-2002`: what most programs read.
+    /// `IESNA:LM-63-2002`, which most programs read.
     Lm63_2002,
-    /// `IES:LM-63-2019`: says in the file generation type that the data are computed.
+    /// `IES:LM-63-2019`, whose file generation type says that the data are computed.
     Lm63_2019,
 }
 
 const LINE_LIMIT: usize = 132;
-/// Lumens per lamp that mark absolute photometry.
+/// Value of lumens per lamp that marks absolute photometry.
 const ABSOLUTE: f64 = -1.0;
 
-/// Writes a luminaire of photometry C whose planes cover the full turn (or are one).
+/// Returns the file of a luminaire of photometry C whose planes cover the full turn (or are one).
 pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
     let mut out = Vec::new();
     let (first_line, generation) = match edition {
@@ -85,7 +85,7 @@ pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
     file.into_bytes()
 }
 
-/// `[KEYWORD] text`, continued by `[MORE]`; nothing of the text is lost.
+/// Adds the lines of `[KEYWORD] text`, continued by `[MORE]`; nothing of the text is lost.
 fn keyword_lines(out: &mut Vec<String>, keyword: &str, value: &str) {
     let value = ascii(value);
     let mut line = format!("[{keyword}]");
@@ -108,7 +108,7 @@ fn keyword_lines(out: &mut Vec<String>, keyword: &str, value: &str) {
     out.push(line);
 }
 
-/// Numbers on lines of limited length.
+/// Adds numbers on lines of limited length.
 fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
     let mut line = String::new();
     for &value in values {
@@ -127,9 +127,9 @@ fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
 /// Reads an LM-63 file.
 ///
 /// # Errors
-/// Returns an error if there is no TILT line, if the tilt is in another file, if counts or types are out of range, if
-/// angles do not increase, if there is text among the numbers, if there are fewer numbers than the counts ask for, or
-/// if decimal commas make more of them. The first fault is told with its line.
+/// Returns an error with its line if there is no TILT line, if the tilt is in another file, if counts or types are out
+/// of range, if angles do not increase, if there is text among the numbers, if there are fewer numbers than the counts
+/// require, or if decimal commas make more of them.
 pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     let (text, mut findings) = decode(bytes)?;
     let lines: Vec<&str> = text.lines().collect();
@@ -209,7 +209,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     checked(luminaire, &stated)
 }
 
-/// Index of the line that ends the keywords.
+/// Returns the index of the line that ends the keywords.
 fn tilt_line(lines: &[&str]) -> Result<usize, FormatError> {
     let upper = |line: &&str| line.trim_start().to_ascii_uppercase();
     let expected = "a line TILT=NONE or TILT=INCLUDE";
@@ -222,7 +222,7 @@ fn tilt_line(lines: &[&str]) -> Result<usize, FormatError> {
     })
 }
 
-/// The numbers of a file as they stand in it; sizes in metres.
+/// Numbers of a file as written in it; sizes in metres.
 struct Numbers {
     lamps: f64,
     lumens: f64,
@@ -299,7 +299,7 @@ impl Numbers {
     }
 }
 
-/// Reads what the TILT line announces, and tells of it.
+/// Reads the data that the TILT line announces. Returns a finding on them.
 fn tilt(tokens: &mut Tokens, word: &str, line: usize) -> Result<Option<Finding>, FormatError> {
     let upper = word.to_ascii_uppercase();
     match upper.as_str() {
@@ -323,7 +323,7 @@ fn tilt(tokens: &mut Tokens, word: &str, line: usize) -> Result<Option<Finding>,
     }
 }
 
-/// Tells what stands after the last candela value that the counts ask for.
+/// Returns a finding on text after the last candela value that the counts require.
 fn after_the_table(tokens: &Tokens, [angles, planes]: [usize; 2]) -> Result<Option<Finding>, FormatError> {
     let rest = tokens.rest();
     let Some(line) = rest.line else { return Ok(None) };
@@ -340,7 +340,7 @@ fn after_the_table(tokens: &Tokens, [angles, planes]: [usize; 2]) -> Result<Opti
     }))
 }
 
-/// Value of a keyword with its `[MORE]` lines; empty when it is not there.
+/// Returns the value of a keyword with its `[MORE]` lines; empty when it is missing.
 fn keyword_value(lines: &[&str], name: &str) -> String {
     let mut parts = Vec::new();
     let mut inside = false;
@@ -356,7 +356,7 @@ fn keyword_value(lines: &[&str], name: &str) -> String {
     parts.join(" ").trim().to_owned()
 }
 
-/// The symmetry that the first and the last horizontal angle of type C stand for.
+/// Returns the symmetry that the first and the last horizontal angle of type C imply.
 fn mirrors(c_file: &[f64], line: usize) -> Result<Mirrors, FormatError> {
     let (first, last) = (c_file[0], c_file[c_file.len() - 1]);
     let from_to = |a: f64, b: f64| same_angle(first, a) && same_angle(last, b);

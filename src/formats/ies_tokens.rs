@@ -1,4 +1,4 @@
-//! The numbers of an LM-63 file after its TILT line, each with its line. Blanks and commas stand between them.
+//! Numbers of an LM-63 file after its TILT line, each with its line. Blanks and commas separate them.
 
 use super::FormatError;
 use super::location::excerpt;
@@ -8,20 +8,20 @@ use super::luminaire_text::{at_line, parse_number};
 pub(super) struct Tokens<'a> {
     tokens: Vec<(usize, &'a str)>,
     next: usize,
-    /// How many commas stand right between two digits, as decimal commas do.
+    /// Number of commas directly between two digits, as decimal commas are.
     commas: usize,
 }
 
-/// What stands after the last number that was due.
+/// Text after the last required number.
 pub(super) struct Rest {
-    /// How many numbers.
+    /// Number of numbers in it.
     pub numbers: usize,
     /// Line of the first piece; `None` where there is nothing.
     pub line: Option<usize>,
 }
 
 impl<'a> Tokens<'a> {
-    /// Splits the lines after the first `from` into numbers.
+    /// Creates the tokens of the lines after the first `from`.
     pub fn new(lines: &[&'a str], from: usize) -> Self {
         let pieces = |line: &'a str| {
             // DOS ended texts with a control character.
@@ -40,14 +40,14 @@ impl<'a> Tokens<'a> {
         self.tokens.get(self.next.saturating_sub(1)).or(self.tokens.last()).map_or(1, |token| token.0)
     }
 
-    /// Returns what was not read.
+    /// Returns the text that was not read.
     pub fn rest(&self) -> Rest {
         let left = &self.tokens[self.next..];
         let numbers = left.iter().filter(|(_, token)| parse_number(token).is_some()).count();
         Rest { numbers, line: left.first().map(|token| token.0) }
     }
 
-    /// Whether commas explain `surplus` numbers: each decimal comma makes two numbers of one.
+    /// Whether decimal commas explain `surplus` numbers: each makes two numbers of one.
     pub fn has_decimal_commas(&self, surplus: usize) -> bool {
         surplus > 0 && self.commas == surplus
     }

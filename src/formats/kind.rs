@@ -1,22 +1,22 @@
-//! What kind of file bytes are, of those that the program writes: so that a table never takes the place of a scene.
+//! Kinds of files that the program writes, recognised by their bytes, so that a table never replaces a scene.
 
 use super::encoding::any_text;
 use super::{Format, dataset_blob, eulumdat, luminaire_index, package, weather};
 
-/// A kind of file that the program writes.
+/// Kind of file that the program writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
-    /// Values between commas, under a line that names them.
+    /// CSV: values between commas, under a line that names them.
     Csv,
-    /// Results for programs.
+    /// Results as JSON.
     Json,
-    /// Figures side by side, for reading.
+    /// Comparison of figures as text.
     Comparison,
-    /// A drawing.
+    /// Drawing as SVG.
     Svg,
-    /// A drawing in pixels.
+    /// Drawing in pixels (PNG).
     Png,
-    /// A report.
+    /// Report (PDF).
     Pdf,
     /// EULUMDAT luminaire file.
     Eulumdat,
@@ -32,11 +32,11 @@ pub enum FileKind {
     Package,
 }
 
-/// So much of a file shows its kind, where it need not be read whole. \[bytes\]
+/// Number of bytes at the beginning of a file that show its kind.
 pub const HEAD: u64 = 1 << 20;
 
 impl FileKind {
-    /// In words, with its article.
+    /// Returns the name of the kind, with its article.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Csv => "a CSV table",
@@ -60,7 +60,7 @@ impl FileKind {
         !matches!(self, Self::Png | Self::Pdf | Self::Compact | Self::Package)
     }
 
-    /// May bytes be a file of this kind, judged by the first [`HEAD`] of them?
+    /// Whether bytes can be a file of this kind, judged by the first [`HEAD`] of them.
     pub fn may_be(self, head: &[u8]) -> bool {
         let holds = |word: &str| head.windows(word.len()).any(|window| window == word.as_bytes());
         match self {
@@ -81,8 +81,8 @@ impl FileKind {
     }
 }
 
-/// Returns the extension of the kind of file that bytes are, with its dot, for input without a name; nothing where they are of
-/// no kind that is read.
+/// Returns the extension of the kind of file that bytes are, with its dot, for input without a name; an empty text
+/// where they are of no kind that is read.
 pub fn extension_of(bytes: &[u8]) -> &'static str {
     let head = &bytes[..bytes.len().min(HEAD as usize)];
     let of_kind = [
@@ -113,7 +113,7 @@ pub fn extension_of(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Text in UTF-8; a character that is cut at the end does not count.
+/// Returns text in UTF-8; a character that is cut at the end does not count.
 fn text(head: &[u8]) -> Option<&str> {
     let head = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head);
     let text = match std::str::from_utf8(head) {
@@ -130,7 +130,7 @@ fn is_json(text: &str) -> bool {
     rest.trim_start().starts_with(['"', '{', '}', ']'])
 }
 
-/// Lines of as many fields as the first one names, of which there are several.
+/// Whether there are several lines with as many fields as the first one.
 fn is_csv(text: &str) -> bool {
     // The last line may be cut.
     let whole = text.rfind('\n').map_or(text, |end| &text[..end]);

@@ -1,4 +1,4 @@
-//! Bytes to compute types and back. Readers take `&[u8]` and never touch files.
+//! File formats: bytes to compute types and back. Readers take `&[u8]` and never touch files.
 //!
 //! A new dataset format is a file here, an arm of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
 //! [`write_dataset`].
@@ -53,7 +53,7 @@ use crate::compute::btdf::Dataset;
 use crate::compute::limits;
 use std::collections::HashMap;
 
-/// The dataset formats that are read and written.
+/// Dataset format that is read and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Format {
     /// LBNL BSDF XML: Klems matrices and tensor trees.
@@ -63,10 +63,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// All of them.
+    /// All dataset formats.
     pub const ALL: [Self; 2] = [Self::BsdfXml, Self::BtdfText];
 
-    /// Short name for messages and listings.
+    /// Returns the short name for messages and listings.
     pub const fn name(self) -> &'static str {
         match self {
             Self::BsdfXml => "BSDF XML",
@@ -74,7 +74,7 @@ impl Format {
         }
     }
 
-    /// Extensions, lower case without the dot.
+    /// Returns the extensions, in lower case without the dot.
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::BsdfXml => &["xml"],
@@ -82,13 +82,13 @@ impl Format {
         }
     }
 
-    /// By the end of a file's name.
+    /// Returns the format by the extension of a file's name.
     pub fn from_name(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         Self::ALL.into_iter().find(|format| format.extensions().iter().any(|ext| name.ends_with(&format!(".{ext}"))))
     }
 
-    /// By content, then by name.
+    /// Returns the format by content, then by name.
     pub fn sniff(name: &str, bytes: &[u8]) -> Option<Self> {
         let (head, _) = encoding::any_text(&bytes[..bytes.len().min(4096)]);
         if head.contains("<WindowElement") {
@@ -100,7 +100,7 @@ impl Format {
         Self::from_name(name)
     }
 
-    /// A file's name without its folder and without the extension of its format.
+    /// Returns a file's name without its folder and without the extension of its format.
     pub fn stem(name: &str) -> &str {
         let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
         let lower = name.to_ascii_lowercase();
@@ -120,11 +120,10 @@ impl Format {
     }
 }
 
-/// Reads a file's bytes, whatever its format: one dataset for every state that it holds. `name` is only used for
-/// its extension.
+/// Reads a file's bytes, whatever its format: one dataset per state. `name` is only used for its extension.
 ///
 /// # Errors
-/// Of the reader; or an unknown format.
+/// Returns an error if the reader refuses the bytes, or the format is unknown.
 pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     if bytes.starts_with(dataset_blob::MAGIC) {
         let read = dataset_blob::decode(bytes);
@@ -144,7 +143,7 @@ pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatErro
     }
 }
 
-/// The states of a package's only product.
+/// Returns the states of a package's only product.
 fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     let error = |what: String, expected: &str| FormatError::new(Location::file(), what, expected);
     let package = package::read(bytes).map_err(|e| error(e.to_string(), "a whole package (.cfsp)"))?;
@@ -171,10 +170,10 @@ fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     product.states.iter().map(dataset).collect()
 }
 
-/// What a dataset file tells the catalogue beyond its datasets; empty for formats that tell nothing.
+/// Returns the catalogue data in a dataset file, beyond its datasets; empty for formats without any.
 ///
 /// # Errors
-/// Of the reader of the file's header.
+/// Returns an error if the file's header is not valid.
 pub fn catalogue_fields(name: &str, bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
     match Format::sniff(name, bytes) {
         Some(Format::BtdfText) => btdf_text::catalogue_fields(bytes),
@@ -182,10 +181,10 @@ pub fn catalogue_fields(name: &str, bytes: &[u8]) -> Result<CatalogueFields, For
     }
 }
 
-/// The datasets as a file of the given format.
+/// Returns the datasets as a file of the given format.
 ///
 /// # Errors
-/// More states than the format holds; or what the writer cannot express.
+/// Returns an error if there are more states than the format holds, or if the writer cannot express the data.
 pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Written, FormatError> {
     match (format, datasets) {
         (Format::BsdfXml, [one]) => bsdf_xml::write(one),
@@ -198,10 +197,10 @@ pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Written, Fo
     }
 }
 
-/// The format that a file name asks for when writing.
+/// Returns the format that a file name requests for writing.
 ///
 /// # Errors
-/// An extension that no format has.
+/// Returns an error if no format has the extension.
 pub fn format_to_write(name: &str) -> Result<Format, FormatError> {
     Format::from_name(name)
         .ok_or_else(|| FormatError::new(Location::file(), "an extension that no format has", Format::list()))

@@ -1,11 +1,11 @@
-//! Where in a file something is wrong, and the error that every reader returns.
+//! Places of errors in files, and the error that every reader returns.
 
 use super::encoding::{Encoding, NotText, RAW_FILE, TooLong};
 use crate::compute::limits;
 use crate::texts::message;
 use std::fmt;
 
-/// A place in a file, as exactly as the reader knows it.
+/// Place in a file, as exactly as the reader knows it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Location {
     /// Line, from 1.
@@ -14,32 +14,32 @@ pub struct Location {
     pub column: Option<usize>,
     /// Offset in bytes, from 0.
     pub byte: Option<usize>,
-    /// The element, block or key, in the file's own words.
+    /// Element, block or key, as the file names it.
     pub element: Option<String>,
 }
 
 impl Location {
-    /// The file as a whole.
+    /// Returns the place that stands for the whole file.
     pub fn file() -> Self {
         Self::default()
     }
 
-    /// A line, from 1.
+    /// Returns the place of a line, from 1.
     pub fn line(line: usize) -> Self {
         Self { line: Some(line), ..Self::default() }
     }
 
-    /// A line and a column, both from 1.
+    /// Returns the place of a line and a column, both from 1.
     pub fn line_column(line: usize, column: usize) -> Self {
         Self { line: Some(line), column: Some(column), ..Self::default() }
     }
 
-    /// A byte offset, from 0.
+    /// Returns the place of a byte offset, from 0.
     pub fn byte(byte: usize) -> Self {
         Self { byte: Some(byte), ..Self::default() }
     }
 
-    /// The same place with the name of the element or block.
+    /// Returns the place with the name of the element or block added.
     #[must_use]
     pub fn in_element(mut self, element: impl Into<String>) -> Self {
         self.element = Some(element.into());
@@ -66,20 +66,21 @@ impl fmt::Display for Location {
     }
 }
 
-/// Why bytes could not be read: place, what is there, what would be right. The caller adds the file's name.
+/// Error of a reader: place, what was found, what was expected. The caller adds the file's name.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{at}: {found}; expected {expected}")]
 pub struct FormatError {
-    /// The place.
+    /// Place of the error.
     pub at: Location,
-    /// What was found there, one phrase.
+    /// Phrase for what was found there.
     pub found: String,
-    /// What would be right, one phrase.
+    /// Phrase for what was expected.
     pub expected: String,
 }
 
 impl FormatError {
-    /// From its three parts; as they may be shown: on one line, with nothing that commands a terminal.
+    /// Creates the error from its three parts, in a form that can be shown: on one line, without control characters for
+    /// a terminal.
     pub fn new(at: Location, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { at, found: short(message(&found.into())), expected: short(message(&expected.into())) }
     }
@@ -105,7 +106,7 @@ impl From<NotText> for FormatError {
     }
 }
 
-/// What of a sentence is told that quotes a file, which may have words of any length.
+/// Shortens a message that quotes a file, whose words may have any length.
 pub(crate) fn short(mut text: String) -> String {
     const MOST: usize = 900;
     if let Some((at, _)) = text.char_indices().nth(MOST) {
@@ -115,7 +116,7 @@ pub(crate) fn short(mut text: String) -> String {
     text
 }
 
-/// At most 40 characters of a file's text, control characters left out, for quoting in messages.
+/// Returns up to 40 characters of a file's text without control characters, for quoting in messages.
 pub(crate) fn excerpt(text: &str) -> String {
     let clean: String = text.trim().chars().filter(|c| !c.is_control()).take(41).collect();
     if clean.chars().count() > 40 { clean.chars().take(40).collect::<String>() + "…" } else { clean }

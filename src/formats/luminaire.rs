@@ -1,4 +1,4 @@
-//! A luminaire as photometric files describe it: what EULUMDAT and LM-63 have in common.
+//! Luminaire as photometric files describe it: what EULUMDAT and LM-63 have in common.
 //!
 //! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
 
@@ -9,25 +9,25 @@ use std::f64::consts::FRAC_PI_2;
 
 pub use super::luminaire_opening::{Opening, Shape};
 
-/// Which axis the planes of a photometric file turn about.
+/// Axis about which the planes of a photometric file turn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Photometry {
-    /// About the vertical: C and γ.
+    /// Vertical axis of C planes, with the angles C and γ.
     C,
-    /// About a horizontal axis: the vertical angle counts planes, the horizontal angle lies in them (LM-75-01). Read as
-    /// it stands, not turned into C.
+    /// Horizontal axis: the vertical angle counts planes, the horizontal angle lies in them (LM-75-01). Read unchanged,
+    /// not converted to C.
     B,
-    /// About a vertical axis: the horizontal angle counts planes, the vertical angle lies in them from the horizon
-    /// (LM-75-01). Read as it stands.
+    /// Vertical axis: the horizontal angle counts planes, the vertical angle lies in them from the horizon (LM-75-01).
+    /// Read unchanged.
     A,
 }
 
-/// The text that identifies a luminaire.
+/// Text that identifies a luminaire.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Description {
     /// Number of the measurement or computation.
     pub report: String,
-    /// Who measured or computed.
+    /// Laboratory or program that measured or computed it.
     pub laboratory: String,
     /// Date of issue.
     pub date: String,
@@ -35,15 +35,15 @@ pub struct Description {
     pub manufacturer: String,
     /// Catalogue number.
     pub number: String,
-    /// What it is.
+    /// Name of the luminaire.
     pub name: String,
-    /// The light source.
+    /// Name of the light source.
     pub lamp: String,
-    /// Anything else a user of the file must know, a paragraph each.
+    /// Remarks for users of the file, one paragraph each.
     pub remarks: Vec<String>,
 }
 
-/// A luminaire.
+/// Luminaire with its intensity distribution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Luminaire {
     /// Format as the file names itself.
@@ -64,15 +64,15 @@ pub struct Luminaire {
     pub lamp_flux: Option<f64>,
     /// Electrical power. \[W\]
     pub power: f64,
-    /// What a reader had to assume.
+    /// Findings about what a reader had to assume.
     pub findings: Vec<Finding>,
 }
 
 impl Luminaire {
-    /// The luminaire of an aperture whose distribution was tabulated.
+    /// Creates the luminaire of an aperture from its tabulated distribution.
     ///
-    /// `size` is the aperture's along its own x and y \[m\]. Remarks on orientation, subdivision and quadrature are added
-    /// to those of `text`, because a host that does not know them gets the near field or the direction wrong.
+    /// `size` is the aperture's along its own x and y \[m\]. Remarks on orientation, subdivision and quadrature are
+    /// added to those of `text`, because a host that does not know them gets the near field or the direction wrong.
     pub fn from_table(table: &CGammaTable, size: [f64; 2], mut text: Description) -> Self {
         let [x, y] = size;
         let opening = match table.aim {
@@ -97,18 +97,18 @@ impl Luminaire {
         }
     }
 
-    /// As a host reads them. Only for photometry C.
+    /// Returns the intensities in radians, as a lighting program reads them. Only for photometry C.
     pub fn intensities(&self) -> Intensities {
         Intensities { c: radians(&self.c_deg), gamma: radians(&self.gamma_deg), values: self.intensity.clone() }
     }
 
-    /// Intensities of one plane. \[cd\]
+    /// Returns the intensities of one plane. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.gamma_deg.len()..][..self.gamma_deg.len()]
     }
 
-    /// Flux between the nadir and γ, by the zonal sum: a zone between two angles has the mean of their intensities, a
-    /// plane stands for half the way to its neighbours. Only for photometry C. \[lm\]
+    /// Returns the flux between the nadir and γ, by the zonal sum: a zone between two angles has the mean of their
+    /// intensities, a plane represents half the distance to its neighbours. Only for photometry C. \[lm\]
     pub fn flux_within(&self, gamma_deg: f64) -> f64 {
         let weights = self.plane_weights();
         let mut flux = 0.0;
@@ -128,7 +128,8 @@ impl Luminaire {
         flux
     }
 
-    /// Flux of the whole distribution. One plane of type A or B says nothing of the flux, which is then 0. \[lm\]
+    /// Returns the flux of the whole distribution. One plane of type A or B says nothing of the flux, which is then 0.
+    /// \[lm\]
     pub fn flux(&self) -> f64 {
         let (horizontal, vertical) = match self.photometry {
             Photometry::C => return self.flux_within(180.0),
@@ -141,7 +142,7 @@ impl Luminaire {
         if self.c_deg[0] == 0.0 { 2.0 * flux } else { flux }
     }
 
-    /// Azimuth that each plane stands for. \[rad\]
+    /// Returns the azimuth range that each plane represents. \[rad\]
     fn plane_weights(&self) -> Vec<f64> {
         let n = self.c_deg.len();
         (0..n)
@@ -153,7 +154,7 @@ impl Luminaire {
             .collect()
     }
 
-    /// Largest intensity. \[cd\]
+    /// Returns the largest intensity. \[cd\]
     pub fn peak(&self) -> f64 {
         self.intensity.iter().copied().fold(0.0, f64::max)
     }
@@ -163,12 +164,13 @@ fn radians(degrees: &[f64]) -> Vec<f64> {
     degrees.iter().map(|angle| angle.to_radians()).collect()
 }
 
-/// Weights of angles about the axis, between which intensities are linear. \[rad\]
+/// Returns the weights of angles about the axis, between which intensities are linear. \[rad\]
 fn about_axis(degrees: &[f64]) -> Vec<f64> {
     weights(&radians(degrees), |[a, b]| [0.5 * (b - a); 2])
 }
 
-/// Weights of angles from the equator to the poles, between which intensities are linear: integrals over the cosine.
+/// Returns the weights of angles from the equator to the poles, between which intensities are linear: integrals over
+/// the cosine.
 fn from_equator(degrees: &[f64]) -> Vec<f64> {
     let angles: Vec<f64> = radians(degrees).iter().map(|angle| angle.clamp(-FRAC_PI_2, FRAC_PI_2)).collect();
     weights(&angles, |[a, b]| {
@@ -181,7 +183,7 @@ fn from_equator(degrees: &[f64]) -> Vec<f64> {
     })
 }
 
-/// Weights of nodes from those that `of_pair` gives the two ends of each interval.
+/// Returns the weights of nodes from those that `of_pair` gives the two ends of each interval.
 fn weights(angles: &[f64], of_pair: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; angles.len()];
     for (k, pair) in angles.windows(2).enumerate() {

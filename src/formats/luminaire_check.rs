@@ -1,5 +1,5 @@
-//! Checks of a luminaire that was read, for all formats alike: what no luminaire has is refused, what contradicts itself
-//! or is left out is told.
+//! Checks of a luminaire that was read, the same for all formats. Impossible values are refused; contradictions and
+//! omissions give findings.
 
 use super::luminaire::{Luminaire, Photometry};
 use super::luminaire_opening::Opening;
@@ -9,35 +9,37 @@ use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
 
-/// Of the largest intensity, how far below 0 differences of measurements may be.
+/// Negative intensity that is accepted as a difference of measurements, relative to the largest intensity.
 const BELOW_ZERO: f64 = 0.01;
-/// A luminaire's power. \[W\]
+/// Maximum power of a luminaire. \[W\]
 const MAX_POWER: f64 = 1e7;
-/// A luminaire's extent. \[m\]
+/// Maximum size of a luminaire. \[m\]
 const MAX_SIZE: f64 = 1000.0;
-/// Relative difference between fluxes, or ratios of them, that differ in no more than steps and rounding. Chosen: the
-/// zonal sum of narrow beams in steps of 5° is some percent off.
+/// Relative difference below which fluxes, or ratios of them, differ only by steps and rounding. Chosen: the zonal sum
+/// of narrow beams in steps of 5° is some percent off.
 const SAME_FLUX: f64 = 0.1;
-/// Difference of light output ratios that rounding of small ones explains.
+/// Difference of light output ratios that rounding of small values explains.
 const SMALL_RATIO: f64 = 0.01;
-/// Of the largest intensity, how much two measurements of one plane differ at most.
+/// Maximum difference between two measurements of one plane, relative to the largest intensity.
 const SAME_PLANE: f64 = 0.02;
-/// Difference of shares of the flux that rounding to whole percents and steps explain.
+/// Difference of shares of the flux that rounding to whole percents and steps explains.
 const SAME_SHARE: f64 = 0.05;
-/// Least share of the lamps' flux that leaves a luminaire. Chosen: projectors with gobos give a tenth.
+/// Minimum share of the lamps' flux that leaves a luminaire. Chosen: projectors with gobos give a tenth.
 const MIN_OUTPUT: f64 = 0.1;
-/// Most flux per area of an opening. Chosen: bare LED arrays give up to 1e8. \[lm/m²\]
+/// Maximum flux per area of an opening. Chosen: bare LED arrays give up to 1e8. \[lm/m²\]
 const MAX_EXITANCE: f64 = 1e8;
-/// Least flux per area of an opening beyond [`LARGE`]. Chosen: daylight apertures that are so dark are not so large. \[lm/m²\]
+/// Minimum flux per area of an opening longer than [`LARGE`]. Chosen: daylight apertures that are so dark are not so
+/// large. \[lm/m²\]
 const MIN_EXITANCE: f64 = 1.0;
-/// Length from which an opening is large for a luminaire. Chosen: no continuous row is one luminaire of this length. \[m\]
+/// Length from which an opening is large for a luminaire. Chosen: no continuous row is one luminaire of this length.
+/// \[m\]
 const LARGE: f64 = 50.0;
-/// Largest step between planes where others stand closer, of which the standards have 15° to 22.5°. \[°\]
+/// Maximum step between planes where others are closer together; the standards have 15° to 22.5°. \[°\]
 const WIDE_STEP: f64 = 45.0;
-/// How much wider than the other steps between planes a gap is.
+/// Ratio of a gap to the other steps between planes, above which it is reported.
 const WIDER: f64 = 1.5;
 
-/// What a file says of its light beside the table.
+/// Data of a file about its light, beside the intensity table.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Stated {
     /// Flux of the lamps as they burn in the luminaire. \[lm\]
@@ -46,15 +48,15 @@ pub(super) struct Stated {
     pub lamps_line: usize,
     /// Light output ratio; `None` where it is not stated.
     pub output_ratio: Option<f64>,
-    /// Share of the flux that goes down, and its line; `None` where it is not stated.
+    /// Share of the flux that goes down, with its line; `None` where it is not stated.
     pub downward: Option<(f64, usize)>,
     /// Line of a size of the luminous opening.
     pub opening_line: usize,
-    /// Whether the table is meant per 1000 lm of the lamps.
+    /// Whether the table is in candela per 1000 lm of the lamps.
     pub is_per_klm: bool,
 }
 
-/// Judges a luminaire, all numbers of it. Intensities a little below 0, as differences of measurements are, count as 0.
+/// Checks all numbers of a luminaire. Intensities a little below 0, as differences of measurements are, count as 0.
 ///
 /// # Errors
 /// Returns an error if an intensity, a flux, a size or an angle is one that no luminaire has.
@@ -125,7 +127,7 @@ fn refuse_impossible(luminaire: &Luminaire) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// A step between planes that is much wider than the others: what lies in it is a guess.
+/// Returns a finding on a step between planes that is much wider than the others: intensities within it are a guess.
 fn gap_of_planes(luminaire: &Luminaire) -> Option<Finding> {
     let c = &luminaire.c_deg;
     if luminaire.photometry != Photometry::C || c.len() < 3 {
@@ -159,7 +161,8 @@ fn gap_of_planes(luminaire: &Luminaire) -> Option<Finding> {
     })
 }
 
-/// Angles in a plane that end where no format lets them end: beyond, there may be light that is not in the file.
+/// Returns a finding on angles in a plane that end where no format lets them end: there may be light beyond, missing in
+/// the file.
 fn gap_of_angles(luminaire: &Luminaire) -> Option<Finding> {
     let is_one_of = |angle: f64, allowed: &[f64]| allowed.iter().any(|one| same_angle(*one, angle));
     let ends = |angles: &[f64]| [angles[0], angles[angles.len() - 1]];
@@ -195,7 +198,7 @@ fn gap_of_angles(luminaire: &Luminaire) -> Option<Finding> {
     Some(if light > 0.0 { Finding::warning(code, message) } else { Finding::info(code, message) })
 }
 
-/// Flux of the table against that of the lamps and the light output ratio.
+/// Returns a finding if the flux of the table contradicts that of the lamps and the light output ratio.
 fn flux_of_lamps(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     let lamps = stated.lamps.filter(|lamps| *lamps > 0.0)?;
     let flux = luminaire.flux();
@@ -227,7 +230,7 @@ fn flux_of_lamps(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     })
 }
 
-/// Share of the flux that goes down against the one that the file states.
+/// Returns a finding if the downward share of the flux contradicts the stated one.
 fn downward_share(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     let (known, line) = stated.downward?;
     let flux = luminaire.flux();
@@ -245,7 +248,7 @@ fn downward_share(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     })
 }
 
-/// An opening that is far too small or too large for the flux: most often in another unit.
+/// Returns a finding if an opening is far too small or too large for the flux: mostly because of another unit.
 fn size_for_flux(luminaire: &Luminaire, line: usize) -> Option<Finding> {
     let (opening, flux) = (luminaire.opening, luminaire.flux());
     let area = opening.largest_face();
@@ -275,7 +278,7 @@ fn size_for_flux(luminaire: &Luminaire, line: usize) -> Option<Finding> {
     Some(Finding::warning("opening-contradicts-flux", message))
 }
 
-/// Whether the plane that closes a turn is the first one again; if not, which is told. `table`: plane by plane.
+/// Returns a finding if the plane that closes the turn differs from the first one. `table`: intensities plane by plane.
 pub(super) fn closing_plane(c_deg: &[f64], table: &[f64]) -> Option<Finding> {
     let (planes, angles) = (c_deg.len(), table.len() / c_deg.len());
     if planes < 2 || !same_angle(c_deg[planes - 1], c_deg[0] + 360.0) {
@@ -296,7 +299,8 @@ pub(super) fn closing_plane(c_deg: &[f64], table: &[f64]) -> Option<Finding> {
     })
 }
 
-/// Numbers after the last one that the counts ask for. `due`: how many values there should be, in words with the counts.
+/// Returns a finding on numbers after the last one that the counts require. `due`: number of values required; `words`:
+/// a text with the counts.
 pub(super) fn surplus(found: usize, due: usize, line: usize, words: &str) -> Finding {
     let message = format!(
         "line {line}: {found} intensities where {due} are due ({words}); the {} after them are not used",

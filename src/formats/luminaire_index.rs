@@ -1,16 +1,16 @@
-//! The index of luminaire files (`.index.csv`): which file stands where, how large it is, what it holds and what it
-//! leaves to the host.
+//! Index of luminaire files (`.index.csv`): position, size and flux of each file, and the direct beam that it leaves to
+//! the host program.
 //!
-//! Columns by name, in any order: `file,x,y,z,width,height,flux_lm` are needed, `file` relative to the index, the tile's
-//! centre in room axes \[m\], its size along x and along z (façade) or y (roof) \[m\]. Written too:
+//! Columns by name, in any order: `file,x,y,z,width,height,flux_lm` are required, `file` relative to the index, the
+//! tile's centre in room axes \[m\], its size along x and along z (façade) or y (roof) \[m\]. Written too:
 //!
-//! | column | what |
+//! | column | meaning |
 //! | --- | --- |
-//! | `surface`, `aim` | `facade` or `roof`; `mounted` or `down`: how planes and angles of the file stand |
+//! | `surface`, `aim` | `facade` or `roof`; `mounted` or `down`: orientation of the file's planes and angles |
 //! | `beam_lm` | flux of the sun's beams in the file, widened \[lm\] |
-//! | `apart_lm`, `apart_x`, `apart_y`, `apart_z` | straight beam that is not in the file \[lm\], and where it goes, in room axes |
-//! | `apart_lx` | what it gives across itself \[lx\] |
-//! | `set` | name of the series' member that the file belongs to |
+//! | `apart_lm`, `apart_x`, `apart_y`, `apart_z` | undeviated beam outside the file \[lm\], its direction (room axes) |
+//! | `apart_lx` | illuminance of that beam on a plane perpendicular to it \[lx\] |
+//! | `set` | name of the member of a series that the file belongs to |
 
 use super::encoding::{decode, not_too_long};
 use super::{FormatError, Location};
@@ -20,49 +20,49 @@ use crate::compute::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// What the straight beam would bring, where a file leaves it to the host.
+/// Undeviated beam that a file leaves to the host program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Apart {
     /// Flux through the tile. \[lm\]
     pub flux: f64,
-    /// Where it goes, room axes, a unit vector.
+    /// Direction in which the beam travels, room axes, a unit vector.
     pub direction: DVec3,
-    /// Illuminance across itself. \[lx\]
+    /// Illuminance on a plane perpendicular to the beam. \[lx\]
     pub normal: f64,
 }
 
-/// One file.
+/// Row of the index: one luminaire file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Relative to the index.
+    /// Path of the file, relative to the index.
     pub file: String,
     /// Centre of the luminous area, room axes. \[m\]
     pub centre: DVec3,
-    /// Along x, and along z (façade) or y (roof). \[m\]
+    /// Size along x, and along z (façade) or y (roof). \[m\]
     pub size: [f64; 2],
-    /// Of the file. \[lm\]
+    /// Flux of the file. \[lm\]
     pub flux: f64,
-    /// What of it is the sun's beams, widened. \[lm\]
+    /// Flux of the sun's beams in the file, widened; part of the flux of the file. \[lm\]
     pub beam: f64,
-    /// Where the area lies; `None`: not said.
+    /// Surface with the luminous area, façade or roof; `None`: not specified.
     pub surface: Option<Surface>,
-    /// How the file's planes stand; `None`: not said.
+    /// Orientation of the file's planes; `None`: not specified.
     pub aim: Option<Aim>,
-    /// The straight beam, left to the host.
+    /// Undeviated beam that is left to the host program.
     pub apart: Option<Apart>,
-    /// Member of a series; empty for a single set.
+    /// Name of the member of a series; empty for a single set.
     pub set: String,
 }
 
 const HEADER: &str =
     "file,x,y,z,width,height,flux_lm,surface,aim,beam_lm,apart_lm,apart_x,apart_y,apart_z,apart_lx,set";
 
-/// Any length or place. \[m\]
+/// Maximum absolute value of lengths and coordinates. \[m\]
 const LONGEST: f64 = 1e6;
-/// A straight beam of less light is none. \[lm\]
+/// Minimum flux of an undeviated beam; a smaller one is dropped. \[lm\]
 const LEAST_APART: f64 = 1e-4;
 
-/// Writes an index.
+/// Returns the text of an index.
 pub fn write(rows: &[Row]) -> Vec<u8> {
     let mut text = format!("{HEADER}\r\n");
     for row in rows {
@@ -94,7 +94,7 @@ pub fn write(rows: &[Row]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// A field as CSV wants it.
+/// Returns a field quoted as CSV requires.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
@@ -102,7 +102,7 @@ fn quoted(text: &str) -> String {
 /// Reads an index.
 ///
 /// # Errors
-/// A needed column or number missing, a size that is none, an unknown word; told with the line.
+/// Returns an error with the line if a required column or number is missing, a size is not valid, or a word is unknown.
 pub fn read(bytes: &[u8]) -> Result<Vec<Row>, FormatError> {
     let text = decode(not_too_long(bytes)?)?;
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(text.as_bytes());

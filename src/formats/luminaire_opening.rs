@@ -1,4 +1,4 @@
-//! The luminous opening of a luminaire: its shape, its size, and how the two formats mark round shapes.
+//! Luminous opening of a luminaire: its shape, its size, and how the two formats mark round shapes.
 
 /// Shape of a luminous opening.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -6,18 +6,18 @@ pub enum Shape {
     /// Rectangle, or box with luminous sides; a point without size.
     #[default]
     Rectangular,
-    /// Circle or ellipse seen from below; upright cylinder with luminous sides.
+    /// Circle or ellipse seen from below; vertical cylinder with luminous sides.
     Round,
     /// Sphere or ellipsoid.
     Ellipsoid,
-    /// Horizontal cylinder along the C0–C180 plane; a standing disc without length.
+    /// Horizontal cylinder along the C0–C180 plane; a vertical disc without length.
     CylinderAlongC0,
-    /// Horizontal cylinder along the C90–C270 plane; a standing disc without length.
+    /// Horizontal cylinder along the C90–C270 plane; a vertical disc without length.
     CylinderAlongC90,
 }
 
 impl Shape {
-    /// Stable word for files and other programs.
+    /// Returns the stable key for files and other programs.
     pub const fn key(self) -> &'static str {
         match self {
             Self::Rectangular => "rectangular",
@@ -34,24 +34,26 @@ impl Shape {
 pub struct Opening {
     /// Shape within the three sizes.
     pub shape: Shape,
-    /// Along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT).
+    /// Size along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT).
     pub along_c0: f64,
-    /// Along the C90–C270 plane ("width" of LM-63, "length" of EULUMDAT).
+    /// Size along the C90–C270 plane ("width" of LM-63, "length" of EULUMDAT).
     pub along_c90: f64,
-    /// Vertical.
+    /// Vertical size.
     pub height: f64,
 }
 
 impl Opening {
-    /// A rectangle or box.
+    /// Creates a rectangle or box.
     pub const fn rectangular(along_c0: f64, along_c90: f64, height: f64) -> Self {
         Self { shape: Shape::Rectangular, along_c0, along_c90, height }
     }
 
-    /// From width, length and height of an LM-63 file \[m\], of which negative ones mark round shapes.
+    /// Creates the opening from width, length and height of an LM-63 file \[m\], of which negative ones mark round
+    /// shapes.
     ///
-    /// `states_diameter_once`: of editions up to 1995, where the second diameter of a round shape is 0 and a horizontal
-    /// cylinder has one negative size; later editions repeat the diameter, and a horizontal cylinder has two.
+    /// `states_diameter_once`: whether the file is of an edition up to 1995, where the second diameter of a round shape
+    /// is 0 and a horizontal cylinder has one negative size; later editions repeat the diameter, and a horizontal
+    /// cylinder has two.
     pub(super) fn from_lm63(sizes: [f64; 3], states_diameter_once: bool) -> Self {
         let [mut width, mut length, mut height] = sizes.map(f64::abs);
         let shape = match (sizes.map(|size| size < 0.0), states_diameter_once) {
@@ -76,7 +78,7 @@ impl Opening {
         Self { shape, along_c0: length, along_c90: width, height }
     }
 
-    /// Width, length and height as LM-63-2002 and later editions mark them. \[m\]
+    /// Returns width, length and height as LM-63-2002 and later editions mark them. \[m\]
     pub(super) fn to_lm63(self) -> [f64; 3] {
         let (width, length, height) = (self.along_c90, self.along_c0, self.height);
         match self.shape {
@@ -88,12 +90,12 @@ impl Opening {
         }
     }
 
-    /// Whether it is a circle seen from below.
+    /// Whether the opening is a circle seen from below.
     pub fn is_circle(&self) -> bool {
         self.shape == Shape::Round && self.along_c0 == self.along_c90
     }
 
-    /// Area of the largest of its three faces, as that of a rectangle. \[m²\]
+    /// Returns the area of the largest of its three faces, as that of a rectangle. \[m²\]
     pub fn largest_face(&self) -> f64 {
         let (a, b, c) = (self.along_c0, self.along_c90, self.height);
         (a * b).max(a * c).max(b * c)

@@ -1,13 +1,14 @@
-//! Angles of photometric tables: lists that rise, and the planes of the full turn that mirror images of a part give.
+//! Angles of photometric tables: rising lists, and the planes of the full turn that follow from mirror images of a
+//! part.
 
 use super::FormatError;
 use super::luminaire_text::at_line;
 
-/// Angles closer together are the same once they are written, with four decimals. \[°\]
+/// Difference below which angles are equal once written, with four decimals. \[°\]
 pub(super) const CLOSEST: f64 = 2e-4;
 
-/// A plane so close to the end of the turn is the first one, apart from rounding; one further away would be written as
-/// the first one and is no plane of its own. \[°\]
+/// Distance from the end of the turn below which a plane is the first one, apart from rounding; one further away would
+/// be written as the first one and would not be a separate plane. \[°\]
 const SAME_PLANE: f64 = 1e-6;
 
 /// Whether two angles are the same in a file. \[°\]
@@ -15,28 +16,28 @@ pub(super) fn same_angle(a: f64, b: f64) -> bool {
     (a - b).abs() < CLOSEST
 }
 
-/// Vertical planes that a distribution is symmetric about.
+/// Vertical planes of symmetry of a distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mirrors {
     None,
-    /// The plane C0–C180.
+    /// Symmetry about the plane C0–C180.
     C0,
-    /// The plane C90–C270.
+    /// Symmetry about the plane C90–C270.
     C90,
     Both,
 }
 
-/// Planes of the full turn, and for each the number of the stored plane that it copies.
+/// Planes of the full turn, and for each the index of the stored plane that it copies.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Turn {
-    /// From 0° to below 360°, rising. \[°\]
+    /// Angles of the planes, from 0° to below 360°, rising. \[°\]
     pub c_deg: Vec<f64>,
     pub source: Vec<usize>,
 }
 
 impl Turn {
-    /// The stored planes \[°\] and their mirror images, by angle. A plane at 360° is the one at 0°; a single plane stands
-    /// for all and is the one at 0°.
+    /// Creates the turn from the stored planes \[°\] and their mirror images, sorted by angle. A plane at 360° is the
+    /// one at 0°; a single plane represents all and is the one at 0°.
     pub fn new(stored: &[f64], mirrors: Mirrors) -> Self {
         if stored.len() == 1 {
             return Self { c_deg: vec![0.0], source: vec![0] };
@@ -62,7 +63,7 @@ impl Turn {
     }
 }
 
-/// Fails unless the angles rise by what files can tell apart.
+/// Returns an error unless the angles rise by steps that files can distinguish.
 pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), FormatError> {
     match angles.windows(2).find(|pair| pair[1] - pair[0] < CLOSEST) {
         Some(pair) => Err(at_line(

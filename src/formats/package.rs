@@ -1,4 +1,4 @@
-//! The exchange package (`.cfsp`): products of the catalogue in one zip file.
+//! Exchange packages (`.cfsp`): products of the catalogue in one zip file.
 //!
 //! `manifest.json` lists the products; `datasets/HASH.bin` holds each dataset in its compact binary form, named by the
 //! BLAKE3 hash of its bytes, which is checked on reading.
@@ -12,30 +12,30 @@ use std::io::{Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-/// Format word of the manifest, without its version.
+/// Format name in the manifest, without its version.
 const FORMAT: &str = "cfs-package";
-/// The newest version that is read. Written is the oldest that can hold what there is: 2 where a product tells its
-/// license, else 1.
+/// Newest version that is read. The version written is the oldest that can hold the content: 2 where a product has a
+/// licence, else 1.
 pub const VERSION: u32 = 2;
-/// Largest manifest. \[bytes\]
+/// Maximum size of the manifest. \[bytes\]
 const MOST_MANIFEST: u64 = limits::MANIFEST_BYTES;
-/// Largest dataset. \[bytes\]
+/// Maximum size of a dataset. \[bytes\]
 const MOST_DATASET: u64 = limits::ENTRY_BYTES;
-/// Most bytes of all datasets together.
+/// Maximum size of all datasets together. \[bytes\]
 const MOST_TOTAL: u64 = limits::PACKAGE_BYTES;
-/// Most entries of the zip file.
+/// Maximum number of entries in the zip file.
 const MOST_ENTRIES: usize = limits::ARCHIVE_ENTRIES;
 
-/// What a package holds.
+/// Content of a package.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Package {
-    /// The products.
+    /// Products of the package.
     pub products: Vec<PackageProduct>,
-    /// Binary datasets by their hash.
+    /// Datasets in binary form by their hash.
     pub datasets: BTreeMap<String, Vec<u8>>,
 }
 
-/// The word alone: a newer manifest may have any keys beside it.
+/// Format name only: the manifest of a newer version may have any other keys.
 #[derive(Deserialize)]
 struct Head {
     format: String,
@@ -47,11 +47,11 @@ struct Manifest {
     products: Vec<PackageProduct>,
 }
 
-/// A product as the manifest gives it.
+/// Product in the form of the manifest.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageProduct {
-    /// Key in the catalogue it came from.
+    /// Key in the catalogue from which it was exported.
     pub key: String,
     /// Name.
     pub name: String,
@@ -64,13 +64,13 @@ pub struct PackageProduct {
     /// Free text.
     #[serde(default)]
     pub description: String,
-    /// Where the data come from.
+    /// Source of the data.
     #[serde(default)]
     pub provenance: PackageProvenance,
-    /// On which terms the data may be passed on; may be empty.
+    /// Licence of the data; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub license: String,
-    /// Words to find it by.
+    /// Tags to find the product by.
     #[serde(default)]
     pub tags: Vec<String>,
     /// States in order, at least one.
@@ -78,48 +78,48 @@ pub struct PackageProduct {
     /// Points of the control curve.
     #[serde(default)]
     pub control_curve: Vec<PackageCurvePoint>,
-    /// Text of the description that it was computed from; empty for others.
+    /// Text of the system description from which the data were computed; empty for other products.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub system: String,
 }
 
-/// Provenance in the manifest.
+/// Source of the data in the manifest.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PackageProvenance {
     /// `measured`, `computed` or `unknown`.
     pub origin: String,
-    /// By whom.
+    /// Author of the data.
     pub author: String,
-    /// How.
+    /// Method: device or formula.
     pub method: String,
-    /// When, as the source gives it.
+    /// Date as the source gives it.
     pub date: String,
-    /// Name of the file it was read from.
+    /// Name of the file from which the data were read.
     pub source_file: String,
     /// BLAKE3 hash of that file.
     pub source_hash: String,
-    /// Which face looks into the room.
+    /// Face of the system that looks into the room.
     pub inside_face: String,
 }
 
-/// A state in the manifest.
+/// State in the manifest.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageState {
     /// Key; empty for the only state of a system without states.
     pub key: String,
-    /// Text for people.
+    /// Label of the state for people.
     #[serde(default)]
     pub label: String,
-    /// Angle or other number of the state.
+    /// Number of the state: an angle or another number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
     /// Hash of its dataset.
     pub dataset: String,
 }
 
-/// A point of a control curve in the manifest.
+/// Point of a control curve in the manifest.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageCurvePoint {
@@ -129,37 +129,37 @@ pub struct PackageCurvePoint {
     pub value: f64,
 }
 
-/// Why bytes are no package.
+/// Error of reading or writing a package.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
-    /// Not a zip file, or damaged.
+    /// Bytes that are not a zip file, or are damaged.
     #[error("not a readable package: {0}")]
     Zip(#[from] zip::result::ZipError),
-    /// Reading or writing an entry failed.
+    /// Entry that could not be read or written.
     #[error("package entry {entry}: {source}")]
     Entry {
         /// Name of the entry.
         entry: String,
-        /// What happened.
+        /// Error of the entry.
         source: std::io::Error,
     },
-    /// The manifest is not what it should be.
+    /// Manifest that is not valid.
     #[error("package manifest.json: {0}")]
     Manifest(#[from] serde_json::Error),
-    /// Written by a newer program.
+    /// Package written by a newer program.
     #[error("the package was written by a newer version of cfs ({FORMAT} {0}; this program reads up to {VERSION})")]
     Newer(u32),
-    /// Something that must not be.
+    /// Content that is not valid.
     #[error("package: {0}")]
     Content(String),
 }
 
-/// Is this a zip file, as packages are?
+/// Whether the bytes are a zip file, as packages are.
 pub fn looks_like_package(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
 }
 
-/// Bytes of a package. The same content always gives the same bytes.
+/// Returns the bytes of a package. The same content always gives the same bytes.
 pub fn write(package: &Package) -> Result<Vec<u8>, PackageError> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // A fixed time in the entries: packages of the same content are the same file.
@@ -229,7 +229,7 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
     Ok(package)
 }
 
-/// Budgets of a product, before any of its data are touched.
+/// Checks the limits of a product before its data are read.
 fn judge(product: &PackageProduct) -> Result<(), PackageError> {
     let name: String = product.key.chars().take(80).collect();
     let refuse = |what: String| Err(PackageError::Content(format!("product \"{name}\" has {what}")));
@@ -247,7 +247,7 @@ fn judge(product: &PackageProduct) -> Result<(), PackageError> {
     }
 }
 
-/// One entry, never more than `most` bytes of it whatever its header says.
+/// Returns one entry, of at most `most` bytes whatever its header says.
 fn entry(zip: &mut ZipArchive<Cursor<&[u8]>>, name: &str, most: u64) -> Result<Vec<u8>, PackageError> {
     let file = zip.by_name(name).map_err(|error| match error {
         zip::result::ZipError::FileNotFound => PackageError::Content(format!("{name} is missing")),

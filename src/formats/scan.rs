@@ -11,24 +11,24 @@ use super::location::excerpt;
 use crate::compute::limits;
 use crate::compute::sky::Scan;
 
-/// Why the text is no scan.
+/// Error of reading a sky scan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScanError {
-    /// Not text.
+    /// Bytes that are not text.
     #[error(transparent)]
     NotText(#[from] NotText),
-    /// Longer than any.
+    /// Text longer than any scan.
     #[error(transparent)]
     TooLong(#[from] TooLong),
-    /// A field that is no luminance.
+    /// Field that is not a luminance.
     #[error("line {line}: \"{found}\" is no luminance (expected a number from 0 to {most:e} cd/m²)", most = limits::LUMINANCE)]
     Number {
         /// Line number, from 1.
         line: usize,
-        /// The field.
+        /// Text of the field.
         found: String,
     },
-    /// A header without a known column.
+    /// Header without a known column.
     #[error("line {line}: no column L_mean_cdm2, luminance or L_centre_cdm2 in the header")]
     Header {
         /// Line number, from 1.

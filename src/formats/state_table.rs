@@ -1,4 +1,5 @@
-//! States of a moving system by time, as building simulations and loggers write them: CSV with the columns `time` and `state`.
+//! States of a moving system over time, as building simulations and loggers write them: CSV with the columns `time` and
+//! `state`.
 //!
 //! ```text
 //! time,state
@@ -6,8 +7,8 @@
 //! 2005-01-01T10:30:00,45
 //! ```
 //!
-//! Times are local standard time, rising; each state holds until the next row. Month, day and time of day count: years of
-//! typical weather are put together from many. Further columns are not read, nor are decimal seconds and time zones.
+//! Times are local standard time, rising; each state holds until the next row. Month, day and time of day count: years
+//! of typical weather are put together from many. Further columns are not read, nor are decimal seconds and time zones.
 //! Semicolons may stand between the columns.
 
 use super::decimal_comma::with_decimal_points;
@@ -16,43 +17,44 @@ use super::location::excerpt;
 use crate::compute::limits::WEATHER_RECORDS;
 use jiff::civil::{Date, DateTime};
 
-/// One row.
+/// Row of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateRow {
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// Seconds since the beginning of the year, see [`of_year`].
+    /// Time since the beginning of the year, see [`of_year`]. \[s\]
     pub of_year: f64,
     /// Key of the state; never empty.
     pub state: String,
 }
 
-/// Why the text is no table of states.
+/// Error of reading a table of states.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StateTableError {
-    /// Not text.
+    /// Bytes that are not text.
     #[error(transparent)]
     NotText(#[from] NotText),
-    /// Longer than any.
+    /// Text longer than any such table.
     #[error(transparent)]
     TooLong(#[from] TooLong),
-    /// Columns are missing.
+    /// Header without the required columns.
     #[error("line 1: the header needs the columns time and state")]
     Header,
-    /// A row that is none.
+    /// Row that is not valid.
     #[error("line {line}: {message}")]
     Row {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// What is wrong and what would be right.
+        /// Message: what is wrong, and what was expected.
         message: String,
     },
-    /// No rows, or too many.
+    /// Number of rows that is 0 or too large.
     #[error("{0} rows (expected 1 to {WEATHER_RECORDS})")]
     Count(usize),
 }
 
-/// Seconds since the beginning of the year in a calendar of 366 days, in which every day has one place whatever the year.
+/// Returns the time since the beginning of the year, in a calendar of 366 days in which every day has one place
+/// whatever the year. \[s\]
 pub fn of_year(time: DateTime) -> f64 {
     // A leap year has every day that any year has.
     let day = Date::new(2024, time.month(), time.day()).map_or(0, |date| date.day_of_year());
@@ -63,7 +65,7 @@ pub fn of_year(time: DateTime) -> f64 {
 /// Reads a table of states.
 ///
 /// # Errors
-/// With the line: a row without time or state, times that do not rise.
+/// Returns an error with the line if a row has no time or state, or times do not rise.
 pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
     let text = decode(not_too_long(bytes)?)?;
     let text = with_decimal_points(&text);

@@ -1,24 +1,24 @@
-//! What is wrong in a TOML file, by the name of the key.
+//! Errors in TOML files, located by line, column and name of the key.
 
 use super::location::short;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A place in TOML text and what is wrong there.
+/// Error at a place in TOML text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TomlPlace {
-    /// From 1.
+    /// Line number, from 1.
     pub line: usize,
-    /// In characters, from 1.
+    /// Column in characters, from 1.
     pub column: usize,
-    /// Full name of the key, e.g. `aperture[1].size`; empty where the text is no TOML.
+    /// Full name of the key, e.g. `aperture[1].size`; empty where the text is not valid TOML.
     pub key: String,
-    /// What is wrong and what would be right.
+    /// Message: what is wrong, and what was expected.
     pub message: String,
 }
 
-/// Where an error lies. `first`: number of the first in a list, as messages about such files count; `unit`: of the number
-/// under a key.
+/// Returns the place of an error. `first`: index of the first item of a list, as messages about such files count;
+/// `unit`: unit of the number under a key.
 pub fn place(
     text: &str,
     error: &toml::de::Error,
@@ -43,7 +43,7 @@ pub fn place(
     }
 }
 
-/// A key without the places in its lists.
+/// Returns a key without the indices of its lists.
 fn plain(key: &str) -> String {
     let mut depth = 0_usize;
     let mut name = String::new();
@@ -58,7 +58,7 @@ fn plain(key: &str) -> String {
     name
 }
 
-/// Serde's words as the field says them.
+/// Returns serde's message in the terms of this program's fields.
 fn said(message: &str, unit: Option<&str>) -> String {
     let number = unit.map_or_else(|| "a number".to_owned(), |unit| format!("a number in {unit}"));
     let mut said = message.replace('\n', "; ");
@@ -83,7 +83,7 @@ fn said(message: &str, unit: Option<&str>) -> String {
     }
 }
 
-/// Follows a span to the innermost value that holds it.
+/// Follows a span to the innermost value that contains it.
 fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, first: usize, key: &mut String) {
     for (name, value) in table {
         if value.span().start <= span.start && span.end <= value.span().end || name.span() == *span {

@@ -1,12 +1,12 @@
-//! What every writer of a dataset format returns.
+//! Result of every writer of a dataset format.
 
 use crate::compute::btdf::Finding;
 
-/// A written file, and what got lost or changed on the way.
+/// Written file, with findings on what was lost or changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
-    /// The file.
+    /// Bytes of the file.
     pub bytes: Vec<u8>,
-    /// Resampling, derived blocks: whatever a reader of the new file would not see.
+    /// Findings on resampling, derived blocks: whatever a reader of the new file would not see.
     pub findings: Vec<Finding>,
 }

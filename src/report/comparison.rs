@@ -1,5 +1,5 @@
-//! The chapter of a study on its candidates: their figures with errors, the same tile of each on one scale, and what each
-//! is less a base.
+//! Comparison chapter of a study: figures of the candidates with errors, the same tile of each on one scale, and the
+//! differences of each from the reference.
 
 use super::ReportError;
 use super::pages::{Figure, Pages};
@@ -18,21 +18,21 @@ use crate::study::scene_file::SceneFile;
 use crate::study::subject::Subject;
 use crate::texts::compare as texts;
 
-/// What is compared in a study.
+/// Candidates of a study with the tile and the reference of their comparison.
 pub struct Comparison {
-    /// Names and results, in the order of the scene.
+    /// Names and results of the candidates, in the order of the scene.
     pub candidates: Vec<(String, Subject)>,
-    /// The tile that is drawn of each.
+    /// Tile that is drawn for each candidate.
     pub tile: TileKind,
-    /// Which of them the others are less, from 0.
+    /// Index of the reference candidate, from which differences are taken.
     pub base: usize,
 }
 
 impl Comparison {
-    /// The candidates of a scene, each computed by `of`; `None` where the scene has none.
+    /// Computes the comparison of a scene's candidates, each by `of`; `None` where the scene has none.
     ///
     /// # Errors
-    /// As of `of`.
+    /// Returns the errors of `of`.
     pub fn of<E>(
         scene: &SceneFile,
         (tile, base): (TileKind, usize),
@@ -48,7 +48,7 @@ impl Comparison {
         Ok((!candidates.is_empty()).then_some(Self { candidates, tile, base }))
     }
 
-    /// The figures, as every table of the program has them.
+    /// Returns the rows of figures, as every table of the program has them.
     pub fn rows(&self) -> Vec<Row> {
         let facts: Vec<_> = self.candidates.iter().map(|(_, subject)| facts_of(subject)).collect();
         let mut rows = compare(FIGURES, &facts.iter().collect::<Vec<_>>());
@@ -56,7 +56,7 @@ impl Comparison {
         rows
     }
 
-    /// The names, each with its number.
+    /// Returns the names, each with its number.
     fn names(&self) -> Vec<String> {
         self.candidates.iter().enumerate().map(|(k, (name, _))| format!("{} {name}", k + 1)).collect()
     }
@@ -65,7 +65,7 @@ impl Comparison {
 /// Writes the chapter.
 ///
 /// # Errors
-/// A tile that has something to show cannot be drawn.
+/// Returns an error if a tile that has something to show cannot be drawn.
 pub(super) fn chapter(pages: &mut Pages, comparison: &Comparison, inks: &Inks) -> Result<(), ReportError> {
     let names = comparison.names();
     pages.heading(texts::CHAPTER.get());
@@ -86,7 +86,7 @@ pub(super) fn chapter(pages: &mut Pages, comparison: &Comparison, inks: &Inks) -
         let frame = drawing.frame().inside([6.0; 4]);
         let said = match draw_on(&mut drawing, frame, subject, (tile, range), inks) {
             Ok(said) => said,
-            // What a candidate cannot show is said in the place of its picture.
+            // Where a candidate has nothing to show, the reason stands in place of its picture.
             Err(ReportError::Nothing(_, why)) => why,
             Err(error) => return Err(error),
         };
@@ -99,7 +99,7 @@ pub(super) fn chapter(pages: &mut Pages, comparison: &Comparison, inks: &Inks) -
     Ok(())
 }
 
-/// Two pictures a row.
+/// Adds pictures, two per row.
 fn rows_of(pages: &mut Pages, mut figures: Vec<Figure>) {
     while !figures.is_empty() {
         let rest = figures.split_off(figures.len().min(2));
@@ -114,7 +114,7 @@ fn rows_of(pages: &mut Pages, mut figures: Vec<Figure>) {
     }
 }
 
-/// Figures in rows, candidates by their numbers in columns.
+/// Returns the table with figures in rows and candidates by their numbers in columns.
 fn table(rows: &[Row], count: usize) -> Table {
     let column = |head: String, align| Column { head, align };
     let mut columns = vec![column(texts::FIGURE.into(), Align::Start)];
@@ -141,7 +141,7 @@ fn table(rows: &[Row], count: usize) -> Table {
     Table { columns, rows: rows.iter().map(line).collect() }
 }
 
-/// The tile of which differences are drawn: the compared one, else the room, else the transmittance.
+/// Returns the tile in which differences are drawn: the compared one, else the room, else the transmittance.
 fn of_tile(comparison: &Comparison) -> TileKind {
     match comparison.tile {
         tile @ (TileKind::Btdf | TileKind::Transmittance | TileKind::Room) => tile,
@@ -152,7 +152,7 @@ fn of_tile(comparison: &Comparison) -> TileKind {
     }
 }
 
-/// What one is less another; `None` where they have nothing in common.
+/// Returns the difference of one candidate from the reference; `None` where they have nothing in common.
 fn picture(tile: TileKind, one: &Subject, base: &Subject) -> Option<Picture> {
     if tile == TileKind::Room {
         let of = |subject: &Subject| {
@@ -226,7 +226,7 @@ fn signed(value: f64, unit: &str) -> String {
     format!("{sign}{} {unit}", number(value.abs(), 3)).trim_end().to_owned()
 }
 
-/// A difference in words.
+/// Returns a difference as a text.
 fn summary(picture: &Picture) -> String {
     let [name, unit] = picture.quantity();
     match picture {

@@ -1,20 +1,20 @@
-//! Why nothing can be handed on.
+//! Errors of exporting pictures and reports.
 
 use crate::texts::{Text, hand_on as texts};
 
-/// Why nothing can be handed on.
+/// Error of an export.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReportError {
-    /// A tile has nothing to show: which, and why.
+    /// Tile that has nothing to show: its name, and the reason.
     #[error("{0}: {1}")]
     Nothing(Text, String),
-    /// A size that is none: as typed, and why.
+    /// Size that is not valid: the typed text, and the reason.
     #[error("{}", texts::wrong_size(.0, .1))]
     Size(String, Text),
-    /// A tender text that is no template: its line (from 1), and what is wrong.
+    /// Tender text that is not a valid template: its line (from 1), and what is wrong.
     #[error("{}", texts::wrong_template(.0, .1))]
     Template(usize, String),
-    /// The PDF could not be made.
+    /// PDF that could not be made, with the reason.
     #[error("{}", texts::no_pdf(.0))]
     Pdf(String),
 }

@@ -1,7 +1,8 @@
-//! What is handed on: pictures of the tiles, and reports as PDF. Figures and pictures in, bytes out; no files, no window.
+//! Export of pictures of the tiles and of reports as PDF. Figures and pictures in, bytes out; no files, no window.
 //!
-//! A tile's picture is a [`Drawing`](crate::drawing::Drawing) made of a [`Subject`](crate::study::subject::Subject), so that
-//! window and command line hand the same on, whatever the window's size and theme. A report is pages of such drawings.
+//! A tile's picture is a [`Drawing`](crate::drawing::Drawing) made from a [`Subject`](crate::study::subject::Subject),
+//! so that window and command line export the same, whatever the window's size and theme. A report is pages of such
+//! drawings.
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 

@@ -1,5 +1,5 @@
-//! Pages that fill from above: headings, paragraphs, figures, tables and pictures on one grid, with a running foot.
-//! A unit is a point of the paper (A4).
+//! Pages that fill from the top: headings, paragraphs, figures, tables and pictures on one grid, with a running foot. A
+//! unit is a point of the paper (A4).
 
 use super::picture::{PROGRAM, rule};
 use super::table::Table;
@@ -8,44 +8,44 @@ use crate::drawing::font::{LEADING, shortened, width, wrapped};
 use crate::drawing::{Align, Drawing, Frame, Rgb, Shape};
 use crate::texts::hand_on as texts;
 
-/// A4. \[pt\]
+/// Size of an A4 page. \[pt\]
 const PAPER: [f64; 2] = [595.28, 841.89];
-/// Left, above, right, below. \[pt\]
+/// Margins: left, top, right, bottom. \[pt\]
 const MARGINS: [f64; 4] = [56.0, 56.0, 56.0, 64.0];
-/// Width of what is written on. \[pt\]
+/// Width between the margins. \[pt\]
 pub const WIDTH: f64 = PAPER[0] - MARGINS[0] - MARGINS[2];
-/// Text. \[pt\]
+/// Font size of text. \[pt\]
 pub const BODY: f64 = 8.8;
-/// Captions and the foot. \[pt\]
+/// Font size of captions and of the foot. \[pt\]
 const SMALL: f64 = 7.6;
-/// Headings. \[pt\]
+/// Font size of headings. \[pt\]
 const HEADING: f64 = 11.5;
-/// The title. \[pt\]
+/// Font size of the title. \[pt\]
 const TITLE: f64 = 19.0;
-/// Between columns. \[pt\]
+/// Gap between columns. \[pt\]
 const GAP: f64 = 14.0;
 
-/// A picture and what stands under it.
+/// Picture with its caption.
 pub struct Figure {
-    /// The picture.
+    /// Drawing of the picture.
     pub drawing: Drawing,
-    /// Its words; may be empty.
+    /// Caption under the picture; may be empty.
     pub caption: String,
 }
 
-/// Pages under way.
+/// Pages that are being filled.
 pub struct Pages {
     done: Vec<Drawing>,
     page: Drawing,
-    /// Where the next thing begins.
+    /// Vertical position at which the next item begins. \[pt\]
     top: f64,
-    /// Of the running foot.
+    /// Title in the running foot.
     title: String,
     inks: Inks,
 }
 
 impl Pages {
-    /// The first page, with a kind ("Product sheet"), a title and a line under it.
+    /// Creates the first page, with a kind ("Product sheet"), a title and a line under it.
     pub fn new(kind: &str, title: &str, under: &str, inks: &Inks) -> Self {
         let page = Drawing::new(PAPER[0], PAPER[1]);
         let title_of = format!("{kind} · {title}");
@@ -59,7 +59,7 @@ impl Pages {
         pages
     }
 
-    /// What is left of the page. \[pt\]
+    /// Returns the height that is left on the page. \[pt\]
     fn left(&self) -> f64 {
         PAPER[1] - MARGINS[3] - self.top
     }
@@ -70,14 +70,14 @@ impl Pages {
         self.top = MARGINS[1];
     }
 
-    /// Turns the page where less than so much is left, unless it is still empty. \[pt\]
+    /// Begins a new page if less than `height` is left, unless the page is still empty. \[pt\]
     pub fn need(&mut self, height: f64) {
         if self.left() < height && self.top > MARGINS[1] {
             self.turn();
         }
     }
 
-    /// Free space.
+    /// Adds free space. \[pt\]
     pub fn gap(&mut self, height: f64) {
         self.top += height;
     }
@@ -95,7 +95,7 @@ impl Pages {
         }
     }
 
-    /// A heading; what follows begins on the same page.
+    /// Adds a heading; the next item begins on the same page.
     pub fn heading(&mut self, text: &str) {
         self.need(104.0);
         if self.top > MARGINS[1] {
@@ -108,19 +108,19 @@ impl Pages {
         self.top += 4.0;
     }
 
-    /// Words, line by line over the whole width.
+    /// Adds a paragraph over the whole width.
     pub fn paragraph(&mut self, text: &str) {
         self.text(text, BODY, self.inks.ink);
         self.top += 3.0;
     }
 
-    /// The same, smaller and paler.
+    /// Adds a paragraph in smaller and paler letters.
     pub fn note(&mut self, text: &str) {
         self.text(text, SMALL, self.inks.weak);
         self.top += 2.0;
     }
 
-    /// Names and what they are, in two columns that are filled in turn; what is long goes over the whole width.
+    /// Adds names with their values, in two columns that are filled in turn; long texts take the whole width.
     pub fn figures(&mut self, list: &[(String, String)]) {
         const NAME: f64 = 118.0;
         let half = 0.5 * (WIDTH - GAP);
@@ -161,7 +161,7 @@ impl Pages {
         self.top += high + 2.0;
     }
 
-    /// A table; its head comes again on every page.
+    /// Adds a table; its head is repeated on every page.
     pub fn table(&mut self, table: &Table) {
         let widths = table.widths(BODY, GAP, WIDTH);
         let head = table.head(BODY, &widths);
@@ -210,7 +210,7 @@ impl Pages {
         self.top = start + count as f64 * LEADING * BODY + 3.0;
     }
 
-    /// Pictures side by side, each with its caption under it, none higher than `most`. \[pt\]
+    /// Adds pictures side by side, each with its caption under it, none higher than `most`. \[pt\]
     pub fn pictures(&mut self, row: &[Figure], most: f64) {
         if row.is_empty() {
             return;
@@ -234,7 +234,7 @@ impl Pages {
         self.top = start + height + 8.0 + lines * LEADING * SMALL;
     }
 
-    /// The pages with their feet.
+    /// Returns the pages with their feet.
     pub fn finish(mut self) -> Vec<Drawing> {
         self.turn();
         let count = self.done.len();

@@ -15,10 +15,10 @@ use krilla::paint::{Fill, LineJoin, Stroke, StrokeDash};
 use krilla::surface::Surface;
 use krilla::text::{Font, TextDirection};
 
-/// Writes pages; the language that is spoken is told as that of the document.
+/// Returns the pages as a PDF; the current language is stated as that of the document.
 ///
 /// # Errors
-/// What the encoder refuses.
+/// Returns an error if the encoder refuses something.
 pub fn write(pages: &[Drawing], title: &str) -> Result<Vec<u8>, ReportError> {
     let wrong = |what: Text| ReportError::Pdf(what.into());
     let font = Font::new(DEJAVU.into(), 0).ok_or_else(|| wrong(texts::NO_FONT))?;
@@ -57,7 +57,7 @@ fn stroke([r, g, b]: Rgb, width: f64, dash: Option<[f64; 2]>) -> Stroke {
     }
 }
 
-/// `None` for what has no extent or is no number.
+/// Returns the path through points; `None` if it has no extent or a coordinate is not finite.
 fn path(points: &[Place], closed: bool) -> Option<Path> {
     if !points.iter().flatten().all(|coordinate| coordinate.is_finite()) {
         return None;

@@ -1,4 +1,4 @@
-//! A tile as a picture to hand on: what it shows, under a head and over a foot that say what it is.
+//! Pictures of tiles for export: the tile under a head and over a foot that identify it.
 
 use super::error::ReportError;
 use super::size::Size;
@@ -13,38 +13,38 @@ use crate::study::scene_words::{place, sky, time};
 use crate::study::subject::Subject;
 use crate::texts::hand_on as texts;
 
-/// How a picture is to look.
+/// Appearance of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// Its size.
+    /// Size of the picture.
     pub size: Size,
-    /// For printers: black lines, told apart without colours.
+    /// Whether it is for printers: black lines that can be distinguished without colours.
     pub print: bool,
-    /// With product, place, moment, errors and origin round it.
+    /// Whether product, place, moment, errors and origin are written around it.
     pub caption: bool,
 }
 
 impl Look {
-    /// Its inks.
+    /// Returns the colours of the picture.
     pub const fn inks(&self) -> &'static Inks {
         if self.print { &Inks::PRINT } else { &Inks::LIGHT }
     }
 }
 
-/// Margin round everything.
+/// Margin on all sides.
 const MARGIN: f64 = 14.0;
 
-/// "Stuttgart, south, 21 Mar 12:00, clear (CIE 12)".
+/// Returns a text such as "Stuttgart, south, 21 Mar 12:00, clear (CIE 12)".
 pub fn situation(scene: &SceneFile) -> String {
     let words = [place(scene), bearing_word(scene.site.azimuth).to_owned(), time(scene), sky(scene)];
     words.join(", ")
 }
 
-/// Where data come from, in a line; the format where nothing else is known.
+/// Source of the data in a line; the format where nothing else is known.
 pub struct Origin;
 
 impl Origin {
-    /// "computed by ray tracing (A. Author, 2024)".
+    /// Returns a text such as "computed by ray tracing (A. Author, 2024)".
     pub fn words(subject: &Subject) -> String {
         let dataset = subject.dataset();
         let Some(product) = &subject.product else {
@@ -70,13 +70,13 @@ impl Origin {
     }
 }
 
-/// The program and its version.
+/// Name and version of the program.
 pub const PROGRAM: &str = concat!("cfs ", env!("CARGO_PKG_VERSION"));
 
-/// A tile as a drawing of the size that is asked for.
+/// Returns a tile as a drawing of the requested size.
 ///
 /// # Errors
-/// The tile has nothing to show of this subject.
+/// Returns an error if the tile has nothing to show for this subject.
 pub fn picture(subject: &Subject, tile: TileKind, look: &Look) -> Result<Drawing, ReportError> {
     let paper = look.size.paper();
     let inks = look.inks();
@@ -87,7 +87,8 @@ pub fn picture(subject: &Subject, tile: TileKind, look: &Look) -> Result<Drawing
         return Ok(drawing);
     }
     let line = LEADING * TEXT;
-    // The figures are known when the tile is drawn, and the tile's height is not to hang on them: two lines are kept.
+    // The figures are known when the tile is drawn, and the tile's height must not depend on them: two lines are
+    // reserved.
     const LINES: usize = 2;
     let from = first_lines(&Origin::words(subject), LINES, whole.width);
     let (head, foot) = (2.0 * line + 10.0, (LINES + from.len()) as f64 * line + 6.0);
@@ -117,7 +118,7 @@ pub fn picture(subject: &Subject, tile: TileKind, look: &Look) -> Result<Drawing
     Ok(drawing)
 }
 
-/// The first lines of a text; the last ends in "…" where there would be more.
+/// Returns the first lines of a text; the last ends in "…" where there would be more.
 fn first_lines(text: &str, most: usize, room: f64) -> Vec<String> {
     let mut lines = wrapped(text, TEXT, room);
     if lines.len() > most {
@@ -127,7 +128,7 @@ fn first_lines(text: &str, most: usize, room: f64) -> Vec<String> {
     lines
 }
 
-/// A thin line across a frame's upper edge.
+/// Returns a thin line along a frame's upper edge.
 pub fn rule(frame: Frame, inks: &Inks) -> Shape {
     Shape::line([[frame.left, frame.top], [frame.right(), frame.top]], inks.grid, 0.8)
 }

@@ -1,4 +1,4 @@
-//! The product sheet, for makers: what a system is, its figures, pictures of what it does, where the data come from.
+//! Product sheet, for makers: the system, its figures, pictures of its light distribution, the source of its data.
 
 use super::pages::{Figure, Pages};
 use super::picture::Origin;
@@ -22,20 +22,20 @@ use crate::study::subject::Subject;
 use crate::texts::findings::words;
 use crate::texts::{Text, fixed, hand_on as texts};
 
-/// Incidences of the indicatrices: from the normal upwards. \[°\]
+/// Polar angles of the incident directions of the indicatrices, upwards from the normal. \[°\]
 const INCIDENCES: [f64; 3] = [0.0, 30.0, 60.0];
 
-/// What a product sheet is made from.
+/// Input of a product sheet.
 pub struct Sheet<'a> {
-    /// The product in a scene, in the state that is shown.
+    /// Product in a scene, in the state that is shown.
     pub subject: &'a Subject,
     /// Text of the tender template; empty: no tender text.
     pub tender: &'a str,
-    /// Colours or print.
+    /// Colours of the pictures, for screen or print.
     pub inks: &'a Inks,
 }
 
-/// A share as per cent.
+/// Returns a share in percent.
 fn percent(share: f64) -> String {
     format!("{} %", number(100.0 * share, 3))
 }
@@ -44,7 +44,7 @@ fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| number(value, 3))
 }
 
-/// What is told of the state that is shown, by the product's own figures or, for systems without a product, by its data.
+/// Figures of the state that is shown, from the product's own figures or, for systems without a product, from its data.
 struct Told {
     tau_normal: Option<f64>,
     tau_hemispherical: Option<f64>,
@@ -71,7 +71,7 @@ fn states_words(count: usize) -> String {
     if count == 1 { texts::ONE_STATE.into() } else { texts::states_are(count) }
 }
 
-/// The fields of a tender text.
+/// Returns the fields of a tender text.
 fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
     let told = Told::of(subject);
     let dataset = subject.dataset();
@@ -103,10 +103,10 @@ fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// The pages of a product sheet.
+/// Returns the pages of a product sheet.
 ///
 /// # Errors
-/// A tender text that is no template; a system without data.
+/// Returns an error if the tender text is not a valid template, or the system has no data.
 pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
     let (subject, inks) = (sheet.subject, sheet.inks);
     let name = &subject.scene.apertures[0].system.label;
@@ -138,18 +138,18 @@ pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
     Ok(pages.finish())
 }
 
-/// Words with the state that is shown, or without where there is none.
+/// Returns a text with the state that is shown, or without where there is none.
 fn in_state(subject: &Subject, plain: Text, with: fn(&str) -> String) -> String {
     if subject.state.is_empty() { plain.into() } else { with(&subject.state) }
 }
 
-/// The figures of the state that is shown, with the errors that its data state.
+/// Returns the figures of the state that is shown, with the errors that its data state.
 fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)> {
     let told = Told::of(subject);
     let dataset = subject.dataset();
     let mut list: Vec<(String, String)> = Vec::new();
     let mut add = |name: Text, value: String| list.push((name.into(), value));
-    // Of the comparison's table, so that the same figure is nowhere told twice in two ways.
+    // The values come from the comparison's table, so that no figure appears in two forms.
     let all = Facts { data: facts.copied(), ..Facts::default() };
     let error = |key: &str| {
         let figure = FIGURES.iter().find(|figure| figure.key == key)?;
@@ -167,7 +167,7 @@ fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)
     };
     add(texts::TAU_NORMAL, tau("tau_normal", told.tau_normal));
     add(texts::TAU_DIFFUSE, tau("tau_hemispherical", told.tau_hemispherical));
-    // Only of data that know the solar band.
+    // The solar figures appear only where the data have the solar band.
     let source = dataset.solar_source();
     if let Some(solar) = dataset.transmission_of(BandName::Solar).filter(|_| source != SolarSource::Visible) {
         for (name, value) in
@@ -199,7 +199,7 @@ fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)
     list
 }
 
-/// Section, and where light from three directions goes.
+/// Adds the section, and the light distribution for three incident directions.
 fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
     let Some(btdf) = subject.transmission() else {
         return Err(ReportError::Nothing(texts::PRODUCT_SHEET, texts::NO_DATA.into()));
@@ -240,7 +240,7 @@ fn section_of(system: &SystemDescription, subject: &Subject, inks: &Inks) -> Opt
     section(&mut drawing, frame, system, state, inks).then_some(drawing)
 }
 
-/// Up to five states, even over their order.
+/// Returns up to five states, equally spaced in their order.
 fn chosen(states: &[State]) -> Vec<&State> {
     const MOST: usize = 5;
     if states.len() <= MOST {
@@ -306,7 +306,7 @@ fn states(pages: &mut Pages, product: &Product) {
     pages.table(&table);
 }
 
-/// What it does in the scene that goes with it.
+/// Adds the figures of the system in the scene that belongs to it.
 fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
     pages.heading(texts::IN_USE.get());
     let [width, height] = subject.file.aperture[0].size.map(tick);
@@ -341,7 +341,7 @@ fn tender(pages: &mut Pages, template: &str, fields: &Fields) -> Result<(), Repo
     Ok(())
 }
 
-/// Where the data come from, and what the checks say of them.
+/// Adds the source of the data and the findings of the checks.
 pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
     pages.heading(texts::DATA_HEADING.get());
     let dataset = subject.dataset();
@@ -398,7 +398,7 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
     }
 }
 
-/// Addresses that the words about the product name.
+/// Returns the addresses that the texts of the product name.
 fn links(subject: &Subject) -> Vec<String> {
     let Some(product) = &subject.product else { return Vec::new() };
     let from = &product.provenance;
@@ -412,7 +412,7 @@ fn links(subject: &Subject) -> Vec<String> {
     list
 }
 
-/// Flux and its error in words, for tables.
+/// Returns flux and its error as a text, for tables.
 pub(super) fn flux(subject: &Subject) -> Option<String> {
     let (lid, _) = subject.lid.as_ref()?;
     Some(format!("{} ± {}", si(lid.flux.value, "lm"), si(lid.flux.error, "lm")))

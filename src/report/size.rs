@@ -1,4 +1,4 @@
-//! The size of a picture: pixels or millimetres.
+//! Size of a picture in pixels or millimetres.
 
 use super::error::ReportError;
 use crate::drawing::Drawing;
@@ -6,36 +6,36 @@ use crate::texts::hand_on as texts;
 use std::fmt;
 use std::str::FromStr;
 
-/// What sizes are counted in.
+/// Unit of a picture's size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum Unit {
     /// Pixels.
     #[default]
     Pixels,
-    /// Millimetres on paper; as pixels 300 an inch.
+    /// Millimetres on paper, with 300 pixels per inch.
     Millimetres,
 }
 
-/// A picture's size.
+/// Size of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Size {
-    /// To the right.
+    /// Horizontal size, in `unit`.
     pub width: f64,
-    /// Down.
+    /// Vertical size, in `unit`.
     pub height: f64,
-    /// In which unit.
+    /// Unit of both sizes.
     pub unit: Unit,
 }
 
-/// A drawing of this many units has letters of the usual size: larger pictures have larger letters. \[units²\]
+/// Area of a drawing with letters of the default size: larger pictures have larger letters. \[units²\]
 const USUAL: f64 = 800.0 * 600.0;
-/// Units a millimetre where letters have their usual size: text is 3.25 mm high.
+/// Units per millimetre where letters have their default size: text is 3.25 mm high.
 const FINE: f64 = 4.0;
-/// Pixels a millimetre: 300 an inch.
+/// Pixels per millimetre, for 300 per inch.
 const DOTS: f64 = 300.0 / 25.4;
-/// Fewer pixels hold no words.
+/// Minimum width and height, below which texts do not fit. \[px\]
 const LEAST: f64 = 240.0;
-/// More are no picture anybody opens.
+/// Maximum width and height. \[px\]
 const MOST: f64 = 8000.0;
 
 impl Default for Size {
@@ -45,10 +45,10 @@ impl Default for Size {
 }
 
 impl Size {
-    /// A size that a picture can have.
+    /// Creates a size within the limits.
     ///
     /// # Errors
-    /// Too small for its words, or larger than any picture.
+    /// Returns an error if the size is too small for the texts, or larger than any picture.
     pub fn new(width: f64, height: f64, unit: Unit) -> Result<Self, ReportError> {
         let size = Self { width, height, unit };
         let wrong = |why| Err(ReportError::Size(size.to_string(), why));
@@ -62,33 +62,33 @@ impl Size {
         Ok(size)
     }
 
-    /// Width and height of its pixels.
+    /// Returns width and height in pixels.
     pub fn pixels(&self) -> [f64; 2] {
         let dots = if self.unit == Unit::Pixels { 1.0 } else { DOTS };
         [self.width * dots, self.height * dots]
     }
 
-    /// How large a unit of the drawing is, in this size's unit.
+    /// Returns the length of a unit of the drawing, in this size's unit.
     fn scale(&self) -> f64 {
         let usual = if self.unit == Unit::Pixels { 1.0 } else { 1.0 / FINE };
         usual * (self.width * self.height / (USUAL * usual * usual)).sqrt().max(1.0)
     }
 
-    /// Width and height of the drawing.
+    /// Returns width and height of the drawing, in its units.
     pub fn paper(&self) -> [f64; 2] {
         let scale = self.scale();
         [self.width / scale, self.height / scale]
     }
 
-    /// A drawing of this size as SVG.
+    /// Returns a drawing of this size as SVG.
     pub fn svg(&self, drawing: &Drawing) -> String {
         drawing.svg((self.scale(), if self.unit == Unit::Pixels { "px" } else { "mm" }))
     }
 
-    /// A drawing of this size as PNG.
+    /// Returns a drawing of this size as PNG.
     ///
     /// # Errors
-    /// The picture cannot be encoded.
+    /// Returns an error if the picture cannot be encoded.
     pub fn png(&self, drawing: &Drawing) -> Result<Vec<u8>, png::EncodingError> {
         let per_metre = (self.unit == Unit::Millimetres).then_some(1000.0 * DOTS);
         drawing.png(self.pixels()[0] / drawing.width, per_metre)

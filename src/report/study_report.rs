@@ -1,5 +1,5 @@
-//! The report on a study, for designers: the question, the situation, figures with their errors, pictures, and how exact
-//! all of it is.
+//! Report on a study, for designers: the question, the situation, figures with their errors, pictures, and the accuracy
+//! of all of them.
 
 use super::comparison::{Comparison, chapter};
 use super::pages::{Figure, Pages};
@@ -18,24 +18,24 @@ use crate::study::subject::Subject;
 use crate::study::{RoomResult, SensorResult};
 use crate::texts::{Text, hand_on as texts, one_line};
 
-/// What a report is made from.
+/// Input of a study report.
 pub struct Study<'a> {
-    /// The scene with its results.
+    /// Scene with its results.
     pub subject: &'a Subject,
-    /// Its title; empty: the product's name.
+    /// Title of the report; empty: the product's name.
     pub title: &'a str,
-    /// What was asked; empty: not told.
+    /// Question of the study; empty: not specified.
     pub question: &'a str,
-    /// What is compared with it.
+    /// Comparison with other candidates, if any.
     pub comparison: Option<&'a Comparison>,
-    /// Colours or print.
+    /// Colours of the pictures, for screen or print.
     pub inks: &'a Inks,
 }
 
-/// The pages of a report.
+/// Returns the pages of a report.
 ///
 /// # Errors
-/// A tile that has something to show cannot be drawn.
+/// Returns an error if a tile that has something to show cannot be drawn.
 pub fn pages(study: &Study<'_>) -> Result<Vec<Drawing>, ReportError> {
     let (subject, inks) = (study.subject, study.inks);
     let title = if study.title.is_empty() { &subject.name } else { study.title };
@@ -50,7 +50,7 @@ pub fn pages(study: &Study<'_>) -> Result<Vec<Drawing>, ReportError> {
         pages.heading(texts::FIGURES.get());
         results(&mut pages, subject, room);
     }
-    // With the first of them.
+    // Together with the first of them.
     pages.need(265.0);
     pages.heading(texts::PICTURES.get());
     tiles(&mut pages, subject, inks)?;
@@ -105,7 +105,7 @@ fn sensors(file: &SceneFile) -> String {
     }
 }
 
-/// A quantity, its value, and what it may be off.
+/// Adds the table of quantities with their values and errors.
 fn results(pages: &mut Pages, subject: &Subject, room: &RoomResult) {
     let totals: Vec<Estimate> = room.sensors.iter().map(SensorResult::total).collect();
     let count = totals.len().max(1) as f64;
@@ -178,7 +178,7 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
     Ok(())
 }
 
-/// How it was computed, and how far that is to be trusted.
+/// Adds the methods of the computation and their accuracy.
 fn accuracy(pages: &mut Pages, subject: &Subject) {
     let Some(room) = &subject.room else { return };
     pages.heading(texts::ACCURACY.get());
@@ -190,7 +190,7 @@ fn accuracy(pages: &mut Pages, subject: &Subject) {
     pages.paragraph(&said);
     let mut table = Table::of([texts::STAGE, texts::WHAT_WAS_DONE].map(Text::get));
     table.columns[1].align = crate::drawing::Align::Start;
-    // What was kept from before says nothing about this study.
+    // Results from the cache say nothing about this study.
     for stage in room.plan.stages.iter().filter(|stage| !stage.is_kept()) {
         let done = if stage.runs { texts::stage_computed(&stage.reason) } else { texts::stage_left_out(&stage.reason) };
         table.row([stage_words(stage.name), done]);

@@ -1,28 +1,28 @@
-//! Tables of words and figures, whose rows break within cells and between pages.
+//! Tables of texts and figures, whose rows break within cells and between pages.
 
 use crate::drawing::Align;
 use crate::drawing::font::{width, wrapped};
 
-/// A column's head.
+/// Head of a column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Words and unit.
+    /// Text and unit.
     pub head: String,
-    /// Figures stand at the right.
+    /// Alignment; figures are aligned at the right.
     pub align: Align,
 }
 
-/// A table.
+/// Table with its columns and rows.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
-    /// The columns.
+    /// Columns of the table.
     pub columns: Vec<Column>,
-    /// A text for each column; rows that are shorter have empty cells.
+    /// Rows with one text per column; cells missing at the end of a row are empty.
     pub rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    /// With columns whose first holds words and whose others hold figures.
+    /// Creates a table whose first column holds texts and whose others hold figures.
     pub fn of<const N: usize>(heads: [&str; N]) -> Self {
         let column = |(k, head): (usize, &str)| Column {
             head: head.to_owned(),
@@ -31,12 +31,12 @@ impl Table {
         Self { columns: heads.into_iter().enumerate().map(column).collect(), rows: Vec::new() }
     }
 
-    /// One more row.
+    /// Adds a row.
     pub fn row<const N: usize>(&mut self, cells: [String; N]) {
         self.rows.push(cells.into());
     }
 
-    /// Widths of the columns: as their texts need, the widest shortened until all fit, the rest shared out.
+    /// Returns the widths of the columns: as their texts need, the widest shortened until all fit, the rest shared out.
     pub(super) fn widths(&self, size: f64, gap: f64, whole: f64) -> Vec<f64> {
         let count = self.columns.len();
         let room = (whole - gap * count.saturating_sub(1) as f64).max(1.0);
@@ -69,14 +69,14 @@ impl Table {
         limited(low).collect()
     }
 
-    /// The lines of a row's cells.
+    /// Returns the lines of a row's cells.
     pub(super) fn lines(&self, row: &[String], size: f64, widths: &[f64]) -> Vec<Vec<String>> {
         let empty = String::new();
         let cell = |k: usize| wrapped(row.get(k).unwrap_or(&empty), size, widths[k]);
         (0..self.columns.len()).map(cell).collect()
     }
 
-    /// The heads' lines.
+    /// Returns the lines of the heads.
     pub(super) fn head(&self, size: f64, widths: &[f64]) -> Vec<Vec<String>> {
         self.columns.iter().zip(widths).map(|(column, width)| wrapped(&column.head, size, *width)).collect()
     }

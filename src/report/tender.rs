@@ -3,12 +3,12 @@
 use super::ReportError;
 use crate::texts::{Language, hand_on as texts, language};
 
-/// The template that is shipped, as a start for one's own.
+/// Template in English that comes with the program, as a start for users' own ones.
 pub const TEMPLATE: &str = include_str!("../../assets/tender.txt");
-/// The same in German.
+/// Template in German that comes with the program.
 pub const TEMPLATE_GERMAN: &str = include_str!("../../assets/tender_de.txt");
 
-/// A template as it is; of the shipped ones that in the language that is spoken.
+/// Returns a template unchanged; of those that come with the program the one in the current language.
 pub fn spoken(template: &str) -> &str {
     match language() {
         _ if template != TEMPLATE && template != TEMPLATE_GERMAN => template,
@@ -17,14 +17,14 @@ pub fn spoken(template: &str) -> &str {
     }
 }
 
-/// Names of fields and what stands for them; an empty text: not known.
+/// Names of fields with their values; an empty text: unknown.
 pub type Fields = [(&'static str, String)];
 
-/// The template's lines with their fields filled in. A line all of whose fields are unknown is left out; where only some
-/// are, `–` stands for them. Lines that begin with `#` are left out.
+/// Returns the template's lines with their fields filled in. A line all of whose fields are unknown is left out; where
+/// only some are, `–` replaces them. Lines that begin with `#` are left out.
 ///
 /// # Errors
-/// A field of another name, or a brace that is not closed.
+/// Returns an error if a field has another name, or a brace is not closed.
 pub fn fill(template: &str, fields: &Fields) -> Result<Vec<String>, ReportError> {
     let mut out = Vec::new();
     for (number, line) in template.lines().enumerate() {

@@ -1,11 +1,11 @@
-//! Words of data and computations that files write in English, as a report says them.
+//! Labels in reports for keys of data and computations that files write in English.
 
 use crate::catalogue::Origin;
 use crate::compute::btdf::{Severity, ThermalKey};
 use crate::compute::lid::BeamSource;
 use crate::texts::{Text, words as texts};
 
-/// How data came to be.
+/// Returns the label of an origin of data.
 pub const fn origin_words(origin: Origin) -> Text {
     match origin {
         Origin::Measured => texts::MEASURED,
@@ -14,7 +14,7 @@ pub const fn origin_words(origin: Origin) -> Text {
     }
 }
 
-/// How much a finding matters.
+/// Returns the label of a severity.
 pub const fn severity_words(severity: Severity) -> Text {
     match severity {
         Severity::Info => texts::INFO,
@@ -23,7 +23,7 @@ pub const fn severity_words(severity: Severity) -> Text {
     }
 }
 
-/// What a figure of heat or extent is called.
+/// Returns the label of a thermal figure or an extent.
 pub const fn thermal_words(key: ThermalKey) -> Text {
     match key {
         ThermalKey::Conductivity => texts::CONDUCTIVITY,
@@ -38,7 +38,7 @@ pub const fn thermal_words(key: ThermalKey) -> Text {
     }
 }
 
-/// Where the sun's beams come from.
+/// Returns the label of the source of sharp beams.
 pub const fn beam_words(source: BeamSource) -> Text {
     match source {
         BeamSource::None => texts::BEAM_NONE,
@@ -48,7 +48,7 @@ pub const fn beam_words(source: BeamSource) -> Text {
     }
 }
 
-/// A stage of a computation by its stable name; others as they are called.
+/// Returns the label of a stage of a computation, from its stable name; other names unchanged.
 pub fn stage_words(name: &str) -> String {
     const STAGES: [Text; 16] = [
         texts::STAGE_SUN,

@@ -1,11 +1,12 @@
-//! Error against run time: a scene computed with rising effort by every method, each result beside a reference. Says what
-//! the stated errors are worth, and what data at single directions lose between them.
+//! Error against run time: a scene computed with rising effort by every method, each result compared with a reference.
+//! Evaluates the reliability of the stated errors, and the loss by data at single directions between these.
 //!
-//! Without a truth from outside the reference is the ordinary method's own finest run: what is measured then is how far
-//! the computation has converged, not what the method or the data leave out. A file of illuminances makes it a true error.
+//! Without an external reference, the reference is the finest run of the default method: the errors then show how far
+//! the computation has converged, not what the method or the data leave out. With a file of illuminances they are true
+//! errors.
 //!
-//! The ways to integrate an aperture's light (`compute.near_field`) differ in the direct component alone and are
-//! compared by it. Where surfaces reflect, the whole illuminance is a series of its own. Times are those of one thread.
+//! Methods of integrating an aperture's light (`compute.near_field`) differ in the direct component alone and are
+//! compared by it. If surfaces reflect, the whole illuminance is a separate series. Times are those of one thread.
 
 pub mod annual;
 mod ladder;
@@ -19,120 +20,122 @@ pub use truth::Truth;
 use super::leaving_out::LeavingOut;
 use crate::compute::room::near_field::NearField;
 
-/// What is compared.
+/// Illuminance that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
-    /// Straight from the apertures.
+    /// Direct component from the apertures.
     Direct,
-    /// With interreflection.
+    /// All light, with interreflection.
     Total,
 }
 
 /// One computation of the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rung {
-    /// The effort in words.
+    /// Description of the effort.
     pub setting: String,
-    /// Relative error that was asked for, where the program chose its effort.
+    /// Requested relative error; `None` if the effort was set directly.
     pub target: Option<f64>,
-    /// What a first sky costs more than a second. \[s\]
+    /// Additional time of the first sky, compared with later ones. \[s\]
     pub setup: f64,
-    /// A new sky in the same room. \[s\]
+    /// Time of a new sky in the same room. \[s\]
     pub sky: f64,
-    /// A new position of the sun; `None` where it does not shine in. \[s\]
+    /// Time of a new sun position; `None` if the sun does not shine in. \[s\]
     pub sun: Option<f64>,
-    /// Share of all light at the sensors that the computation may be off.
+    /// Numerical error of all light at the sensors, relative to it.
     pub numerical: f64,
-    /// Share of all light at the sensors that the data leave open, whatever the effort.
+    /// Uncertainty by the data of all light at the sensors, relative to it; independent of the effort.
     pub data: f64,
-    /// Relative error of every sensor that counts: as stated, and against the reference.
+    /// Errors of every sensor that counts, stated and against the reference, relative to its illuminance.
     pub errors: Vec<Errors>,
 }
 
 /// Errors of one sensor, relative to the reference's illuminance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// What the program says: of the computation; beside a truth from outside of the data, too.
+    /// Error that the program states: of the computation; compared with an external reference, of the data too.
     pub stated: f64,
     /// Distance from the reference.
     pub real: f64,
-    /// How far the reference itself may be off.
+    /// Uncertainty of the reference itself.
     pub open: f64,
 }
 
-/// A reference tells true errors where it is better than the statement that it judges by this factor ...
+/// Minimum ratio of the stated error to the reference's uncertainty at which the reference determines a large error.
 const CLEARLY_FINER: f64 = 3.0;
-/// ... and by this one, where the distance from it is a small share of the statement, too.
+/// Minimum ratio of the stated error to the reference's uncertainty at which the reference determines an error of any
+/// size.
 const FINE_ENOUGH: f64 = 5.0;
-/// A sensor that states more than so many times its true error is padded.
+/// Ratio of the stated to the true error above which a sensor's statement is padded.
 const PADDED: f64 = 10.0;
-/// Nobody asks about errors below this share of the illuminance.
+/// Share of the illuminance below which errors are not relevant.
 const VISIBLE: f64 = 1e-4;
 
 impl Rung {
-    /// Root of the mean square of the distances from the reference.
+    /// Returns the root mean square of the distances from the reference.
     pub fn rms(&self) -> f64 {
         (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
     }
 
-    /// At the middle one of the sensors. A reference may know nothing of a few, as those in a penumbra.
+    /// Returns the median over the sensors. A reference may be uncertain at a few of them, such as those in a penumbra.
     fn median(&self, of: impl Fn(&Errors) -> f64) -> f64 {
         let mut all: Vec<f64> = self.errors.iter().map(of).collect();
         all.sort_unstable_by(f64::total_cmp);
         all.get(all.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// Medians over the sensors: what is stated, how far the reference may be off, and the distance from it.
+    /// Returns the medians over the sensors: stated error, uncertainty of the reference, and distance from it.
     pub fn typical(&self) -> Errors {
         let [stated, open, real] = [self.median(|e| e.stated), self.median(|e| e.open), self.median(|e| e.real)];
         Errors { stated, real, open }
     }
 
-    /// Largest distance from the reference.
+    /// Returns the largest distance from the reference.
     pub fn max(&self) -> f64 {
         self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
     }
 
-    /// Largest stated error: what the program says that it reached.
+    /// Returns the largest stated error.
     pub fn reached(&self) -> f64 {
         self.errors.iter().map(|e| e.stated).fold(0.0, f64::max)
     }
 
-    /// Share of the sensors that keep to what is stated.
+    /// Returns the shares of the sensors that keep to the stated error, or state much more.
     pub fn coverage(&self) -> Coverage {
         Coverage::of(&self.errors)
     }
 
-    /// Is the reference good enough to tell the errors of this computation? Where it is hardly finer, the distance
-    /// from it says nothing: two coarse runs may share what is wrong with both. Where it is somewhat finer and this
-    /// computation lies near to it, the distance may be of either.
+    /// Whether the reference is good enough to determine the errors of this computation. If it is hardly finer, the
+    /// distance from it means nothing: two coarse runs may share the same errors. If it is somewhat finer and this
+    /// computation is close to it, the distance may be the error of either.
     pub fn is_told(&self) -> bool {
         let Errors { stated, real, open } = self.typical();
         let far = real >= stated / CLEARLY_FINER;
         open <= stated / FINE_ENOUGH || (open <= stated / CLEARLY_FINER && far)
     }
 
-    /// More is left open by the data than by the computation.
+    /// Whether the data are less certain than the computation.
     pub fn is_limited_by_data(&self) -> bool {
         self.data > self.numerical
     }
 }
 
-/// What stated errors are worth, as shares of all sensors.
+/// Reliability of stated errors, as shares of all sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coverage {
-    /// Sensors.
+    /// Number of sensors.
     pub count: usize,
-    /// Stated ≥ true, as far as the reference can tell.
+    /// Share with a stated error not below the true one, within the reference's uncertainty.
     pub kept: f64,
-    /// Stated > 10 × true, and certainly so.
+    /// Share with a stated error above 10 times the true one, beyond the reference's uncertainty.
     pub padded: f64,
-    /// Of these, stated above 10⁻⁴ of the illuminance; below nobody asks.
+    /// Share that is padded with a stated error above 10⁻⁴ of the illuminance; smaller ones are not relevant.
     pub padded_visibly: f64,
 }
 
 impl Coverage {
-    /// Counts. The reference's own uncertainty speaks for the statement; true errors below rounding (10⁻¹²) are kept.
+    /// Counts the sensors. The reference's uncertainty is credited to the statement; true errors below rounding (10⁻¹²)
+    /// are kept.
     pub fn of(errors: &[Errors]) -> Self {
         let share = |test: &dyn Fn(&Errors) -> bool| {
             errors.iter().filter(|e| test(e)).count() as f64 / errors.len().max(1) as f64
@@ -140,7 +143,7 @@ impl Coverage {
         let padded = |e: &Errors| e.stated > PADDED * (e.real + e.open);
         Self {
             count: errors.len(),
-            // Of no sensors none is off.
+            // Without sensors none is off.
             kept: 1.0 - share(&|e| e.stated + e.open + 1e-12 < e.real),
             padded: share(&padded),
             padded_visibly: share(&|e| padded(e) && e.stated > VISIBLE),
@@ -151,65 +154,67 @@ impl Coverage {
 /// One method with rising effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// The method's word in scenes; `room` for the whole illuminance.
+    /// Key of the method in scenes; `room` for the whole illuminance.
     pub method: &'static str,
-    /// What is compared.
+    /// Illuminance that is compared.
     pub quantity: Quantity,
-    /// By rising effort.
+    /// Computations by rising effort.
     pub rungs: Vec<Rung>,
 }
 
 impl Series {
-    /// Of the method that a scene gets that asks for no other.
+    /// Whether the series is of the default method.
     pub fn is_ordinary(&self) -> bool {
         self.method == NearField::SolidAngle.word() || self.quantity == Quantity::Total
     }
 }
 
-/// What all is measured against.
+/// Reference that results are compared with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// For which series.
+    /// Quantity of the reference.
     pub quantity: Quantity,
-    /// Where it is from.
+    /// Source of the reference.
     pub origin: Origin,
-    /// The largest relative error that it states itself.
+    /// Largest relative error that the reference states itself.
     pub stated: f64,
 }
 
-/// Where a reference is from.
+/// Source of a reference.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Origin {
-    /// The ordinary method with more effort than any rung.
+    /// Finest run of the default method, with more effort than any computation of the series.
     FinestRun {
-        /// Its error target.
+        /// Error target of the run.
         target: f64,
-        /// Relative RMS distance from the second finest.
+        /// Relative RMS distance from the second finest run.
         rms: f64,
-        /// Largest relative distance from the second finest.
+        /// Largest relative distance from the second finest run.
         max: f64,
     },
-    /// From outside: a file of this name.
+    /// External file of this name.
     Given(String),
 }
 
-/// The whole comparison.
+/// Whole comparison of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accuracy {
-    /// One for each quantity.
+    /// References, one for each quantity.
     pub references: Vec<Reference>,
-    /// One for each method.
+    /// Series, one for each method and quantity.
     pub series: Vec<Series>,
-    /// Sensors that were computed, of how many.
+    /// Number of computed sensors, and of all sensors.
     pub sensors: (usize, usize),
-    /// Threads that the times are of.
+    /// Number of threads used for the times.
     pub threads: usize,
-    /// Beside the ladder, whose reference interpolates as well: what that is worth, by dataset at single directions.
+    /// Errors of interpolation between single directions, by dataset: not part of the series, whose reference
+    /// interpolates too.
     pub leaving_out: Vec<LeavingOut>,
 }
 
 impl Accuracy {
-    /// Coverage of the ordinary method over all its rungs that the reference can tell of, direct and total.
+    /// Returns the coverage of the default method over all computations whose errors the reference can determine,
+    /// direct and total.
     pub fn ordinary_coverage(&self) -> Coverage {
         let rungs = self.series.iter().filter(|series| series.is_ordinary()).flat_map(|series| &series.rungs);
         let errors: Vec<Errors> =
@@ -217,12 +222,12 @@ impl Accuracy {
         Coverage::of(&errors)
     }
 
-    /// What a series is measured against.
+    /// Returns the reference of a series.
     pub fn reference(&self, quantity: Quantity) -> Option<&Reference> {
         self.references.iter().find(|reference| reference.quantity == quantity)
     }
 
-    /// Is a series measured against a truth from outside?
+    /// Whether a series is compared with an external reference.
     pub fn is_true(&self, quantity: Quantity) -> bool {
         self.reference(quantity).is_some_and(|reference| matches!(reference.origin, Origin::Given(_)))
     }

@@ -1,15 +1,15 @@
-//! The plots of [`accuracy`](super::accuracy): time against error of every method, and stated against found error of
-//! every sensor. The window, SVG and PNG draw the same numbers, and name them by what they were measured against.
-//! Efforts whose errors the reference cannot tell have no place in them.
+//! Plots of [`accuracy`](super::accuracy): time against error of every method, and stated against actual error of every
+//! sensor. Window, SVG and PNG draw the same numbers, and name the reference. Efforts whose errors the reference cannot
+//! determine are left out.
 
 use super::accuracy::{Accuracy, Quantity, Rung, Series, words};
 use crate::drawing::plot::{Axis, Form, Guide, Plot, Series as Points, Unit};
 use crate::texts::words as texts;
 
-/// Most dots of one series in the second plot.
+/// Maximum number of dots of one series in the second plot.
 const MOST_DOTS: usize = 400;
 
-/// What a series is called.
+/// Returns the name of a series.
 pub fn name(series: &Series) -> String {
     match series.quantity {
         Quantity::Direct => series.method.to_owned(),
@@ -17,7 +17,7 @@ pub fn name(series: &Series) -> String {
     }
 }
 
-/// Both plots, of the same series.
+/// Returns both plots, of the same series.
 pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
     let rungs = || accuracy.series.iter().flat_map(told);
     let found = words::axis(accuracy);
@@ -34,24 +34,24 @@ pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
         x: Axis { name: found.to_owned(), ..stated.clone() },
         y: stated,
         series: accuracy.series.iter().map(dots).collect(),
-        // Above it the statement holds.
+        // The statement holds above this line.
         guides: vec![Guide { name: String::new(), ends: [[first; 2], [last; 2]] }],
     };
     [front, honesty]
 }
 
-/// Efforts with errors that the reference tells.
+/// Returns the efforts whose errors the reference can determine.
 fn told(series: &Series) -> impl Iterator<Item = &Rung> {
     series.rungs.iter().filter(|rung| rung.is_told())
 }
 
-/// A mark for each effort.
+/// Returns a mark for each effort.
 fn front(series: &Series) -> Points {
     let points = told(series).map(|rung| [rung.sky, rung.rms()]);
     Points { form: Form::Marked, ..Points::line(name(series), points) }
 }
 
-/// A dot for each sensor and effort, thinned evenly: found error to the right, stated error up.
+/// Returns a dot for each sensor and effort, thinned at regular intervals: actual error along x, stated error along y.
 fn dots(series: &Series) -> Points {
     let count: usize = told(series).map(|rung| rung.errors.len()).sum();
     let every = count.div_ceil(MOST_DOTS).max(1);

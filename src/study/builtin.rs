@@ -1,4 +1,4 @@
-//! Data of the built-in products: computed when they are asked for, a state at a time, and kept by the catalogue.
+//! Data of the built-in products: computed when needed, one state at a time, and stored in the catalogue.
 
 use super::error::StudyError;
 use super::goniophotometer::{Base, Described, LayerLibrary, Request, Withdrawn};
@@ -13,10 +13,11 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Computes the data of a built-in product's state from the description that the catalogue keeps with it.
+/// Computes the data of a built-in product's state from the description that the catalogue stores with it.
 ///
 /// # Errors
-/// A product without a description, or one that this program cannot read; a state that it does not have; cancelled.
+/// Returns an error if the product has no description, if this program cannot read it, if it does not have the state,
+/// or if cancelled.
 pub fn compute(
     product: &Product,
     state: &str,
@@ -34,11 +35,11 @@ pub fn compute(
     Ok(described.measure(state, &request, library, None, progress)?.dataset)
 }
 
-/// Computes the data of all states that wait for them and are wanted, and keeps each as soon as it is finished: whoever
-/// stops this loses nothing. How many it were.
+/// Computes the data of all wanted states without data, and stores each as soon as it is finished, so that stopping
+/// loses nothing. Returns the number of states.
 ///
 /// # Errors
-/// Of the catalogue; cancelled.
+/// Returns an error if the catalogue cannot be read or written, or if cancelled.
 pub fn complete(
     catalogue: &mut Catalogue,
     wanted: impl Fn(&StateKey) -> bool,
@@ -54,7 +55,7 @@ pub fn complete(
         if progress.cancelled() {
             return Err(StudyError::Cancelled(Cancelled));
         }
-        // Every change is a transaction: what a panic left behind is whole.
+        // Every change is a transaction: after a panic the data are complete.
         let lock = || catalogue.lock().unwrap_or_else(PoisonError::into_inner);
         let product = lock().product(&one.product).map_err(told)?;
         let dataset = compute(&product, &one.state, library, &withdrawn)?;
@@ -65,11 +66,11 @@ pub fn complete(
     Ok(states.len())
 }
 
-/// The table of all described products' figures, from a catalogue that holds the data of them all; see
+/// Returns the table of all described products' figures, from a catalogue that contains the data of all of them; see
 /// [`crate::catalogue::TABLE`].
 ///
 /// # Errors
-/// Of the catalogue; a state without data or figures.
+/// Returns an error if the catalogue cannot be read, or a state has no data or figures.
 pub fn table(catalogue: &Catalogue) -> Result<String, StudyError> {
     let mut rows = Vec::new();
     for (name, _) in SYSTEMS.iter() {

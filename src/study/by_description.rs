@@ -1,4 +1,4 @@
-//! Systems known by their description: what a scene needs of them is computed from it, the very sun first of all.
+//! Systems known by their description: data for a scene are computed from it, direct sun first of all.
 
 use super::error::StudyError;
 use super::goniophotometer::{Base, Described, LayerLibrary, Request};
@@ -8,17 +8,17 @@ use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
 use std::sync::Arc;
 
-/// Error allowed in the data that sky, ground and back reflection are computed with.
+/// Absolute error of the data that light from sky and ground and back reflection are computed with.
 const ERROR: f64 = 0.005;
 
-/// What data computed for a scene are asked to be.
+/// Returns basis and error of data that are computed for a scene.
 pub fn request() -> Request {
     let cells = front_basis();
     Request { incident: cells.clone(), emergent: cells, error: ERROR, seed: 1 }
 }
 
 impl Described {
-    /// One state as a system of a scene.
+    /// Creates a system of a scene from one state.
     pub fn system(&self, state: Option<&str>, need: Need, library: &dyn LayerLibrary) -> Result<System, StudyError> {
         let states = self.states(library)?;
         let first = states.first().map(String::as_str).unwrap_or_default();
@@ -35,7 +35,7 @@ impl Described {
         Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), very: Some(very) })
     }
 
-    /// What answers for single directions, in the solar band too where something is known of it.
+    /// Creates the optical model for single directions, and for the solar band if the materials have solar properties.
     fn very(&self, state: &str, library: &dyn LayerLibrary) -> Result<VerySystem, StudyError> {
         let source = SolarSource::of(self.materials(state, library)?);
         let solar = match source {
@@ -45,7 +45,7 @@ impl Described {
         Ok(VerySystem(Arc::from(self.specimen(state, library)?), solar))
     }
 
-    /// The place of data that nothing asks for.
+    /// Returns a placeholder for data that are not needed.
     fn dark(&self, state: &str) -> Dataset {
         let system = &self.file.system;
         let mut dataset = Dataset {
@@ -61,14 +61,13 @@ impl Described {
     }
 }
 
-/// What answers for single directions by the text of a description; `None` where it names layers that cannot be found
-/// from here.
+/// Creates the optical model from the text of a description; `None` if it names layers that cannot be found from here.
 pub(super) fn very_system(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<VerySystem> {
     let described = Described::from_text(text, Base::Builtin).ok()?;
     described.very(state, library).ok()
 }
 
-/// The key of a described system's state in a file, for messages.
+/// Returns the message about a state that a described system does not have.
 pub(super) fn no_such_state(name: &str, state: &str, states: &[String]) -> String {
     if states.iter().all(String::is_empty) {
         format!("{name} has no states; leave `state` out")

@@ -1,30 +1,30 @@
-//! Keeps what a changed sky, time or product does not touch: a few most recently used results by exact key.
+//! Cache of a few most recently used results by exact key, for what does not depend on a changed sky, time or product.
 
 use std::convert::Infallible;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The numbers that a result depends on, as bits.
+/// Numbers that a result depends on, as bits.
 pub type Key = Vec<u64>;
 
-/// Most recently used values; shared between threads.
+/// Cache of the most recently used values, shared between threads.
 pub struct Cache<T> {
     entries: Mutex<Vec<(Key, Arc<T>)>>,
     capacity: usize,
 }
 
 impl<T> Cache<T> {
-    /// Keeps at most `capacity` values.
+    /// Creates an empty cache of at most `capacity` values.
     pub const fn new(capacity: usize) -> Self {
         Self { entries: Mutex::new(Vec::new()), capacity }
     }
 
-    /// Is the value of a key there?
+    /// Whether the cache contains the value of a key.
     pub fn holds(&self, key: &Key) -> bool {
         self.entries.lock().unwrap_or_else(PoisonError::into_inner).iter().any(|(k, _)| k == key)
     }
 
-    /// The value of a key, computed if it is not there. Two threads may compute the same value at once; both get that of
-    /// the first.
+    /// Returns the value of a key, computed if it is not stored. Two threads may compute the same value at the same
+    /// time; both get that of the first.
     pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
         let lock = || self.entries.lock().unwrap_or_else(PoisonError::into_inner);
         let known = |entries: &mut Vec<(Key, Arc<T>)>| {
@@ -49,7 +49,7 @@ impl<T> Cache<T> {
         Ok(value)
     }
 
-    /// The value of a key, computed if it is not there, where nothing can go wrong; else as [`Self::get`].
+    /// Returns the value of a key like [`Self::get`], for computations that cannot fail.
     pub fn find(&self, key: Key, compute: impl FnOnce() -> T) -> Arc<T> {
         match self.get(key, || Ok::<_, Infallible>(compute())) {
             Ok(value) => value,
@@ -58,7 +58,7 @@ impl<T> Cache<T> {
     }
 }
 
-/// Bits of numbers, for keys.
+/// Returns the bits of numbers, for keys.
 pub fn bits(numbers: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u64> {
     numbers.into_iter().map(f64::to_bits)
 }

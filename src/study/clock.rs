@@ -1,10 +1,11 @@
-//! The time of day, however wrong the computer's clock is.
+//! Current date and time, valid even if the computer's clock is not.
 
 use jiff::tz::TimeZone;
 use jiff::{Timestamp, Zoned};
 use std::time::SystemTime;
 
-/// Now, where the user is. A clock beyond the calendar (before the year −9999 or after 9999) stands at its end.
+/// Returns the current time in the user's time zone. A clock beyond the calendar (before the year −9999 or after 9999)
+/// is set to its end.
 pub fn now() -> Zoned {
     at(SystemTime::now())
 }

@@ -1,8 +1,8 @@
-//! Datasets in compact form, with what that changes in a room.
+//! Datasets in compact form, with the effect on light in a room.
 //!
 //! The standard room is 4 × 6 × 3 m with a façade aperture of 4 × 2 m, its sill at 1 m, and 8 × 12 sensors at 0.85 m.
-//! Illuminances are direct ones, each incident direction standing for its cell: what is compared is two forms of the
-//! same data, not two ways between incident directions.
+//! Illuminances are direct ones, with each incident direction representing its patch: two forms of the same data are
+//! compared, not two interpolations between incident directions.
 
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
@@ -18,20 +18,20 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// How a dataset is to be stored.
+/// Form in which a dataset is stored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Storage {
     /// Every value (rounded to f32 in the catalogue).
     Lossless,
-    /// In compact form.
+    /// Data in compact form.
     Compact(Criterion),
 }
 
-/// Datasets that take less than this without loss are kept without loss, unless told otherwise. \[bytes\]
+/// Size without loss below which datasets are stored without loss by default. \[bytes\]
 pub const LOSSLESS_BELOW: usize = 1 << 20;
 
 impl Storage {
-    /// What is done when nobody chooses: nothing is lost of what is small.
+    /// Returns the default form: small datasets are stored without loss.
     pub fn default_for(dataset: &Dataset) -> Self {
         if dataset_blob::encode(dataset).len() < LOSSLESS_BELOW {
             Self::Lossless
@@ -44,52 +44,52 @@ impl Storage {
 /// Change of light in the standard room under one outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoomEffect {
-    /// Which outside.
+    /// Name of the outside.
     pub outside: String,
-    /// Share of the flux of the luminous-intensity distribution that goes elsewhere: ½Σ|ΔΦ| / ΣΦ.
+    /// Share of the flux of the luminous-intensity distribution that is misplaced: ½Σ|ΔΦ| / ΣΦ.
     pub lid_misplaced: f64,
-    /// Σ|ΔE| / ΣE over the sensors.
+    /// Mean relative change of illuminance over the sensors: Σ|ΔE| / ΣE.
     pub illuminance: f64,
-    /// Largest |ΔE| / max(E, 1 % of the mean).
+    /// Largest relative change of illuminance: |ΔE| / max(E, 1 % of the mean).
     pub illuminance_worst: f64,
-    /// Mean illuminance of the sensors before. \[lx\]
+    /// Mean illuminance of the sensors before compression. \[lx\]
     pub mean_illuminance: f64,
 }
 
 /// One function of a dataset in compact form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompactedFunction {
-    /// Which function, e.g. `visible transmission_front`.
+    /// Name of the function, e.g. `visible transmission_front`.
     pub name: String,
-    /// Numbers and errors.
+    /// Counts of numbers, and errors.
     pub report: CompactReport,
-    /// Bytes without loss: f32, byte planes, zstd.
+    /// Size without loss: f32, byte planes, zstd. \[bytes\]
     pub bytes_lossless: usize,
-    /// Bytes in compact form.
+    /// Size in compact form. \[bytes\]
     pub bytes: usize,
-    /// Bytes in memory while in use.
+    /// Size in memory while in use. \[bytes\]
     pub bytes_in_use: usize,
-    /// What it changes in the standard room; for transmission of visible light from outside.
+    /// Changes of light in the standard room, for visible transmission from outside; else empty.
     pub effects: Vec<RoomEffect>,
 }
 
 impl CompactedFunction {
-    /// Bytes of plain f32 values for every byte kept.
+    /// Returns the ratio of plain f32 bytes to stored bytes.
     pub fn byte_ratio(&self) -> f64 {
         (4 * self.report.rows * self.report.cells) as f64 / self.bytes.max(1) as f64
     }
 }
 
-/// A dataset in compact form, and what became of each of its functions.
+/// A dataset in compact form, with a report on each of its functions.
 #[derive(Debug, Clone)]
 pub struct Compacted {
-    /// The dataset; functions that have no compact form (closed forms, tensor trees) are as they were.
+    /// Dataset; functions without a compact form (closed forms, tensor trees) are unchanged.
     pub dataset: Dataset,
-    /// Those in compact form.
+    /// Functions in compact form.
     pub functions: Vec<CompactedFunction>,
 }
 
-/// Indicatrices that can be compact: on cells or at single directions.
+/// Indicatrices that can be compact: by patches or at single directions.
 #[derive(Clone, Copy)]
 enum Data<'a> {
     Cells(&'a CellMatrix),
@@ -135,7 +135,7 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Incident cells, each with the row that stands for it.
+    /// Returns the incident patches, each with the row that represents it.
     fn incident(self) -> (RingBasis, Vec<Option<usize>>) {
         match self {
             Self::Cells(matrix) => (matrix.incident().clone(), (0..matrix.incident().len()).map(Some).collect()),
@@ -162,10 +162,10 @@ impl<'a> Data<'a> {
     }
 }
 
-/// Brings every function on cells or at single directions into compact form.
+/// Converts every function by patches or at single directions to compact form.
 ///
 /// # Errors
-/// Values that have no compact form; a threshold out of range.
+/// Returns an error for values that have no compact form, or a threshold out of range.
 pub fn compact(dataset: &Dataset, criterion: Criterion) -> Result<Compacted, CompactError> {
     let mut made = dataset.clone();
     let mut functions = Vec::new();
@@ -174,7 +174,7 @@ pub fn compact(dataset: &Dataset, criterion: Criterion) -> Result<Compacted, Com
         compact_band("solar", given, band, criterion, &mut functions)?;
     }
     if dataset.derived.contains(&Component::TransmissionBack) {
-        // What was derived by reciprocity is derived again, and so takes no place.
+        // Functions that were derived by reciprocity are derived again, and so take no space.
         turn_back(&mut made.visible, &mut functions);
         made.solar.iter_mut().for_each(|band| turn_back(band, &mut Vec::new()));
     }
@@ -218,10 +218,10 @@ fn compact_band(
     Ok(())
 }
 
-/// The dataset as it is to be stored, with what is to be said about it.
+/// Returns the dataset in the form in which it is stored, with findings on the compression.
 ///
 /// # Errors
-/// As [`compact`].
+/// Returns the errors of [`compact`].
 pub fn stored_as(dataset: &Dataset, storage: Storage) -> Result<Dataset, CompactError> {
     let Storage::Compact(criterion) = storage else { return Ok(dataset.clone()) };
     let Compacted { mut dataset, functions } = compact(dataset, criterion)?;
@@ -229,8 +229,7 @@ pub fn stored_as(dataset: &Dataset, storage: Storage) -> Result<Dataset, Compact
     Ok(dataset)
 }
 
-/// The dataset as it is stored when nobody chooses. Data that have no compact form are kept without loss, and that is
-/// said.
+/// Returns the dataset in its default form. Data without a compact form are stored without loss, with a finding.
 pub fn stored_by_default(dataset: &Dataset) -> Dataset {
     stored_as(dataset, Storage::default_for(dataset)).unwrap_or_else(|error| {
         let mut kept = dataset.clone();
@@ -264,7 +263,7 @@ fn finding(function: &CompactedFunction, criterion: Criterion) -> Finding {
     )
 }
 
-/// A criterion in words.
+/// Formats a criterion.
 pub fn criterion_words(criterion: Criterion) -> String {
     let percent = 100.0 * criterion.threshold();
     match criterion {
@@ -276,11 +275,11 @@ pub fn criterion_words(criterion: Criterion) -> String {
     }
 }
 
-/// The standard room's aperture.
+/// Aperture of the standard room.
 const APERTURE: Aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.0, 0.0, 1.0), size: [4.0, 2.0] };
-/// Suns: altitude and bearing from the façade's normal. \[°\]
+/// Altitudes of the suns, and bearings from the façade's normal. \[°\]
 const SUNS: [(f64, f64); 3] = [(20.0, 0.0), (45.0, 30.0), (60.0, -40.0)];
-/// Illuminance of a plane that faces the sun. \[lx\]
+/// Direct normal illuminance. \[lx\]
 const DIRECT_NORMAL: f64 = 80_000.0;
 
 fn sensors() -> Vec<Sensor> {
@@ -289,7 +288,7 @@ fn sensors() -> Vec<Sensor> {
     (0..96).map(|k| Sensor { position: place(k), normal: DVec3::Z }).collect()
 }
 
-/// Illuminances of the standard room's sensors from emergent luminances on cells. \[lx\]
+/// Illuminances of the standard room's sensors from emergent luminances by patches. \[lx\]
 #[derive(Debug)]
 pub struct StandardRoom {
     receptions: Vec<Reception>,
@@ -297,19 +296,19 @@ pub struct StandardRoom {
 }
 
 impl StandardRoom {
-    /// For light on the cells of a basis.
+    /// Creates the room for light on the patches of a basis.
     pub fn new(basis: &RingBasis) -> Self {
         let receptions = sensors().par_iter().map(|sensor| Reception::new(sensor, &APERTURE, Some(basis))).collect();
         Self { receptions, weights: basis.projected_solid_angles() }
     }
 
-    /// Illuminance of each of the 8 × 12 sensors. \[lx\]
+    /// Returns the illuminances of the 8 × 12 sensors. \[lx\]
     pub fn illuminances(&self, luminance: &[f64]) -> Vec<f64> {
         let at = |reception: &Reception| reception.cells.iter().zip(luminance).map(|(w, l)| w * l).sum();
         self.receptions.iter().map(at).collect()
     }
 
-    /// Compares two emergent luminances.
+    /// Compares two sets of emergent luminances.
     pub fn effect(&self, outside: String, before: &[f64], after: &[f64]) -> RoomEffect {
         let flux: f64 = self.weights.iter().zip(before).map(|(w, l)| w * l).sum();
         let moved: f64 = self.weights.iter().zip(before.iter().zip(after)).map(|(w, (b, a))| w * (b - a).abs()).sum();
@@ -328,8 +327,8 @@ impl StandardRoom {
     }
 }
 
-/// Illuminance that each row of a dataset stands for, under the overcast sky (CIE type 16, 10 klx, ground 0.2) and
-/// three suns. \[lx\] Rows, illuminances.
+/// Returns the rows of a dataset with the illuminances that they represent, under the overcast sky (CIE type 16, 10
+/// klx, ground 0.2) and three suns. \[lx\]
 pub fn standard_outsides(
     incident: &RingBasis,
     row_of_cell: &[Option<usize>],

@@ -1,8 +1,9 @@
-//! What is set beside each other: candidates of a scene, their figures with errors, and which is the better one.
+//! Comparison of candidates of a scene: their figures with errors, and which one is better.
 //!
-//! A candidate is the scene with another product, state, sky or room ([`candidate()`]). [`Facts`] are what was computed of
-//! it, [`FIGURES`] what is told of the facts, [`compare`] sets figures of several side by side. Window and command line
-//! show the same [`Row`]s. What joins later (a year, a rank) is a part of [`Facts`] and figures that read it.
+//! A candidate is the scene with another product, state, sky or room ([`candidate()`]). [`Facts`] are its computed
+//! results, [`FIGURES`] the figures derived from them, [`compare`] lists the figures of several candidates. Window and
+//! command line show the same [`Row`]s. Later additions (a year, a rank) are a part of [`Facts`] and figures that use
+//! it.
 
 mod candidate;
 pub mod curves;
@@ -21,10 +22,10 @@ use super::{Scene, Session};
 use crate::compute::estimate::Progress;
 use crate::compute::lid::c_gamma::Peaks;
 
-/// Most things that are compared at a time.
+/// Maximum number of candidates in a comparison.
 pub const MOST: usize = 6;
 
-/// The same of what was computed of a scene in one go.
+/// Returns the results of a scene that has been computed as a whole.
 pub fn facts_of(subject: &Subject) -> Facts {
     Facts {
         data: DataFacts::of(subject.dataset()),
@@ -33,10 +34,10 @@ pub fn facts_of(subject: &Subject) -> Facts {
     }
 }
 
-/// Everything that the figures are made of: data, light and room of a scene, by its first aperture.
+/// Computes the results that the figures need: data, light and room of a scene, by its first aperture.
 ///
 /// # Errors
-/// As of [`Session::room`].
+/// Returns the errors of [`Session::room`].
 pub fn facts(scene: &Scene, session: &Session, progress: &dyn Progress) -> Result<Facts, StudyError> {
     let data = scene.apertures.first().and_then(|one| DataFacts::of(&one.system.dataset));
     let lid = session.lid(scene, 0, progress)?;

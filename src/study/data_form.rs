@@ -1,4 +1,4 @@
-//! The data of one incidence in the forms in which they are used: as measured, filtered for diffuse light, compressed by
+//! Data of one incidence in the forms in which they are used: original, filtered for diffuse light, compressed by
 //! wavelets.
 
 use super::compact::LOSSLESS_BELOW;
@@ -10,82 +10,82 @@ use crate::compute::lid::Interpolator;
 use crate::compute::wavelet::{CompactError, CompactRows, Criterion};
 use std::sync::Arc;
 
-/// In which form.
+/// Form of the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum DataForm {
-    /// As measured or computed.
+    /// Original data, measured or computed.
     #[default]
     Measured,
-    /// Spread over the patch that the incident direction stands for.
+    /// Data spread over the patch that the incident direction represents.
     Filtered,
-    /// Compressed by wavelets.
+    /// Data compressed by wavelets.
     Compact,
 }
 
 impl DataForm {
-    /// All, in the order in which they are offered.
+    /// All forms, in the order in which they are offered.
     pub const ALL: [Self; 3] = [Self::Measured, Self::Filtered, Self::Compact];
 }
 
-/// What was done to the data.
+/// Processing of the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum How {
-    /// Filtered as this scheme of diffuse light does it.
+    /// Filter of a scheme for diffuse light.
     Filter {
-        /// Which.
+        /// Scheme that the filter belongs to.
         scheme: DiffuseScheme,
-        /// The scene asks for it; else it computes with finer patches of the sky instead.
+        /// Whether the scene uses the filter; if not, it computes with finer patches of the sky instead.
         in_force: bool,
     },
-    /// Compressed by wavelets.
+    /// Compression by wavelets.
     Wavelets {
-        /// Numbers that are kept of this indicatrix, τ among them.
+        /// Number of values stored for this indicatrix, including τ.
         kept: usize,
-        /// Values that it had.
+        /// Number of original values.
         cells: usize,
-        /// Flux that may be misplaced, as a share of τ.
+        /// Maximum misplaced flux, as a share of τ.
         allowed: f64,
-        /// The catalogue keeps the data so; else they are small enough to be kept without loss.
+        /// Whether the catalogue stores the data in this form; if not, they are small enough to be stored without loss.
         in_force: bool,
     },
 }
 
-/// How far a form is from what was measured.
+/// Difference of a form from the original data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Apart {
-    /// Largest difference of any cell, either way. \[1/sr\]
+    /// Largest absolute difference of any patch. \[1/sr\]
     pub largest: f64,
-    /// Flux that lies elsewhere, ½∫|Δq| cosθ dω, as a share of τ.
+    /// Misplaced flux, ½∫|Δq| cosθ dω, as a share of τ.
     pub misplaced: f64,
 }
 
 /// Data of one incidence in a form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formed {
-    /// The data.
+    /// Data by emergent direction.
     pub indicatrix: Indicatrix,
-    /// What was done to them.
+    /// Processing of the data.
     pub how: How,
-    /// How far they are from what was measured; `None` where this is no longer known.
+    /// Difference from the original data; `None` if these are no longer known.
     pub apart: Option<Apart>,
 }
 
-/// Why data have no such form.
+/// Reason why data do not have a form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NoForm {
-    /// Nothing is scattered, or by a closed form.
+    /// Nothing is scattered, or only by a closed form.
     NoValues,
-    /// They are means over incident cells, which are no wider than the light they stand for.
+    /// The data are means over incident patches, which are no wider than the light that they represent.
     Means,
-    /// They are a tensor tree, compact already.
+    /// The data are a tensor tree, which is already compact.
     Tree,
-    /// Their directions are no lattice of patches.
+    /// The incident directions are not a lattice of patches.
     NoLattice,
-    /// Values that cannot be compressed.
+    /// The values cannot be compressed.
     Values(CompactError),
 }
 
-/// Which of the data stand for an incidence; `None` outside the hemisphere and for closed forms.
+/// Returns the index of the data that represent an incidence; `None` outside the hemisphere and for closed forms.
 pub fn row_of(btdf: &Btdf, incident: Incident) -> Option<usize> {
     match btdf.scattered.as_ref()? {
         Scattered::Cells(matrix) => matrix.incident().index(incident.0),
@@ -94,8 +94,8 @@ pub fn row_of(btdf: &Btdf, incident: Incident) -> Option<usize> {
     }
 }
 
-/// The filter that a scheme of diffuse light uses, and which scheme that is: the patch's own where the scene filters
-/// nothing.
+/// Returns the filter of a scheme for diffuse light, and the scheme that it belongs to: that of the patch itself if the
+/// scheme filters nothing.
 fn filter_of(scheme: DiffuseScheme) -> (DiffuseScheme, Filter) {
     let own = |kernel| Filter { kernel, sharp_only: false };
     match scheme {
@@ -106,10 +106,10 @@ fn filter_of(scheme: DiffuseScheme) -> (DiffuseScheme, Filter) {
     }
 }
 
-/// The data that stand for an incidence, filtered for diffuse light as a scene's scheme does it.
+/// Returns the data that represent an incidence, filtered for diffuse light by a scheme.
 ///
 /// # Errors
-/// Why they have no such form.
+/// Returns the reason if the data do not have this form.
 pub fn filtered(
     btdf: &Btdf,
     incident: Incident,
@@ -137,11 +137,11 @@ pub fn filtered(
     })
 }
 
-/// The data that stand for an incidence, compressed as the catalogue does it with data of more than
+/// Returns the data that represent an incidence, compressed as the catalogue does with data of more than
 /// [`LOSSLESS_BELOW`] bytes.
 ///
 /// # Errors
-/// Why they have no such form.
+/// Returns the reason if the data do not have this form.
 pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
     if matches!(btdf.scattered, Some(Scattered::Tree(_))) {
         return Err(NoForm::Tree);
@@ -176,7 +176,7 @@ fn apart(weights: &[f64], given: &[f64], made: &[f64]) -> Apart {
     Apart { largest: differences().fold(0.0, f64::max), misplaced: if tau > 0.0 { 0.5 * moved / tau } else { 0.0 } }
 }
 
-/// Data of less bytes are kept without loss. \[MB\]
+/// Size below which data are stored without loss. \[MB\]
 pub const LOSSLESS_MEGABYTES: f64 = LOSSLESS_BELOW as f64 / (1 << 20) as f64;
 
 #[cfg(test)]

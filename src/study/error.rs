@@ -1,59 +1,59 @@
-//! Why a study cannot be made: one sentence each, naming the key or the file and what would be right.
+//! Errors of studies: one sentence each, naming the key or file and what is expected.
 
 use crate::compute::estimate::Cancelled;
 use crate::compute::room::mesh::TooManyPatches;
 use crate::compute::room::radiosity::NothingAbsorbs;
 use std::path::PathBuf;
 
-/// Why a study cannot be made.
+/// Error of a study.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StudyError {
     /// A key of the scene is wrong.
     #[error("{key}: {message}")]
     Key {
-        /// Full name, e.g. `aperture[1].size`.
+        /// Full name of the key, e.g. `aperture[1].size`.
         key: String,
-        /// What is wrong and what would be right.
+        /// Error, and what is expected.
         message: String,
     },
-    /// The text is no scene.
+    /// The text is not a scene.
     #[error("line {line}, column {column}: {message}")]
     Syntax {
-        /// From 1.
+        /// Line number, from 1.
         line: usize,
-        /// From 1.
+        /// Column number, from 1.
         column: usize,
-        /// What is wrong.
+        /// Description of the error.
         message: String,
     },
     /// A file cannot be read or written.
     #[error("{}: {message}", path.display())]
     File {
-        /// Which.
+        /// Path of the file.
         path: PathBuf,
-        /// What is wrong and what would be right.
+        /// Error, and what is expected.
         message: String,
     },
-    /// The catalogue has no such thing, or cannot be read.
+    /// The catalogue does not have the entry, or cannot be read.
     #[error("catalogue: {0}")]
     Catalogue(String),
-    /// The room has no solution.
+    /// Interreflection in the room has no solution.
     #[error("room.reflectance: {0}")]
     Room(NothingAbsorbs),
     /// More apertures than interreflection can be computed with.
     #[error("aperture: {0}")]
     Patches(TooManyPatches),
-    /// Lengths or values that arithmetic cannot hold together.
+    /// Lengths or values that are too far apart for the arithmetic.
     #[error(
         "the light at {0} comes out as no number: lengths or values of the scene lie too far apart to be computed with"
     )]
     NoNumber(String),
-    /// Withdrawn.
+    /// The computation was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
 
-// Not as sources: the message is already part of the sentence, and a chain of causes would say it twice.
+// Not as sources: the message is already part of the sentence, and a chain of causes would repeat it.
 impl From<NothingAbsorbs> for StudyError {
     fn from(error: NothingAbsorbs) -> Self {
         Self::Room(error)
@@ -67,12 +67,12 @@ impl From<TooManyPatches> for StudyError {
 }
 
 impl StudyError {
-    /// Why a place for every product of a ranking is no system.
+    /// Returns the error about `system = "ranked"` where a system is needed.
     pub fn ranked(key: impl Into<String>) -> Self {
         Self::key(key, "\"ranked\" stands for every product in turn: use `cfs rank`, or name one product here")
     }
 
-    /// A wrong key.
+    /// Returns the error about a wrong key.
     pub fn key(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self::Key { key: key.into(), message: message.into() }
     }

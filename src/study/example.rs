@@ -1,4 +1,4 @@
-//! The scene that everything starts with: of a first start of the window, and for a product alone.
+//! Scene of a new start: of the window's first start, and for a product alone.
 
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, ComputeKeys, DEFAULT_TURBIDITY, DstKey, IlluminanceKey, LightKey, OffsetKey,
@@ -6,7 +6,7 @@ use super::scene_file::{
     SystemKeys, TimeKey,
 };
 
-/// The scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
+/// Returns the scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
 pub fn first_scene() -> SceneFile {
     SceneFile {
         building: None,
@@ -68,7 +68,7 @@ pub fn first_scene() -> SceneFile {
     }
 }
 
-/// The same with a product of the catalogue in its window.
+/// Returns the scene of a first start with a product of the catalogue in its aperture.
 pub fn scene_of(product: &str, state: Option<&str>) -> SceneFile {
     let mut scene = first_scene();
     scene.aperture[0].system = SystemKeys::Catalogue {

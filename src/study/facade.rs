@@ -1,4 +1,4 @@
-//! Illuminance of façade and apertures from outside, and what obstructions do to it.
+//! Illuminance of façade and apertures from outside, and the effect of obstructions on it.
 
 use super::error::StudyError;
 use super::library::Library;
@@ -13,26 +13,26 @@ use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::compute::surroundings::skyline::Skyline;
 use std::path::Path;
 
-/// What falls on an aperture does not depend on its system.
+/// System for the illuminance of an aperture from outside, which does not depend on its own system.
 const TRANSPARENT: SystemKeys = SystemKeys::Ideal { kind: IdealKind::Transparent, transmittance: 1.0 };
 
 /// Illuminance of the façade from outside. \[lx\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FacadeLight {
-    /// By sky, ground, skyline and obstructions.
+    /// Illuminance by sky, ground, skyline and obstructions. \[lx\]
     pub diffuse: Estimate,
-    /// By the sun.
+    /// Illuminance by the sun. \[lx\]
     pub direct: f64,
-    /// Whether it is a mean over apertures behind obstructions.
+    /// Whether the illuminance is a mean over apertures behind obstructions.
     pub behind: bool,
 }
 
-/// Finds the illuminance of the façade under sky and sun of a scene: without boxes and building it is the same all over; behind
-/// them it is the mean over the façade's apertures by area, or over the whole façade if there are none. `base`: folder of the
-/// scene file.
+/// Finds the illuminance of the façade under sky and sun of a scene: without boxes and building it is the same all
+/// over; behind them it is the mean over the façade's apertures by area, or over the whole façade if there are none.
+/// `base`: folder of the scene file.
 ///
 /// # Errors
-/// Keys of the scene that are wrong; cancelled.
+/// Returns an error if a key of the scene is wrong, or if cancelled.
 pub fn facade_light(
     file: &SceneFile,
     base: &Path,
@@ -41,7 +41,7 @@ pub fn facade_light(
 ) -> Result<FacadeLight, StudyError> {
     let foot = file.site.ground_height.max(0.0);
     let any = file.aperture.iter().any(|one| one.surface == SurfaceKey::Facade);
-    // A building before the wall, or ground as high as it, hides it where the wall has no aperture.
+    // A building in front of the wall, or ground as high as it, obstructs it where the wall has no aperture.
     let hidden = file.building.as_ref().is_some_and(|building| building.from[1] < 0.0) || foot >= file.room.height;
     if file.outside.is_empty() && file.building.is_none() || hidden && !any {
         let normal = Dir::from_altitude_bearing(0.0, Bearing::from_degrees(file.site.azimuth));
@@ -72,11 +72,12 @@ pub fn facade_light(
     Ok(FacadeLight { diffuse, direct: direct.value, behind: true })
 }
 
-/// Finds for every box, then for the building if there is one, by how much the illuminance of the apertures from outside would
-/// change without it, relative to that with all of them; `None` where they are dark. `base`: folder of the scene file.
+/// Finds for every box, then for the building if there is one, by how much the illuminance of the apertures from
+/// outside would change without it, relative to that with all of them; `None` where they are dark. `base`: folder of
+/// the scene file.
 ///
 /// # Errors
-/// As [`facade_light`].
+/// Returns the errors of [`facade_light`].
 pub fn obstruction_effects(
     file: &SceneFile,
     base: &Path,
@@ -107,7 +108,7 @@ pub fn obstruction_effects(
     (0..count).map(without).collect::<Result<_, StudyError>>().map(Some)
 }
 
-/// An aperture that lets everything through and that no control moves.
+/// Returns an aperture that transmits all light and has no control.
 fn open(keys: &ApertureKeys) -> ApertureKeys {
     ApertureKeys {
         system: TRANSPARENT,
@@ -118,7 +119,8 @@ fn open(keys: &ApertureKeys) -> ApertureKeys {
     }
 }
 
-/// Illuminance of the apertures that are `wanted` from outside, means by area: diffuse and direct.
+/// Returns the illuminances from outside of the apertures for which `wanted` is `true`, means by area: diffuse and
+/// direct. \[lx\]
 fn received(
     file: &SceneFile,
     base: &Path,

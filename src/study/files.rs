@@ -1,8 +1,8 @@
-//! Files on disk: read whole up to a size, written whole or not at all, and never over what they were made from.
+//! Files on disk: read completely up to a maximum size, written completely or not at all, and never over their input.
 //!
-//! Every file that the program writes for somebody goes through [`write_all`]: it refuses to take the place of an input and
-//! of a file of another kind, writes beside, and renames when all bytes are there. The name `-` stands for standard input
-//! and output; standard input and pipes are read once and kept, since readers may ask twice.
+//! Every file that the program writes for the user goes through [`write_all`]: it refuses to replace an input or a file
+//! of another kind, writes to a file beside the target, and renames it when all bytes are written. The name `-` means
+//! standard input and output; standard input and pipes are read once and stored, since readers may need them twice.
 
 use super::error::StudyError;
 use super::part::{Part, resolved};
@@ -13,26 +13,27 @@ use std::io::{ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Larger files are refused before they are read: datasets and packages, next to which all others are small. \[bytes\]
+/// Maximum size of a file; larger ones are refused before they are read. Only datasets and packages come near it.
+/// \[bytes\]
 pub const LARGEST_FILE: u64 = limits::FILE_BYTES;
 
-/// So many of the files that are written together are held open at once; systems allow a thousand.
+/// Maximum number of files written together that are held open at once; systems allow a thousand.
 const MOST_OPEN: usize = 200;
 
-/// The files that this run of the program has read.
+/// Files that this run of the program has read.
 static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// What standard input and pipes held.
+/// Contents of standard input and pipes that have been read.
 static STREAMS: Mutex<BTreeMap<PathBuf, Vec<u8>>> = Mutex::new(BTreeMap::new());
 
 fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }
 }
 
-/// All bytes of a file, which is an input from now on.
+/// Reads all bytes of a file, and records it as an input.
 ///
 /// # Errors
-/// One sentence that names the file.
+/// Returns an error that names the file.
 pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
     let cannot = |error: std::io::Error| wrong(path, format!("cannot be read ({error}); check path and rights"));
     if is_standard(path) {
@@ -58,15 +59,15 @@ pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Whether a path stands for standard input or output, or leads to a pipe or a device: neither its name nor its folder says
-/// anything about what is in it.
+/// Whether a path stands for standard input or output, or leads to a pipe or a device: neither its name nor its folder
+/// says anything about its content.
 pub fn is_stream(path: &Path) -> bool {
     is_standard(path)
         || ["/dev/stdin", "/dev/stdout", "/dev/fd"].iter().any(|start| path.starts_with(start))
         || std::fs::metadata(path).is_ok_and(|meta| !meta.is_file() && !meta.is_dir())
 }
 
-/// Returns the name that tells the kind of a file: its own, or for a stream one that its content tells.
+/// Returns the name by which the kind of a file is recognised: its own, or for a stream one derived from its content.
 ///
 /// # Errors
 /// Returns an error if the stream cannot be read.
@@ -75,13 +76,13 @@ pub fn telling_name(path: &Path) -> Result<String, StudyError> {
     Ok(if is_stream(path) { format!("{name}{}", extension_of(&read(path)?)) } else { name.into_owned() })
 }
 
-/// Returns the folder that relative names in a file start from; those in a stream start where the program runs.
+/// Returns the folder that relative names in a file start from; for a stream the working directory.
 pub fn folder(path: &Path) -> &Path {
     path.parent().filter(|_| !is_stream(path)).unwrap_or(Path::new("."))
 }
 
-/// Returns the path from the root of the file system, where the system knows it: the one by which messages name a file that
-/// was written.
+/// Returns the path from the root of the file system, where the system knows it: the one by which messages name a
+/// written file.
 pub fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
@@ -92,7 +93,7 @@ fn is_pipe(meta: &std::fs::Metadata) -> bool {
     std::os::unix::fs::FileTypeExt::is_fifo(&meta.file_type())
 }
 
-/// Whether a path leads to a pipe: other systems do not tell.
+/// Whether a path leads to a pipe; always `false`, since other systems do not report it.
 #[cfg(not(unix))]
 const fn is_pipe(_: &std::fs::Metadata) -> bool {
     false
@@ -123,7 +124,7 @@ fn read_stream(path: &Path, stream: impl std::io::Read) -> Result<Vec<u8>, Study
     Ok(bytes)
 }
 
-/// Names a file that results depend on and that is read by other means.
+/// Records a file as an input that results depend on and that is read by other means.
 pub fn keep(path: &Path) {
     // A pipe that is only looked at loses its writer.
     if is_standard(path) || std::fs::metadata(path).is_ok_and(|meta| !meta.is_file()) {
@@ -133,40 +134,40 @@ pub fn keep(path: &Path) {
     INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(absolute(path));
 }
 
-/// The files that this run of the program has read, in the order of their paths.
+/// Returns the files that this run of the program has read, in the order of their paths.
 pub fn inputs() -> Vec<PathBuf> {
     INPUTS.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
 }
 
-/// What a written file may take the place of.
+/// Files that a written file may replace.
 #[derive(Debug, Clone, Copy)]
 pub enum Replace<'a> {
-    /// An empty file, or one of this kind – with `force` of any kind –, and none that this run of the program has read.
+    /// An empty file, or one of this kind – with `force` of any kind –, but none that this run of the program has read.
     Kind {
-        /// What is written.
+        /// Kind of the written file.
         kind: FileKind,
-        /// Of any kind.
+        /// Whether files of any kind may be replaced.
         force: bool,
     },
-    /// Whatever is there, since somebody was asked, except these.
+    /// Any file, since the user was asked, except these.
     But(&'a [PathBuf]),
 }
 
 /// A file to be written.
 #[derive(Debug, Clone)]
 pub struct Output<'a> {
-    /// Where.
+    /// Path of the file.
     pub path: &'a Path,
-    /// What it will hold.
+    /// Content of the file.
     pub bytes: &'a [u8],
-    /// What it may take the place of.
+    /// Files that it may replace.
     pub replace: Replace<'a>,
 }
 
-/// May a file be written there? Asked before long work; [`write_all`] asks again.
+/// Checks whether a file may be written to a path. Called before long work; [`write_all`] checks again.
 ///
 /// # Errors
-/// One sentence that names the file, what is there, and what would be right.
+/// Returns an error that names the file, what exists there, and what is expected.
 pub fn check(path: &Path, replace: Replace<'_>) -> Result<(), StudyError> {
     if is_standard(path) {
         return Ok(());
@@ -188,7 +189,7 @@ pub fn check(path: &Path, replace: Replace<'_>) -> Result<(), StudyError> {
         return Err(wrong(path, "cannot be written; it is a folder; expected the name of a file".to_owned()));
     }
     if !there.is_file() {
-        // A pipe or a device takes everything and loses nothing.
+        // A pipe or a device accepts everything and loses nothing.
         return Ok(());
     }
     if is_input(path, replace) {
@@ -215,7 +216,7 @@ pub fn check(path: &Path, replace: Replace<'_>) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Is it one of the inputs, under whatever name?
+/// Whether a path is one of the inputs, under any name.
 fn is_input(path: &Path, replace: Replace<'_>) -> bool {
     let same = |other: &PathBuf| same_file::is_same_file(path, other).unwrap_or(false);
     match replace {
@@ -231,14 +232,14 @@ fn is_of(path: &Path, kind: FileKind) -> Result<bool, StudyError> {
     Ok(kind.may_be(&head))
 }
 
-/// Writes files, all of them or none: each into a neighbour first, renamed when all are there, so that nothing half-written
-/// is left. Pipes and devices are written to at once.
+/// Writes files, all of them or none: each to a file beside its target first, renamed when all are complete, so that
+/// nothing half-written remains. Pipes and devices are written to directly.
 ///
 /// # Errors
-/// One sentence that names the file. What was there before is there still.
+/// Returns an error that names the file. Existing files are then unchanged.
 pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
     let mut parts: Vec<(&Path, Part)> = Vec::with_capacity(list.len());
-    // Before the first byte: what went to a stream cannot be taken back.
+    // Before the first byte: output to a stream cannot be undone.
     for (place, one) in list.iter().enumerate() {
         if list[..place].iter().any(|other| other.path == one.path) {
             return Err(wrong(one.path, "is named twice; expected a file for each output".to_owned()));
@@ -250,7 +251,7 @@ pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
         if is_standard(one.path) {
             let mut output = std::io::stdout().lock();
             match output.write_all(one.bytes).and_then(|()| output.flush()) {
-                // Whoever reads may stop.
+                // The reader may stop.
                 Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
                 done => done.map_err(told)?,
             }
@@ -280,16 +281,16 @@ pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
 /// Writes one file, as [`write_all`] does.
 ///
 /// # Errors
-/// One sentence that names the file.
+/// Returns an error that names the file.
 pub fn write(path: &Path, bytes: &[u8], replace: Replace<'_>) -> Result<(), StudyError> {
     write_all(&[Output { path, bytes, replace }])
 }
 
-/// Writes a file of the program's own in one step, without waiting for the disk, which under load takes seconds: a program
-/// that ends loses nothing, a power cut before the returned file is synchronised may.
+/// Writes a file of the program itself in one step, without waiting for the disk, which under load takes seconds:
+/// nothing is lost if the program ends, but a power cut before the returned file is synchronised may lose it.
 ///
 /// # Errors
-/// One sentence that names the file.
+/// Returns an error that names the file.
 pub fn write_at_once(path: &Path, bytes: &[u8]) -> Result<std::fs::File, StudyError> {
     let written = Part::beside(&resolved(path)).and_then(|mut part| {
         part.write(bytes)?;
@@ -298,7 +299,7 @@ pub fn write_at_once(path: &Path, bytes: &[u8]) -> Result<std::fs::File, StudyEr
     written.map_err(|error| cannot_write(path, &error))
 }
 
-/// Why a file cannot be written, and what would be right.
+/// Returns the error that a file cannot be written, with the remedy.
 pub fn cannot_write(path: &Path, error: &std::io::Error) -> StudyError {
     let expected = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "nothing was written; make room, or choose another place",

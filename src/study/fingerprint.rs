@@ -1,4 +1,4 @@
-//! What results are made of, as hashes: equal ones mean equal results, wherever files lie and whoever computes.
+//! Hashes of the input of results: equal hashes mean equal results, independent of file locations and computer.
 
 use super::error::StudyError;
 use super::goniophotometer::{Described, LayerLibrary};
@@ -8,11 +8,11 @@ use crate::catalogue::Product;
 use crate::formats::system_toml::is_system_file;
 use std::path::Path;
 
-/// Number of the definitions that results follow. Raised whenever the same inputs come to give other numbers, so that nothing
-/// that an earlier build has kept is continued.
+/// Number of the definitions that results follow. Increased whenever the same input gives other numbers, so that
+/// nothing that an earlier build has stored is continued.
 const DEFINITIONS: &str = "5";
 
-/// Of parts in their order. Half a hash is enough to tell millions apart.
+/// Returns the hash of parts in their order. Half a hash is enough to distinguish millions.
 pub fn digest(parts: &[&[u8]]) -> String {
     let mut hash = blake3::Hasher::new();
     for part in parts {
@@ -22,18 +22,21 @@ pub fn digest(parts: &[&[u8]]) -> String {
     hash.finalize().to_hex()[..16].to_owned()
 }
 
-/// A scene as parts: the program's version and definitions, its keys, and what stands in the files that it names.
+/// Returns a scene as parts: version and definitions of the program, keys of the scene, and contents of the files that
+/// it names.
 pub fn of_scene(scene: &SceneFile, base: &Path) -> Vec<Vec<u8>> {
-    // What cannot be written is told apart by its debug form.
+    // A scene that cannot be written is represented by its debug form.
     let text = toml::to_string(scene).unwrap_or_else(|_| format!("{scene:?}"));
     let mut parts = vec![env!("CARGO_PKG_VERSION").into(), DEFINITIONS.into(), text.into_bytes()];
-    // Where a file lies does not matter: what is in it does. One that cannot be read is told when it is needed.
+    // The location of a file does not matter, only its content. A file that cannot be read is reported when it is
+    // needed.
     let files = inputs_of(scene, base);
     parts.extend(files.iter().map(|path| std::fs::read(path).unwrap_or_default()));
     parts
 }
 
-/// Of a product's data: its description where it is computed from one, since the data may still be waiting to be computed.
+/// Returns the hash of a product's data: of its description if they are computed from one, since they may not be
+/// computed yet.
 pub fn of_product(product: &Product) -> String {
     let mut text = product.system.clone();
     for state in &product.states {
@@ -46,10 +49,10 @@ pub fn of_product(product: &Product) -> String {
     text
 }
 
-/// Of all that the results of a scene are made of, products of the catalogue and layers of descriptions included.
+/// Returns the hash of all input of a scene's results, including products of the catalogue and layers of descriptions.
 ///
 /// # Errors
-/// A product or a description that is not there.
+/// Returns an error if a product or a description does not exist.
 pub fn of_results(scene: &SceneFile, base: &Path, library: &dyn LayerLibrary) -> Result<String, StudyError> {
     let mut parts = of_scene(scene, base);
     for aperture in &scene.aperture {

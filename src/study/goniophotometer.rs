@@ -1,5 +1,5 @@
-//! The numerical goniophotometer on files: from a system file to datasets, state by state, with what is known about
-//! their quality. Finished states can be kept, so that an interrupted run goes on where it stopped.
+//! Virtual goniophotometer on files: computes datasets from a system file, state by state, with indicators of their
+//! quality. Finished states can be stored, so that an interrupted run can be resumed.
 
 use super::error::StudyError;
 use super::files;
@@ -20,41 +20,41 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A system file with the place from which it names others.
+/// A system file, with the location from which it names other files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Described {
-    /// What the file says.
+    /// Content of the file.
     pub file: SystemFile,
-    /// The file's text, which is the whole input of the computation but for other layers' files.
+    /// Text of the file: all input of the computation except the files of other layers.
     pub text: String,
-    /// From where it names other files.
+    /// Location from which the description names other files.
     pub base: Base,
 }
 
-/// From where a description names other files.
+/// Location from which a description names other files.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Base {
     /// A folder.
     Folder(PathBuf),
-    /// The descriptions that come with the program.
+    /// Built-in descriptions.
     Builtin,
 }
 
-/// On which cells, and how exactly.
+/// Bases and error of a computed dataset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// Incident cells.
+    /// Basis of incident directions.
     pub incident: RingBasis,
-    /// Emergent cells.
+    /// Basis of emergent directions.
     pub emergent: RingBasis,
-    /// Absolute error allowed in τ and ρ of any incidence.
+    /// Maximum absolute error of τ and ρ for any incident direction.
     pub error: f64,
-    /// Seed of what is drawn at random.
+    /// Seed of random numbers.
     pub seed: u64,
 }
 
 impl Request {
-    /// Are incidences single directions? The 145 of a goniophotometer are; Klems cells are cells.
+    /// Whether incident directions are single ones, like the 145 of a goniophotometer; Klems patches are averaged.
     pub fn at_directions(&self) -> bool {
         self.incident == RingBasis::tregenza()
     }
@@ -63,25 +63,25 @@ impl Request {
 /// A computed state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Computed {
-    /// The four functions.
+    /// Dataset with the four functions: transmission and reflection of both sides.
     pub dataset: Dataset,
-    /// Balance, reciprocity, error; `None` for a state that was kept from an earlier run.
+    /// Balance, reciprocity and error; `None` for a stored state of an earlier run.
     pub quality: Option<Quality>,
-    /// Time it took; 0 for a kept state. \[s\]
+    /// Duration of the computation; 0 for a stored state. \[s\]
     pub seconds: f64,
 }
 
-/// Where a stack's layers come from.
+/// Source of a stack's layers.
 pub trait LayerLibrary: SystemLibrary {
-    /// A product of the catalogue without its datasets.
+    /// Returns a product of the catalogue without its datasets.
     fn product(&self, key: &str) -> Result<Product, StudyError>;
 
-    /// All states of a dataset file.
+    /// Returns all states of a dataset file.
     fn load_file(&self, path: &Path) -> Result<Vec<Arc<System>>, StudyError>;
 }
 
 impl Described {
-    /// Reads a system file. The error names the file.
+    /// Reads a system file. Errors name the file.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
@@ -90,13 +90,13 @@ impl Described {
         Self::from_text(&text, base).map_err(|e| error(e.to_string()))
     }
 
-    /// A built-in one by the name of its file.
+    /// Returns a built-in description by the name of its file.
     pub fn builtin(name: &str) -> Option<Self> {
         let (file, text) = builtin_system(name)?;
         Some(Self { file, text: text.to_owned(), base: Base::Builtin })
     }
 
-    /// Another system file that this one names.
+    /// Reads another system file that this one names.
     pub(super) fn other(&self, name: &str) -> Result<Self, StudyError> {
         match &self.base {
             Base::Folder(folder) => Self::read(&folder.join(name)),
@@ -109,13 +109,13 @@ impl Described {
         }
     }
 
-    /// A layer that is described in this one's own text.
+    /// Reads a layer that is described in this one's own text.
     pub(super) fn within(&self, text: &str) -> Result<Self, StudyError> {
         let told = |error: crate::formats::FormatError| StudyError::key("stack.layers", error.to_string());
         Self::from_text(text, self.base.clone()).map_err(told)
     }
 
-    /// Where dataset files lie that it names.
+    /// Returns the folder of the dataset files that the description names.
     pub(super) fn folder(&self) -> &Path {
         match &self.base {
             Base::Folder(folder) => folder,
@@ -123,15 +123,15 @@ impl Described {
         }
     }
 
-    /// From the text of a system file, which names others relative to `base`.
+    /// Creates the description from the text of a system file, which names others relative to `base`.
     ///
     /// # Errors
-    /// What is wrong with the text.
+    /// Returns an error that describes what is wrong with the text.
     pub fn from_text(text: &str, base: Base) -> Result<Self, crate::formats::FormatError> {
         Ok(Self { file: system_toml::read(text.as_bytes())?, text: text.to_owned(), base })
     }
 
-    /// Computes one state. States kept under `keep` are taken from there, and finished ones left there.
+    /// Computes one state. States stored in folder `keep` are read from there, and finished ones stored there.
     pub fn measure(
         &self,
         state: &str,
@@ -151,7 +151,7 @@ impl Described {
         }
         let start = Instant::now();
         let (visible, mut quality) = self.band(BandName::Visible, state, request, library, progress)?;
-        // Of what says nothing of the solar band there is nothing but light to be computed.
+        // Without solar properties only the visible band is computed.
         let materials = self.materials(state, library)?;
         let mut solar = None;
         if SolarSource::of(materials) != SolarSource::Visible {
@@ -165,13 +165,13 @@ impl Described {
         }
         dataset.described = self.described(state, library);
         if let Some(path) = &kept {
-            // A state that cannot be kept is computed again next time: nothing is lost.
+            // A state that cannot be stored is computed again next time: nothing is lost.
             drop(files::write_at_once(path, &dataset_blob::encode(&dataset)));
         }
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
     }
 
-    /// The four functions of a state in one band.
+    /// Computes the four functions of a state in one band.
     fn band(
         &self,
         band: BandName,
@@ -190,8 +190,8 @@ impl Described {
         Ok(specimen.examine(&setting, progress)?)
     }
 
-    /// Computes several states, as many at a time as there are threads. Progress is told by finished states; that of a
-    /// single one by its own steps.
+    /// Computes several states, as many at a time as there are threads. Progress counts finished states; for a single
+    /// state its own steps.
     pub fn measure_all(
         &self,
         states: &[String],
@@ -214,17 +214,17 @@ impl Described {
         Ok(done)
     }
 
-    /// What the catalogue is told about its datasets.
+    /// Returns the metadata of the product for the catalogue.
     pub fn product(&self, request: &Request, datasets: &[Dataset]) -> NewProduct {
         product_of(&self.file, &self.text, self.method(request), datasets)
     }
 
-    /// How its values come to be.
+    /// Returns the description of the method by which the values are computed.
     pub fn method(&self, request: &Request) -> String {
         method(&self.file.system, request.error, [request.incident.len(), request.emergent.len()])
     }
 
-    /// Name of a kept state: by everything that decides its values.
+    /// Returns the name of a stored state: a hash of all input of its values.
     fn kept_name(&self, state: &str, request: &Request, library: &dyn LayerLibrary) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
         for part in [state, request.incident.name(), request.emergent.name(), "light and solar"] {
@@ -235,14 +235,14 @@ impl Described {
         Ok(format!("{}.cfsd", &hash.finalize().to_hex()[..32]))
     }
 
-    /// Hash of all that the system is computed from.
+    /// Returns the hash of all input of the system.
     pub(super) fn fingerprint(&self, library: &dyn LayerLibrary) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
         self.sources_into(&mut hash, library, 0)?;
         Ok(hash.finalize().to_hex().to_string())
     }
 
-    /// Hashes the text and what its layers are made of.
+    /// Hashes the text and the input of its layers.
     fn sources_into(
         &self,
         hash: &mut blake3::Hasher,
@@ -251,20 +251,20 @@ impl Described {
     ) -> Result<(), StudyError> {
         hash.update(self.text.as_bytes()).update(b"\0");
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(()) };
-        // Deeper ones are refused when they are measured.
+        // Deeper ones are refused when they are computed.
         for layer in layers.iter().filter(|_| depth < MOST_NESTED) {
             match &layer.source {
                 LayerSource::File(name) if is_system_file(name) => {
                     self.other(name)?.sources_into(hash, library, depth + 1)?;
                 }
-                // What cannot be read is told by its reader.
+                // A file that cannot be read is reported by its reader.
                 LayerSource::File(name) => {
                     hash.update(&std::fs::read(self.folder().join(name)).unwrap_or_default());
                 }
                 LayerSource::Text(text) => self.within(text)?.sources_into(hash, library, depth + 1)?,
                 LayerSource::Catalogue(key) => {
                     let product = library.product(key)?;
-                    // What is computed from a built-in description hangs on nothing else, whether it is there or not.
+                    // Data of a built-in description depend on nothing else, whether they exist or not.
                     if product.builtin && !product.system.is_empty() {
                         hash.update(product.system.as_bytes());
                     } else {
@@ -280,7 +280,7 @@ impl Described {
     }
 }
 
-/// Hands on whether the result is still wanted; steps within a state would only make a bar jump.
+/// Progress that passes on cancellation alone; steps within a state would make a progress bar jump.
 pub struct Withdrawn<'a>(pub &'a dyn Progress);
 
 impl Progress for Withdrawn<'_> {

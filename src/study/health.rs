@@ -1,4 +1,4 @@
-//! Mending a catalogue: what the file itself and the program know, and what the files know that its products came from.
+//! Repair of a catalogue: by the file itself, by the program, and by the files that its products were imported from.
 
 use super::files;
 use crate::catalogue::{
@@ -8,23 +8,24 @@ use crate::compute::btdf::Dataset;
 use crate::formats::package;
 use std::path::{Path, PathBuf};
 
-/// What mending did.
+/// Result of a repair.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mended {
-    /// The file as it was.
+    /// Path of the copy of the unrepaired file.
     pub copy: PathBuf,
-    /// What was mended, in sentences.
+    /// Repaired items, as sentences.
     pub mended: Vec<String>,
-    /// What is lost, in sentences.
+    /// Lost items, as sentences.
     pub lost: Vec<String>,
-    /// The file as it is now.
+    /// Health of the file after the repair.
     pub after: Health,
 }
 
-/// Mends what `health` tells of a catalogue's file, as far as it can be made anew; the file as it was is kept beside it.
+/// Repairs the damage that `health` reports of a catalogue's file, as far as it can be restored; a copy of the
+/// unrepaired file is kept beside it.
 ///
 /// # Errors
-/// What cannot be read or written.
+/// Returns an error if a file cannot be read or written.
 pub fn mend(path: &Path, health: &Health) -> Result<Mended, CatalogueError> {
     let copy = copy_aside(path).map_err(|cause| CatalogueError::Folder { path: path.to_owned(), cause })?;
     let mut lost = repair_file(path, health)?;
@@ -36,7 +37,7 @@ pub fn mend(path: &Path, health: &Health) -> Result<Mended, CatalogueError> {
     }
     drop(catalogue);
     let after = check_file(path)?;
-    // What is wrong with data may read otherwise now: malformed before, gone after.
+    // Damage of data may be reported differently now: malformed before, missing after.
     let same = |one: &Damage, other: &Damage| {
         one.message == other.message || (matches!(one.place, Place::Data { .. }) && one.place == other.place)
     };
@@ -48,7 +49,8 @@ pub fn mend(path: &Path, health: &Health) -> Result<Mended, CatalogueError> {
     Ok(Mended { copy, mended, lost, after })
 }
 
-/// Puts the data of a state back from the files that its product was read from, where these still hold the very same.
+/// Restores the data of a state from the files that its product was imported from, if these still contain exactly the
+/// same data.
 fn regain(catalogue: &mut Catalogue, product: &str, state: &str, hash: &str) -> Result<(), CatalogueError> {
     let mut sources = Vec::new();
     let mut paths: Vec<PathBuf> = catalogue.source_paths(product)?.into_iter().map(PathBuf::from).collect();
@@ -57,7 +59,7 @@ fn regain(catalogue: &mut Catalogue, product: &str, state: &str, hash: &str) -> 
         paths.extend(packages.keys().map(|name| Path::new(&folder).join(name)));
     }
     for path in paths {
-        // A file that is gone or was changed regains nothing.
+        // A file that is missing or was changed restores nothing.
         let Ok(bytes) = files::read(&path) else { continue };
         if package::looks_like_package(&bytes) {
             let packed = package::read(&bytes).ok().and_then(|mut package| package.datasets.remove(hash));

@@ -1,4 +1,4 @@
-//! The one direction of incidence that everything drawn of a product speaks of, and the words for it.
+//! Incident direction that all pictures of a product use, and texts about it.
 
 use super::facing::sun_incident;
 use super::scene_file::SceneFile;
@@ -8,28 +8,29 @@ use crate::drawing::ticks::degrees;
 use crate::texts::words as texts;
 use std::path::Path;
 
-/// Why it is this direction.
+/// Source of the incident direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
-    /// The sun stands there.
+    /// Position of the sun.
     Sun,
-    /// The user chose it.
+    /// Choice of the user.
     Chosen,
-    /// The sun is not before the aperture and nothing was chosen: perpendicular.
+    /// Perpendicular incidence: the sun is not in front of the aperture and nothing was chosen.
     Normal,
 }
 
-/// A direction of incidence and why it is that one.
+/// An incident direction with its source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Incidence {
-    /// Where the light comes from.
+    /// Incident direction.
     pub direction: Incident,
-    /// Why.
+    /// Source of the direction.
     pub source: Source,
 }
 
 impl Incidence {
-    /// What tiles show in a scene: the chosen direction, else the sun's, else the perpendicular one.
+    /// Returns the direction that tiles show in a scene: the chosen one, else that of the sun, else perpendicular
+    /// incidence.
     pub fn shown(chosen: Option<Incident>, scene: &SceneFile, base: &Path) -> Self {
         let of = |direction, source| Self { direction, source };
         match (chosen, sun_incident(scene, base)) {
@@ -39,7 +40,7 @@ impl Incidence {
         }
     }
 
-    /// Whose direction it is.
+    /// Returns the name of the source.
     pub fn name(&self) -> &'static str {
         match self.source {
             Source::Sun => texts::THE_SUN.get(),
@@ -48,7 +49,7 @@ impl Incidence {
         }
     }
 
-    /// "sun at θ 49°, φ 98°, profile angle 49°", and shorter: the same direction in all of them.
+    /// Returns the direction as text in three lengths: "sun at θ 49°, φ 98°, profile angle 49°", and shorter.
     pub fn texts(&self) -> [String; 3] {
         let direction = self.direction.0;
         let angles = direction_text(direction);
@@ -60,9 +61,9 @@ impl Incidence {
     }
 }
 
-/// "θ 49°, φ 98°": from the façade's normal, and from the right seen from outside towards up.
+/// Formats a direction as "θ 49°, φ 98°": θ from the façade's normal, φ from the right as seen from outside towards up.
 pub fn direction_text(d: Dir<Facade>) -> String {
-    // Rounded first: just under a whole turn is 0° again.
+    // Rounded first: just below 360° is 0° again.
     let phi = d.phi().to_degrees().round() % 360.0;
     format!("θ {}, φ {}", degrees(d.theta()), degrees(phi.to_radians()))
 }

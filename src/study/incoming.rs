@@ -1,4 +1,4 @@
-//! What a scene's light does at its aperture: the sun's paths over the hemisphere, and where transmitted light goes.
+//! Light at a scene's aperture: sun paths over the hemisphere, and the split of the transmitted flux.
 
 use super::facing::incident;
 use super::moment;
@@ -9,12 +9,13 @@ use crate::compute::direction::{Incident, Surface};
 use crate::drawing::flux_split::FluxSplit;
 use glam::DVec3;
 
-/// Elevations between the zones of the flux split from top to bottom. \[°\]
+/// Elevations between the zones of the flux split, from top to bottom. \[°\]
 const LIMITS: [f64; 3] = [10.0, -10.0, -45.0];
 
-/// Hours of a day and where the sun is.
+/// Hours of a day with the incident directions of the sun.
 pub type SunPath = Vec<(f64, Incident)>;
-/// The sun on the 21st of each month while it is up, by hours; places behind the façade part a path in two.
+/// Returns the sun on the 21st of each month while it is up, by hours; positions behind the façade divide a path in
+/// two.
 pub fn sun_paths(scene: &SceneFile, place: Option<Place>) -> Vec<SunPath> {
     let Some(place) = place else { return Vec::new() };
     let year = moment::of(scene).map_or(2026, |time| time.year());
@@ -30,7 +31,7 @@ pub fn sun_paths(scene: &SceneFile, place: Option<Place>) -> Vec<SunPath> {
         .collect()
 }
 
-/// Shares of the light from one direction that go to the zones; their sum is τ.
+/// Returns the shares of the light from one direction that reach the zones; their sum is τ.
 pub fn flux_split(btdf: &Btdf, incident: Incident, surface: Surface) -> FluxSplit {
     let up = surface.facade_from_room(DVec3::Z);
     let shares = zone_shares(btdf, incident, up, LIMITS.map(f64::to_radians));

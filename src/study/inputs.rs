@@ -1,4 +1,4 @@
-//! The files that a scene names, with those that they name: what its results are made from.
+//! Files that a scene names, with those that they name: input of its results.
 
 use super::files;
 use super::luminaires::{self, INDEX};
@@ -8,17 +8,17 @@ use crate::formats::encoding::decode;
 use crate::formats::system_toml::{MOST_NESTED, is_system_file};
 use std::path::{Path, PathBuf};
 
-/// Files that a scene names, whatever the key, as far as they are there; `base`: what its relative paths start from.
+/// Returns the existing files that a scene names, by any key. `base`: folder that relative paths start from.
 pub fn inputs_of(scene: &SceneFile, base: &Path) -> Vec<PathBuf> {
     let mut list = Vec::new();
-    // What cannot be written as TOML came from nowhere.
+    // A scene that cannot be written as TOML did not come from a file.
     if let Ok(value) = toml::Value::try_from(scene) {
         named_in(&value, base, 0, &mut list);
     }
     list
 }
 
-/// The scene with the files that it names by their full paths, for another folder.
+/// Returns the scene with absolute paths of the files that it names, for use in another folder.
 pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
     fn absolute(value: &mut toml::Value, base: &Path) {
         match value {
@@ -33,13 +33,13 @@ pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
             _ => {}
         }
     }
-    // What cannot be written as TOML came from nowhere.
+    // A scene that cannot be written as TOML did not come from a file.
     let Ok(mut value) = toml::Value::try_from(scene) else { return scene.clone() };
     absolute(&mut value, base);
     value.try_into().unwrap_or_else(|_| scene.clone())
 }
 
-/// May a scene name files by paths, so that it matters where they start from? By its words alone; no file is looked for.
+/// Whether a scene may name files by relative paths. Decided by its texts alone; no file is looked for.
 pub fn names_files(scene: &SceneFile) -> bool {
     fn within(value: &toml::Value) -> bool {
         match value {

@@ -1,4 +1,4 @@
-//! Taking in files: folders, zip archives, packages and single files, each for what it is.
+//! Import of files: folders, zip archives, packages and single files, each by its kind.
 
 use super::files;
 use crate::catalogue::{NewProduct, SourceFile, unpack};
@@ -15,33 +15,33 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-/// Most files that are read of a folder.
+/// Maximum number of files that are read from a folder.
 const MOST_FILES: usize = limits::IMPORTED_FILES;
-/// Folders within folders that are looked into.
+/// Maximum depth of nested folders.
 const DEPTH: usize = 6;
-/// Archives within archives that are looked into.
+/// Maximum depth of nested archives.
 const ARCHIVES: usize = 2;
-/// Most bytes that all archives together may unpack to.
+/// Maximum size of all unpacked archives together. \[bytes\]
 const MOST_UNPACKED: u64 = limits::UNPACKED_BYTES;
 
-/// Reads the datasets of a file: name and bytes.
+/// Function that reads the datasets of a file, from name and bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
 
-/// A file that is no dataset and is opened by itself.
+/// Kind of a file that is not a dataset and is opened separately.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Single {
-    /// A description of a system.
+    /// Description of a system.
     System,
-    /// A scene.
+    /// Scene.
     Scene,
-    /// A control curve.
+    /// Control curve.
     Curve,
-    /// A year of weather.
+    /// Year of weather.
     Weather,
 }
 
 impl Single {
-    /// What it is, in words.
+    /// Returns the name of the kind.
     pub const fn words(self) -> &'static str {
         match self {
             Self::System => "a system",
@@ -57,30 +57,30 @@ impl Single {
 pub struct Packed {
     /// Name of the package, as messages name it.
     pub package: String,
-    /// One a state.
+    /// Datasets, one per state.
     pub datasets: Vec<Dataset>,
-    /// What the package tells about it.
+    /// Metadata of the product in the package.
     pub meta: NewProduct,
 }
 
-/// What was found.
+/// Result of an import.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Taken {
     /// Dataset files, in order.
     pub sources: Vec<SourceFile>,
     /// Products of packages.
     pub packed: Vec<Packed>,
-    /// Files that the user named and that are opened by themselves: the first of each kind.
+    /// Files that the user named and that are opened separately: the first of each kind.
     pub singles: Vec<(Single, PathBuf)>,
-    /// Files that could not be read: file, place, what, what would be right.
+    /// Messages on files that could not be read: file, place, error, and what is expected.
     pub failures: Vec<String>,
-    /// Files that are no datasets: file and reason.
+    /// Files that are not datasets, with the reason.
     pub left_out: Vec<String>,
-    /// It was stopped: not all files were read.
+    /// Whether the import was stopped before all files were read.
     pub stopped: bool,
 }
 
-/// What a file is by its name.
+/// Kind of a file by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Dataset,
@@ -95,7 +95,7 @@ impl Kind {
     fn of(name: &str) -> Self {
         let lower = name.to_ascii_lowercase();
         let ends = |ending: &str| lower.ends_with(ending);
-        // A system's name ends like a scene's, so it is asked about first.
+        // A system's name ends like a scene's, so it is tested first.
         if is_system_file(name) {
             Self::Single(Single::System)
         } else if ends(".toml") {
@@ -118,19 +118,19 @@ impl Kind {
     }
 }
 
-/// A file and how it came to be looked at.
+/// A file and its origin.
 struct Given {
-    /// On disk; of a file in an archive the archive's.
+    /// Path on disk; for a file in an archive that of the archive.
     path: PathBuf,
-    /// The archive that it is in.
+    /// Archive that contains the file.
     within: Option<Within>,
-    /// What it is called in messages.
+    /// Name of the file in messages.
     name: String,
-    /// Named by the user, not found in a folder or archive?
+    /// Whether the user named the file, so that it was not found in a folder or archive.
     named: bool,
 }
 
-/// A place in an archive.
+/// Position of a file in an archive.
 #[derive(Clone)]
 struct Within {
     archive: Arc<Vec<u8>>,
@@ -140,12 +140,12 @@ struct Within {
 }
 
 impl Given {
-    /// Its name without folders.
+    /// Returns the name without folders.
     fn file_name(&self) -> &str {
         self.name.rsplit(['/', '\\']).next().unwrap_or(&self.name)
     }
 
-    /// Where it lies: files of one folder may be states of one product.
+    /// Returns the folder of the file: files of one folder may be states of one product.
     fn folder(&self) -> String {
         let place = self.within.as_ref().map_or(&self.path, |within| &within.place);
         place.parent().map(|folder| folder.display().to_string()).unwrap_or_default()
@@ -165,7 +165,7 @@ impl Given {
     }
 }
 
-/// What reading one file gave.
+/// Result of reading one file.
 enum Read {
     Source(Box<SourceFile>),
     Packed(Vec<Packed>),
@@ -174,13 +174,13 @@ enum Read {
     Stopped,
 }
 
-/// Files of the paths, folders and archives looked into; what is left out unread is told.
+/// Files of the paths, including those in folders and archives; skipped ones are listed with the reason.
 struct Listing {
     files: Vec<Given>,
     left_out: Vec<String>,
     failures: Vec<String>,
     full: bool,
-    /// What all archives together may still unpack to. \[bytes\]
+    /// Remaining size to which all archives together may be unpacked. \[bytes\]
     left: AtomicU64,
 }
 
@@ -225,7 +225,7 @@ impl Listing {
             if hidden || self.full || progress.cancelled() {
                 continue;
             }
-            // A link may lead back to where it lies.
+            // A link may lead back to a folder that contains it.
             let linked = std::fs::symlink_metadata(&path).is_ok_and(|meta| meta.is_symlink());
             if !path.is_dir() {
                 self.add(Given { name: relative(&path), path, within: None, named: false });
@@ -249,7 +249,7 @@ impl Listing {
         }
     }
 
-    /// The files of an archive, or the archive itself where it is a package by another name.
+    /// Adds the files of an archive, or the archive itself if it is a package by another name.
     fn unpack(&mut self, file: &Given, depth: usize) {
         let bytes = match file.bytes(&self.left) {
             Ok(bytes) => Arc::new(archive::with_distinct_names(bytes)),
@@ -287,7 +287,7 @@ impl Listing {
     }
 }
 
-/// What a luminaire file is, in words.
+/// Describes a luminaire file.
 fn luminaire(name: &str, bytes: &[u8]) -> String {
     let lower = name.to_ascii_lowercase();
     let (format, read): (_, Option<Result<Luminaire, FormatError>>) = if lower.ends_with(".ldt") {
@@ -309,7 +309,7 @@ fn luminaire(name: &str, bytes: &[u8]) -> String {
     format!("a luminaire ({format}){who}; not a façade system")
 }
 
-/// Is it XML whose root says that it is a luminaire?
+/// Whether it is XML whose root element says that it is a luminaire.
 fn is_luminaire_xml(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(2048)];
     head.windows(8).any(|window| window == b"<IESTM33")
@@ -351,8 +351,8 @@ fn read_one(file: &Given, left: &AtomicU64, read: ReadDataset) -> Read {
     }
 }
 
-/// Takes in all that the paths lead to. Files that the user named may also be scenes, systems and control curves; files
-/// that were found in folders and archives count as datasets and packages alone, and others are told.
+/// Imports all files of the paths. Files that the user named may also be scenes, systems and control curves; of files
+/// found in folders and archives only datasets and packages are imported, and others are listed.
 pub fn take_in(paths: &[PathBuf], read: ReadDataset, progress: &dyn Progress) -> Taken {
     let Listing { files, left_out, failures, left, .. } = Listing::of(paths, progress);
     let mut taken = Taken { left_out, failures, ..Taken::default() };

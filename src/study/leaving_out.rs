@@ -1,5 +1,5 @@
-//! What interpolation between the incident directions of a scene's datasets is worth: every direction left out and
-//! foretold from those around it. Takes a second or some a dataset, and no result hangs on it: done when asked for.
+//! Error of interpolation between the incident directions of a scene's datasets: every direction is left out and
+//! predicted from its neighbours. Takes some seconds per dataset, and no result depends on it: computed on request.
 
 use super::error::StudyError;
 use super::scene::Scene;
@@ -12,19 +12,20 @@ use crate::compute::incidence::schemes::SunScheme;
 use crate::texts::{fixed, words as texts};
 use std::sync::Arc;
 
-/// What leaving out has shown of one dataset.
+/// Result of leaving out directions of one dataset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeavingOut {
-    /// What its system is called.
+    /// Label of the system.
     pub label: String,
-    /// By direction.
+    /// Errors by direction.
     pub left_out: LeftOut,
-    /// Share of the sun's flux stated to be misplaced at the data's own spacing, by the scheme that the scene asks for:
-    /// most over the apertures; `None` where the sun does not reach them.
+    /// Maximum over the apertures of the share of the sun's flux that is misplaced at the data's own spacing, as stated
+    /// for the scene's scheme; `None` if the sun does not reach them.
     pub sun: Option<f64>,
 }
 
-/// Every dataset of the scene that is known at single directions and interpolated between them, each once.
+/// Computes the errors of every dataset of the scene that is known at single directions and interpolated between them,
+/// each once.
 pub fn leaving_out(scene: &Scene, progress: &dyn Progress) -> Result<Vec<LeavingOut>, StudyError> {
     let mut done: Vec<(&Arc<Indicatrices>, Model, LeavingOut)> = Vec::new();
     for (index, aperture) in scene.apertures.iter().enumerate() {
@@ -56,7 +57,7 @@ pub fn leaving_out(scene: &Scene, progress: &dyn Progress) -> Result<Vec<Leaving
 }
 
 impl LeavingOut {
-    /// What it comes to, and where another scheme than responses would have been better.
+    /// Describes the errors, and says where another scheme than responses would have been better.
     pub fn sentences(&self) -> String {
         let count = self.left_out.directions().count();
         let percent = |share: f64| format!("{} %", fixed(100.0 * share, 1));

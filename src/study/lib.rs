@@ -1,6 +1,7 @@
-//! From a scene to its results: what the window, the command line and other programs call.
+//! Library from a scene to its results: what the window, the command line and other programs call.
 //!
-//! [`scene_file`] is the text as typed, [`scene`] what it means, [`plan`] what it needs, [`session`] the answers.
+//! [`scene_file`] is the scene as typed, [`scene`] the resolved scene, [`plan`] the stages that it needs, [`session`]
+//! the computations.
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 
@@ -83,7 +84,7 @@ pub use system::{System, SystemLibrary};
 use crate::formats::encoding::decode;
 use std::path::Path;
 
-/// Reads a scene file. The error names the file.
+/// Reads a scene file. Errors name the file.
 pub fn read_scene_file(path: &Path) -> Result<SceneFile, StudyError> {
     let error = |message: String| StudyError::File { path: path.to_owned(), message };
     let bytes = files::read(path)?;
@@ -91,7 +92,7 @@ pub fn read_scene_file(path: &Path) -> Result<SceneFile, StudyError> {
     SceneFile::parse(&text).map_err(|e| error(e.to_string()))
 }
 
-/// Reads and resolves a scene file. The error names the file.
+/// Reads and resolves a scene file. Errors name the file.
 pub fn load_scene(path: &Path, library: &dyn SystemLibrary) -> Result<Scene, StudyError> {
     let file = read_scene_file(path)?;
     let base = files::folder(path);

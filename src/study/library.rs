@@ -1,4 +1,5 @@
-//! The library that programs use: ideal systems, dataset files (kept as long as they do not change), the catalogue.
+//! Library of systems that programs use: ideal systems, dataset files (stored as long as they do not change), the
+//! catalogue.
 
 use super::builtin;
 use super::by_description::very_system;
@@ -19,10 +20,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// No measuring error makes this of the light that comes.
+/// Hemispherical transmittance above which the values are assumed to be in another unit: no measuring error is as
+/// large.
 const OTHER_UNIT: f64 = 1.5;
 
-/// Files, closed forms and a catalogue that is opened when first asked.
+/// Files, ideal systems and a catalogue that is opened when first needed.
 #[derive(Default)]
 pub struct Library {
     files: Mutex<HashMap<PathBuf, Loaded>>,
@@ -33,21 +35,21 @@ pub struct Library {
     obstructions: LitObstructions,
 }
 
-/// Described systems by what they are computed from, the state, and what was needed of them.
+/// Described systems by hash of their input, state, and extent of the data.
 type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
-/// Answers for single directions by hash of the description, and state.
+/// Optical models by hash of the description, and state.
 type VeryDescribed = VecDeque<((String, String), Option<VerySystem>)>;
-/// Described systems that are kept: two moving products of 21 states.
+/// Maximum number of stored described systems: two moving products of 21 states.
 const MOST_DESCRIBED: usize = 42;
-/// Descriptions whose states answer for single directions and are kept: of a ranking's hundred products those at work, and as
-/// many as scenes and comparisons hold.
+/// Maximum number of descriptions whose optical models are stored: of a ranking's hundred products those in progress,
+/// and as many as scenes and comparisons contain.
 const MOST_ANSWERING: usize = 6;
 
-/// A file's systems, valid as long as its time and length stay.
+/// Systems of a file, valid as long as its time and length do not change.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
 
 impl Library {
-    /// With the catalogue of a file; `None`: the user's own.
+    /// Creates a library with the catalogue at a path; `None`: the user's own.
     pub fn with_catalogue(path: Option<&Path>) -> Self {
         Self { catalogue_path: path.map(Path::to_owned), ..Self::default() }
     }
@@ -66,10 +68,11 @@ impl Library {
         answer
     }
 
-    /// Products by words as in the window's search, none: all; and what the search notes of words and damaged products.
+    /// Returns products by search words as in the window, without words all; and the search's notes on words and
+    /// damaged products.
     ///
     /// # Errors
-    /// Of the catalogue.
+    /// Returns an error if the catalogue cannot be read.
     pub fn search(&self, words: &str) -> Result<(Vec<Product>, Found), StudyError> {
         self.in_catalogue(|catalogue| {
             let found = catalogue.find(&Query { text: words.to_owned(), ..Query::default() })?;
@@ -78,7 +81,7 @@ impl Library {
         })
     }
 
-    /// Computes the state of a built-in product that is asked for before the catalogue holds its data, and keeps them.
+    /// Computes the state of a built-in product that is needed before the catalogue contains its data, and stores them.
     fn provide(&self, product: &str, state: Option<&str>) -> Result<(), StudyError> {
         let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(()) };
         let product = self.in_catalogue(|catalogue| catalogue.product(product))?;
@@ -88,7 +91,7 @@ impl Library {
 }
 
 impl Library {
-    /// A state of a described system, computed once as long as its description stays.
+    /// Returns a state of a described system, computed once as long as its description does not change.
     fn load_description(&self, path: &Path, state: Option<&str>, need: Need) -> Result<Arc<System>, StudyError> {
         let described = Described::read(path)?;
         let key = (described.fingerprint(self)?, state.map(str::to_owned), need);
@@ -107,8 +110,8 @@ impl Library {
         Ok(system)
     }
 
-    /// What answers for single directions by a dataset's own description; kept, since what it solves is kept with it.
-    /// `None` without one, or where it names layers that are not at hand: then the data are all that is known.
+    /// Returns the optical model by a dataset's own description; stored, since its solutions are stored with it. `None`
+    /// without a description, or if it names layers that are not available: then only the data are known.
     pub fn very_of(&self, dataset: &Dataset) -> Option<VerySystem> {
         let DescribedState { text, state } = dataset.described.as_ref()?;
         let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
@@ -153,7 +156,7 @@ impl LayerLibrary for Library {
         let bytes = files::read(path)?;
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let datasets = read_dataset(&name, &bytes).map_err(|e| error(e.to_string()))?;
-        // Readers pass on percent so that they can be mended; a room would be a hundred times too bright.
+        // Readers accept per cent so that the data can be repaired; a room would be a hundred times too bright.
         let passed = |one: &Dataset| one.transmission().map_or(0.0, Btdf::tau_hemispherical);
         if let Some(sum) = datasets.iter().map(passed).find(|sum| *sum > OTHER_UNIT) {
             return Err(error(format!(
@@ -240,7 +243,7 @@ impl SystemLibrary for Library {
     }
 }
 
-/// The state of a family that is named, or its first.
+/// Returns the named state of a family, or its first.
 fn family_state<'a>(states: &'a [FamilyState], state: Option<&str>) -> Result<&'a FamilyState, StudyError> {
     let found = match state {
         None => states.first(),

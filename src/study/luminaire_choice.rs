@@ -1,5 +1,5 @@
-//! How finely an aperture must be cut and tabulated: its own room, lit by the files as a host takes them, against the
-//! same room lit by the aperture, over fields of half a metre.
+//! Choice of the number of tiles and the step of the tables: the aperture's own room lit by the files as a host uses
+//! them is compared with the same room lit by the aperture, over fields of half a metre.
 
 use super::error::StudyError;
 use super::luminaire_tiles::{Place, tables};
@@ -17,45 +17,46 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Root mean square of the fields' errors that `auto` asks for, relative.
+/// Maximum root mean square of the fields' relative errors for `auto`.
 pub const TARGET: f64 = 0.01;
-/// Of the sum over all fields, relative.
+/// Maximum relative error of the sum over all fields for `auto`.
 const TARGET_SUM: f64 = 0.005;
-/// Beams leave no longer tiles: a host that cuts areas finely blurs the edges of what they light by half of one. \[m\]
+/// Maximum side of a tile with beams: a host that divides areas finely blurs the edges of what they light by half a
+/// tile. \[m\]
 const LONGEST_OF_BEAMS: f64 = 0.2;
 /// Side of a field. \[m\]
 const FIELD: f64 = 0.5;
-/// Distance of the points in it. \[m\]
+/// Distance of the points in a field. \[m\]
 const PITCH: f64 = 0.1;
-/// Points a side of a field ...
+/// Number of points along a side of a field.
 const POINTS: usize = 5;
-/// Fields darker than this share of the mean count as that bright.
+/// Share of the mean illuminance that is the minimum denominator of a field's relative error.
 const DARK: f64 = 0.05;
-/// Longest sides of tiles, tried one after the other. \[m\]
+/// Maximum sides of tiles, tried one after the other. \[m\]
 const LONGEST: [f64; 9] = [f64::INFINITY, 1.5, 1.0, 0.7, 0.5, 0.35, 0.25, 0.175, 0.125];
-/// More tiles than this are not made unasked.
+/// Maximum number of tiles with `auto`.
 const MOST_TILES: usize = 256;
 
-/// How well a room is lit by luminaire files.
+/// Accuracy of a room lit by luminaire files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
-    /// Sum over all fields against that of the aperture itself, relative.
+    /// Relative error of the sum over all fields, compared with the aperture itself.
     pub sum: f64,
-    /// Root mean square of the fields' errors, relative: of the surface where it is largest.
+    /// Root mean square of the fields' relative errors, on the surface where it is largest.
     pub rms: f64,
-    /// The largest of them, signed, relative.
+    /// Largest relative error of a field, with sign.
     pub worst: f64,
-    /// How many fields.
+    /// Number of fields.
     pub fields: usize,
 }
 
 impl Reached {
-    /// Are the errors as small as `auto` asks for?
+    /// Whether the errors are within the limits for `auto`.
     pub fn holds(&self) -> bool {
         self.rms <= TARGET && self.sum.abs() <= TARGET_SUM
     }
 
-    /// For the header of a file.
+    /// Returns a sentence for the header of a file.
     pub fn sentence(&self) -> String {
         format!(
             "Direct light of all files together on {} fields of {FIELD} m x {FIELD} m of the scene's room, on the work plane \
@@ -73,20 +74,20 @@ impl Reached {
 struct Field {
     surface: usize,
     sensors: Vec<Sensor>,
-    /// Mean of the light there. \[lx\]
+    /// Mean illuminance by the aperture itself. \[lx\]
     wanted: f64,
 }
 
-/// What the aperture itself does on fields of its room.
+/// Illuminances by the aperture itself on fields of its room.
 pub struct Probe {
     fields: Vec<Field>,
 }
 
 impl Probe {
-    /// Computes the light of one aperture, counted from 0; `without_beam`: but for its straight beam.
+    /// Computes the light of one aperture, counted from 0; `without_beam`: without its undeviated beam.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns an error if cancelled.
     pub fn new(
         session: &Session,
         scene: &Scene,
@@ -121,7 +122,7 @@ impl Probe {
         Ok(Self { fields })
     }
 
-    /// How well tiles do.
+    /// Returns the accuracy of a room lit by tiles.
     pub(super) fn reached(&self, surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Reached {
         let lamps = lamps(surface, tables);
         let light = |sensor: &Sensor| -> f64 {
@@ -150,14 +151,14 @@ impl Probe {
     }
 }
 
-/// Root mean square of the errors on a surface.
+/// Returns the root mean square of the errors on a surface.
 fn rms(fields: &[Field], errors: &[f64], surface: usize) -> f64 {
     let own =
         || fields.iter().zip(errors).filter(|(field, _)| field.surface == surface).map(|(_, error)| error * error);
     (own().sum::<f64>() / own().count().max(1) as f64).sqrt()
 }
 
-/// A field's place.
+/// Geometry of a field.
 struct FieldGrid {
     surface: usize,
     centre: DVec3,
@@ -166,7 +167,7 @@ struct FieldGrid {
 }
 
 impl FieldGrid {
-    /// Its points.
+    /// Returns the points of the field.
     fn sensors(&self) -> Vec<Sensor> {
         let half = (POINTS / 2) as i32;
         let at = |i: i32, j: i32| {
@@ -177,13 +178,13 @@ impl FieldGrid {
     }
 }
 
-/// Work plane, three walls and the ceiling.
+/// Number of surfaces: work plane, three walls and the ceiling.
 const SURFACES: usize = 5;
 
-/// Fields on the work plane, on the walls above it and on the ceiling.
+/// Returns the fields on the work plane, on the walls above it and on the ceiling.
 fn grids(room: DVec3) -> Vec<FieldGrid> {
     let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z];
-    // A little inside: points on a wall see what is in it edge on.
+    // A little inside: points on a wall see an aperture in it edge on.
     const OFF: f64 = 1e-6;
     let plane = if room.z > WORK_PLANE { WORK_PLANE } else { OFF };
     let surfaces: [_; SURFACES] = [
@@ -210,7 +211,7 @@ fn grids(room: DVec3) -> Vec<FieldGrid> {
     list
 }
 
-/// Tables as a host takes them.
+/// Returns the tables as a host uses them.
 fn lamps(surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Vec<Lamp> {
     let mut last: Option<(&Arc<CGammaTable>, Arc<Intensities>)> = None;
     let mut list = Vec::with_capacity(tables.len());
@@ -225,21 +226,21 @@ fn lamps(surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Vec<Lamp> {
     list
 }
 
-/// What was chosen.
+/// Chosen tiles and tables.
 pub(super) struct Choice {
     pub tiling: Tiling,
     pub step: Step,
     pub reached: Reached,
     pub tables: Vec<(Tile, Arc<CGammaTable>)>,
-    /// Narrow scattered light is each tile's own.
+    /// Whether each tile has its own narrow scattered light.
     narrow: bool,
 }
 
-/// The fewest tiles, and the widest step with them, that reach the target; else the best that was found. `step`: no other
-/// one.
+/// Chooses the fewest tiles, and the widest step with them, that meet the limits; else the best that were found.
+/// `step`: given step.
 ///
 /// # Errors
-/// Cancelled.
+/// Returns an error if cancelled.
 pub(super) fn choose(
     lid: &Lid,
     aim: Aim,
@@ -260,7 +261,8 @@ pub(super) fn choose(
     let few: Vec<f64> = LONGEST.into_iter().filter(|longest| tiling_of(*longest).count() <= MOST_TILES).collect();
     let finest = few.last().copied().unwrap_or(f64::INFINITY);
     let most = if lid.beam_flux() > 0.0 { finest.max(LONGEST_OF_BEAMS) } else { f64::INFINITY };
-    // Each tiling with and without tables of its own for narrow light; the first that holds ends it.
+    // Each tiling without and with separate tables of narrow light per tile; the first that meets the limits ends the
+    // search.
     let work: usize = few.iter().map(|longest| 2 * tiling_of(*longest).count()).sum();
     let mut done = 0;
     'tilings: for longest in few.into_iter().filter(|longest| *longest <= most) {
@@ -269,7 +271,7 @@ pub(super) fn choose(
             continue;
         }
         before = Some(tiling);
-        // What costs less first.
+        // The cheaper one first.
         for narrow in [false, true] {
             progress.advance("tiles", done, work);
             if progress.cancelled() {

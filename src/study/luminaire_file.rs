@@ -12,25 +12,25 @@ use crate::formats::luminaire::{Description, Luminaire};
 use crate::formats::{eulumdat, ies, lid_tables};
 use std::path::Path;
 
-/// What a distribution can be written as.
+/// Format of a luminaire file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LidFormat {
-    /// `.ldt`
+    /// EULUMDAT, `.ldt`.
     Eulumdat,
-    /// `.ies`
+    /// IES LM-63, `.ies`.
     Ies(IesEdition),
-    /// `.csv`: C, γ, cd.
+    /// Table of C, γ and intensity \[cd\], `.csv`.
     Csv,
-    /// `.png`: polar diagram.
+    /// Polar diagram, `.png`.
     Png,
-    /// `.svg`: polar diagram.
+    /// Polar diagram, `.svg`.
     Svg,
 }
 
-/// Why no file was made.
+/// Error of a luminaire file.
 #[derive(Debug, thiserror::Error)]
 pub enum LuminaireFileError {
-    /// The extension names no format that is written.
+    /// The extension is not that of a supported format.
     #[error("extension \"{0}\" names no format for a luminous-intensity distribution (ldt, ies, csv, png or svg)")]
     Extension(String),
     /// The diagram could not be encoded.
@@ -39,7 +39,7 @@ pub enum LuminaireFileError {
 }
 
 impl LidFormat {
-    /// By a file's extension; `edition` counts for `.ies` alone.
+    /// Returns the format by a file's extension; `edition` is used for `.ies` only.
     pub fn of(path: &Path, edition: IesEdition) -> Result<Self, LuminaireFileError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match extension.as_str() {
@@ -53,20 +53,20 @@ impl LidFormat {
     }
 }
 
-/// A file in memory and what to tell about it.
+/// A luminaire file in memory, with its properties.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LuminaireFile {
-    /// The whole file.
+    /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Flux of the aperture. \[lm\]
+    /// Luminous flux of the aperture. \[lm\]
     pub flux: Estimate,
-    /// Relative correction that closed the table's flux.
+    /// Relative correction of the table's flux.
     pub scaled_by: f64,
-    /// Largest intensity of the table. \[cd\]
+    /// Largest luminous intensity of the table. \[cd\]
     pub peak: f64,
-    /// Orientation used.
+    /// Orientation of the luminaire.
     pub aim: Aim,
-    /// Step used.
+    /// Step of C and γ.
     pub step: Step,
 }
 
@@ -87,7 +87,7 @@ pub fn encode(
     Ok(LuminaireFile { bytes, flux: table.flux, scaled_by: table.scaled_by, peak: luminaire.peak(), aim, step })
 }
 
-/// A luminaire in one of the formats.
+/// Encodes a luminaire in one of the formats.
 pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u8>, LuminaireFileError> {
     Ok(match format {
         LidFormat::Eulumdat => eulumdat::write(luminaire),
@@ -98,7 +98,7 @@ pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u
     })
 }
 
-/// The header of a luminaire file: scene, product, sky, sun and time, as the scene file states them.
+/// Returns the header of a luminaire file: scene, product, sky, sun and time, as the scene file states them.
 ///
 /// `aperture` counts from 0 and must exist; `date` is the day of issue.
 pub fn describe(scene_name: &str, scene: &SceneFile, base: &Path, aperture: usize, date: &str) -> Description {
@@ -148,7 +148,7 @@ pub fn describe(scene_name: &str, scene: &SceneFile, base: &Path, aperture: usiz
     }
 }
 
-/// Place, time, sky, sun and façade in so few words that a line of EULUMDAT holds them.
+/// Returns place, time, sky, sun and façade in short form, for one line of EULUMDAT.
 fn situation(scene: &SceneFile, base: &Path) -> String {
     let SceneFile { site, sky, .. } = scene;
     let mut parts = Vec::new();
@@ -189,7 +189,7 @@ fn sky_remark(scene: &SceneFile) -> String {
             parts.push(format!("{name} {value} {unit}"));
         }
     };
-    // What is computed with, also where it is not written.
+    // Stated because it is used, also if the file does not contain it.
     let followed = illuminances(sky, &scene.site).ok().flatten().filter(|light| light.source != Source::Stated);
     add("E_dh", followed.map_or(sky.diffuse_horizontal, |light| Some(light.diffuse_horizontal.round())), "lx");
     add("E_dn", followed.map_or(sky.sun.direct_normal, |light| Some(light.direct_normal.round())), "lx");

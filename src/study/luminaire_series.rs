@@ -1,4 +1,4 @@
-//! A series of luminaire files: the scene on the 21st of months, at hours, in states.
+//! Series of luminaire files: the scene on the 21st of months, at several hours, in several states.
 
 use super::error::StudyError;
 use super::moment;
@@ -7,41 +7,43 @@ use super::sun_position::{Place, parse_local_time};
 use crate::texts::ascii_letters;
 use std::path::Path;
 
-/// The day of every month.
+/// Day of every month.
 const DAY: u8 = 21;
 
-/// What to vary; what is empty stays as the scene has it.
+/// Values to be varied; an empty list leaves the scene's own.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
-    /// 1 to 12.
+    /// Months, 1 to 12.
     pub months: Vec<u8>,
-    /// By the scene's clock. \[h\]
+    /// Hours by the scene's clock. \[h\]
     pub hours: Vec<f64>,
     /// Keys of the system's states.
     pub states: Vec<String>,
 }
 
-/// One of a series.
+/// One member of a series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
-    /// Its name in the index: day and hour, and state.
+    /// Name in the index: day and hour, and state.
     pub name: String,
-    /// The same for the name of a file.
+    /// Name as a part of a file name.
     pub tag: String,
-    /// The scene then.
+    /// Scene of the member.
     pub scene: SceneFile,
 }
 
 impl Series {
-    /// Is nothing varied?
+    /// Whether nothing is varied.
     pub fn is_empty(&self) -> bool {
         self.months.is_empty() && self.hours.is_empty() && self.states.is_empty()
     }
 
-    /// The members, states fastest; and the times that are left out because the sun is below the horizon.
+    /// Returns the members, states varying fastest; and the times that are left out because the sun is below the
+    /// horizon.
     ///
     /// # Errors
-    /// Months or hours out of range; times without the scene's `sky.time` and place; states of a system that has none.
+    /// Returns an error for months or hours out of range, for times without the scene's `sky.time` and site, or for
+    /// states of a system without any.
     pub fn members(
         &self,
         scene: &SceneFile,
@@ -80,7 +82,7 @@ impl Series {
         Ok((list, dark))
     }
 
-    /// Times as text, `None` for the scene's own; and those without sun.
+    /// Returns the times as text, `None` for the scene's own; and those without sun.
     fn times(&self, scene: &SceneFile, base: &Path) -> Result<(Vec<Option<String>>, Vec<String>), StudyError> {
         if self.months.is_empty() && self.hours.is_empty() {
             return Ok((vec![None], Vec::new()));
@@ -128,7 +130,7 @@ impl Series {
     }
 }
 
-/// The scene at a time.
+/// Returns the scene at a time.
 fn at(scene: &SceneFile, time: &str) -> SceneFile {
     let mut scene = scene.clone();
     scene.sky.time = Some(TimeKey::Text(time.to_owned()));
@@ -136,10 +138,10 @@ fn at(scene: &SceneFile, time: &str) -> SceneFile {
     scene
 }
 
-/// Words as a part of a file's name.
+/// Returns words as a part of a file name.
 fn tag(words: &[&str]) -> String {
     let plain = |word: &str| -> String {
-        // The year and the colon say nothing that a name needs.
+        // Year and colon are not needed in a file name.
         let word = word.get(5..).filter(|_| word.contains('T') && word.len() == 16).unwrap_or(word);
         ascii_letters(word)
             .chars()

@@ -1,5 +1,6 @@
-//! An aperture as luminaire files that light other programs' rooms as the aperture lights its own: cut into tiles, the
-//! straight beam apart where the host draws the sun through by itself, and an index of where everything stands.
+//! Luminaire files of an aperture, which light other programs' rooms as the aperture lights its own: the aperture is
+//! divided into tiles, the undeviated beam is left out if the host computes direct sun by itself, and an index lists
+//! all positions.
 
 use super::error::StudyError;
 use super::luminaire_choice::{self, Probe, Reached};
@@ -19,18 +20,18 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Into how many luminaires the aperture is cut.
+/// Division of the aperture into luminaires.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tiles {
-    /// One file, beams on the four nodes round them.
+    /// One file, with beams on the four nodes around them.
     None,
-    /// As few as bring the error of a room lit by them to [`luminaire_choice::TARGET`].
+    /// Minimum number of tiles for which the error of a room lit by them is within [`luminaire_choice::TARGET`].
     Auto,
-    /// So many.
+    /// Given number of columns and rows.
     Fixed(Tiling),
 }
 
-/// Most tiles along a side.
+/// Maximum number of tiles along a side.
 const MOST: usize = 40;
 
 impl std::str::FromStr for Tiles {
@@ -62,64 +63,65 @@ impl std::fmt::Display for Tiles {
     }
 }
 
-/// What is asked for.
+/// Options of the luminaire files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wish {
-    /// Of the files.
+    /// Format of the files.
     pub format: LidFormat,
-    /// Without: as the aperture really stands.
+    /// Orientation of the luminaires; `None`: that of the aperture.
     pub aim: Option<Aim>,
-    /// Without: chosen.
+    /// Step of C and γ; `None`: chosen by the program.
     pub step: Option<Step>,
-    /// Cut how?
+    /// Division into tiles.
     pub tiles: Tiles,
-    /// The straight beam is left to the host.
+    /// Whether the undeviated beam is left out, for the host to compute.
     pub without_beam: bool,
 }
 
 /// One luminaire file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TileFile {
-    /// The whole file.
+    /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Its line of the index.
+    /// Row of the index for this file.
     pub row: Row,
 }
 
-/// What came of it.
+/// Luminaire files of an aperture, with their properties.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LuminaireSet {
-    /// One a tile, row by row from the lower left seen from outside.
+    /// Files, one per tile, row by row from the lower left as seen from outside.
     pub files: Vec<TileFile>,
-    /// The tiling; `None` where the aperture is one file.
+    /// Division into tiles; `None` if the aperture is one file.
     pub tiling: Option<Tiling>,
-    /// Flux of all files. \[lm\]
+    /// Luminous flux of all files. \[lm\]
     pub flux: Estimate,
-    /// Largest intensity of all. \[cd\]
+    /// Largest luminous intensity of all files. \[cd\]
     pub peak: f64,
-    /// Relative correction that closed the flux of the first table.
+    /// Relative correction of the first table's flux.
     pub scaled_by: f64,
-    /// How the files stand.
+    /// Orientation of the luminaires.
     pub aim: Aim,
     /// Step of C and γ.
     pub step: Step,
-    /// Straight beam of the whole aperture that the files do not hold.
+    /// Undeviated beam of the whole aperture that the files do not contain; `None` if they contain it.
     pub apart: Option<Apart>,
-    /// How well a room is lit by them; `None` where it was not examined.
+    /// Accuracy of a room lit by the files; `None` if it was not examined.
     pub reached: Option<Reached>,
 }
 
 impl LuminaireSet {
-    /// The index of the files.
+    /// Returns the index of the files.
     pub fn index(&self) -> Vec<u8> {
         luminaire_index::write(&self.files.iter().map(|file| file.row.clone()).collect::<Vec<_>>())
     }
 }
 
-/// Makes the files of an aperture, counted from 0. `text` heads them; `name` gives the name of the file of a tile.
+/// Computes the files of an aperture, counted from 0. `text`: header of the files; `name`: returns the file name of a
+/// tile.
 ///
 /// # Errors
-/// Cancelled, or a diagram that cannot be encoded.
+/// Returns an error if cancelled, or if a table cannot be encoded.
 pub fn make(
     session: &Session,
     scene: &Scene,
@@ -193,25 +195,25 @@ pub fn make(
     Ok(LuminaireSet { files, tiling, flux, peak, scaled_by, aim, step, apart, reached })
 }
 
-/// Name of the file of a tile beside `out`; of the aperture as a whole `out`'s own.
+/// Returns the file name of a tile, derived from `out`; for the aperture as a whole that of `out`.
 pub fn tile_name(out: &Path, tile: Option<usize>) -> String {
     let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let number = tile.map(|tile| format!("_{}", tile + 1)).unwrap_or_default();
     format!("{}{number}.{}", part(out.file_stem()), part(out.extension()))
 }
 
-/// Why there are no files.
+/// Error of luminaire files.
 #[derive(Debug, thiserror::Error)]
 pub enum SetError {
-    /// The scene's light.
+    /// The light of the scene cannot be computed.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The file.
+    /// The file cannot be encoded.
     #[error(transparent)]
     File(#[from] LuminaireFileError),
 }
 
-/// Straight beams as one.
+/// Returns the undeviated beams as one; `None` without any.
 fn apart(beams: &[SunBeam], surface: Surface, area: f64) -> Option<Apart> {
     let flux: f64 = beams.iter().map(|beam| beam.flux).sum();
     let sum: DVec3 = beams.iter().map(|beam| beam.flux * beam.direction.0.vector()).sum();
@@ -219,7 +221,7 @@ fn apart(beams: &[SunBeam], surface: Surface, area: f64) -> Option<Apart> {
     Some(Apart { flux, direction: surface.room_from_facade(own), normal: flux / (area * -own.z) })
 }
 
-/// What a host must know of a file of this kind.
+/// Returns the remarks that the host's user needs.
 fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reached>) -> Vec<String> {
     let mut list = Vec::new();
     if let Some(Tiling { columns, rows }) = tiling {
@@ -239,7 +241,7 @@ fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reach
     list
 }
 
-/// The same in so few words that lines of 78 characters hold them: EULUMDAT has no room for remarks.
+/// Adds the remarks in short form, for lines of 78 characters: EULUMDAT has no room for remarks.
 fn in_lines(text: &mut Description, apart: Option<&Apart>, reached: Option<&Reached>) {
     if let Some(Apart { flux, direction: d, .. }) = apart {
         let way = format!("{:.4} {:.4} {:.4}", d.x, d.y, d.z);

@@ -1,4 +1,4 @@
-//! The tables of an aperture's tiles.
+//! Intensity tables of an aperture's tiles.
 
 use crate::compute::direction::Surface;
 use crate::compute::lid::c_gamma::{Averaged, CGammaTable, Panel};
@@ -7,20 +7,20 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Where an aperture stands.
+/// Position of an aperture in the room.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
-    /// In which surface.
+    /// Surface of the aperture.
     pub surface: Surface,
-    /// Lower left corner, room axes. \[m\]
+    /// Lower left corner in room axes. \[m\]
     pub corner: DVec3,
-    /// Of the aperture. \[m\]
+    /// Size of the aperture. \[m\]
     pub size: [f64; 2],
     /// Width, depth and height of the room. \[m\]
     pub room: DVec3,
 }
 
-/// The tables of all tiles; `narrow`: those of narrow scattered light are the tile's own.
+/// Returns the tables of all tiles. `narrow`: whether each tile has its own table of narrow scattered light.
 pub(super) fn tables(averaged: &Averaged, tiling: Tiling, place: Place, narrow: bool) -> Vec<(Tile, Arc<CGammaTable>)> {
     let tiles = tiling.tiles(place.surface, place.corner, place.size);
     let share = 1.0 / tiles.len() as f64;

@@ -1,4 +1,4 @@
-//! Luminaire files read back: an index and its tiles as one aperture, as a host takes them.
+//! Import of luminaire files: an index and its tiles as one aperture, as a host uses them.
 
 use super::error::StudyError;
 use super::files;
@@ -18,33 +18,33 @@ use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Lengths that differ by less are the same: EULUMDAT rounds to millimetres. \[m\]
+/// Tolerance of lengths: EULUMDAT rounds to millimetres. \[m\]
 const SAME_LENGTH: f64 = 2e-3;
-/// Fluxes that differ by less are the same, relative: the files' zonal sum, and what rounding leaves of it.
+/// Relative tolerance of fluxes: by the zonal sum of the files, and by rounding.
 const SAME_FLUX: f64 = 0.01;
-/// Tiles may leave or share so much of the aperture, relative to it.
+/// Maximum area that tiles may leave open or overlap, relative to the aperture.
 const SAME_AREA: f64 = 5e-3;
 
-/// End of an index's name.
+/// End of the file name of an index.
 pub const INDEX: &str = ".index.csv";
 
-/// One set of luminaires: an aperture.
+/// One set of luminaires, which represents an aperture.
 #[derive(Debug, Clone)]
 pub struct LuminaireAperture {
-    /// Its place and size: all tiles together.
+    /// Position and size of all tiles together.
     pub aperture: Aperture,
-    /// Tiles of it, in the index's order.
+    /// Rows of the tiles, in the index's order.
     pub rows: Vec<Row>,
-    /// What the files hold, in the same order.
+    /// Contents of the files, in the same order.
     pub files: Vec<Luminaire>,
-    /// The tiles as a host takes them.
+    /// Tiles as a host uses them.
     pub lamps: Arc<Lamps>,
 }
 
 /// Reads a luminaire file by its extension; `None` for files of other extensions.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// Returns an error if the file cannot be read.
 pub fn read_file(path: &Path) -> Result<Option<Luminaire>, StudyError> {
     let name = files::telling_name(path)?.to_ascii_lowercase();
     let read = match name.rsplit_once('.') {
@@ -58,12 +58,12 @@ pub fn read_file(path: &Path) -> Result<Option<Luminaire>, StudyError> {
 /// Reads an index.
 ///
 /// # Errors
-/// A file that cannot be read.
+/// Returns an error if the file cannot be read.
 pub fn read_rows(path: &Path) -> Result<Vec<Row>, StudyError> {
     luminaire_index::read(&files::read(path)?).map_err(|error| wrong(path, error.to_string()))
 }
 
-/// The members of a series in their order; one nameless for a single set.
+/// Returns the names of a series' members in their order; a single empty name for a single set.
 pub fn sets(rows: &[Row]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for row in rows {
@@ -74,11 +74,11 @@ pub fn sets(rows: &[Row]) -> Vec<String> {
     names
 }
 
-/// Reads an index and the files that it names. `set`: the member of a series.
+/// Reads an index and the files that it names. `set`: name of the member of a series.
 ///
 /// # Errors
-/// A file that cannot be read, that is not as the index says, or that no host could place; tiles that leave gaps, overlap or
-/// lie in several surfaces; no such member, or a series without one being named.
+/// Returns an error if a file cannot be read, contradicts the index or cannot be placed by a host; if tiles leave gaps,
+/// overlap or lie in several surfaces; if the member does not exist, or none is named of a series.
 pub fn read(path: &Path, set: Option<&str>) -> Result<LuminaireAperture, StudyError> {
     let rows = read_rows(path)?;
     let names = sets(&rows);
@@ -92,10 +92,10 @@ pub fn read(path: &Path, set: Option<&str>) -> Result<LuminaireAperture, StudyEr
     of_rows(path, rows.into_iter().filter(|row| row.set == chosen).collect())
 }
 
-/// The files of one set; `path`: of the index.
+/// Reads the files of one set. `path`: of the index.
 ///
 /// # Errors
-/// As for [`read`].
+/// Returns the errors of [`read`].
 pub fn of_rows(path: &Path, rows: Vec<Row>) -> Result<LuminaireAperture, StudyError> {
     let surface = rows[0].surface.unwrap_or_else(|| surface_of(&rows));
     if let Some(row) = rows.iter().find(|row| row.surface.is_some_and(|other| other != surface)) {
@@ -128,10 +128,10 @@ pub fn of_rows(path: &Path, rows: Vec<Row>) -> Result<LuminaireAperture, StudyEr
     Ok(LuminaireAperture { aperture, rows, files, lamps })
 }
 
-/// Luminaires for an aperture of a scene, which they have to fill.
+/// Reads luminaires that fill an aperture of a scene.
 ///
 /// # Errors
-/// As for [`read`]; another place or size than the aperture's.
+/// Returns the errors of [`read`], and an error if position or size differ from the aperture's.
 pub fn in_place_of(aperture: &Aperture, path: &Path, set: Option<&str>) -> Result<Arc<Lamps>, StudyError> {
     let found = read(path, set).map_err(|error| StudyError::key("system.luminaires", error.to_string()))?;
     let own = found.aperture;
@@ -146,7 +146,7 @@ pub fn in_place_of(aperture: &Aperture, path: &Path, set: Option<&str>) -> Resul
     Ok(found.lamps)
 }
 
-/// What a scene calls them. They are no system: there is no dataset.
+/// Returns the placeholder system of luminaires in a scene. It has no data.
 pub fn as_system(name: &Path) -> Arc<System> {
     let label = format!("luminaire files of {}", name.file_name().unwrap_or_default().to_string_lossy());
     let dataset = Dataset { name: label.clone(), ..Dataset::default() };
@@ -157,7 +157,7 @@ fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }
 }
 
-/// A place in words.
+/// Formats the position of an aperture.
 pub fn words(aperture: &Aperture) -> String {
     let [x, y, z] = aperture.corner.to_array();
     let (surface, up) = match aperture.surface {
@@ -178,12 +178,12 @@ pub fn words(aperture: &Aperture) -> String {
     )
 }
 
-/// Where the index does not say it: all of a façade lies in y = 0.
+/// Returns the surface from the rows' positions if the index does not name it: on a façade all rows have y = 0.
 fn surface_of(rows: &[Row]) -> Surface {
     if rows.iter().all(|row| row.centre.y.abs() < SAME_LENGTH) { Surface::Facade } else { Surface::Roof }
 }
 
-/// Is the file what the index says?
+/// Checks that a file agrees with the index.
 fn check(path: &Path, luminaire: &Luminaire, row: &Row, aim: Aim) -> Result<(), StudyError> {
     if luminaire.photometry != Photometry::C {
         return Err(wrong(path, "planes that are not of type C: what they turn about here is not known".to_owned()));
@@ -193,7 +193,7 @@ fn check(path: &Path, luminaire: &Luminaire, row: &Row, aim: Aim) -> Result<(), 
         return Err(wrong(path, format!("{flux:.4} lm, but the index says {:.4} lm", row.flux)));
     }
     let opening = luminaire.opening;
-    // A side of no length may be written as a small one.
+    // A side of zero length may be written as a small one.
     let size = match aim {
         Aim::Mounted => [opening.along_c90, opening.height],
         Aim::Down => [opening.along_c0, opening.along_c90],
@@ -208,7 +208,7 @@ fn check(path: &Path, luminaire: &Luminaire, row: &Row, aim: Aim) -> Result<(), 
     Ok(())
 }
 
-/// The rectangle that tiles fill.
+/// Returns the rectangle that tiles fill.
 fn covered(rows: &[Row], surface: Surface) -> Result<Aperture, String> {
     let (mut low, mut high, mut area) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0);
     for row in rows {

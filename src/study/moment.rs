@@ -1,4 +1,4 @@
-//! The scene's date and time as people handle them: sliders, steps, words.
+//! Date and time of a scene, as the user handles them: sliders, steps, texts.
 
 use super::scene_file::{SceneFile, TimeKey};
 use super::sky::hour_of_weather;
@@ -12,19 +12,19 @@ use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
 use std::path::Path;
 
-/// The scene's local time by the clock; `None` when it is given by sun angles or is no time.
+/// Returns the scene's local time by the clock; `None` if the scene gives sun angles, or no valid time.
 pub fn of(scene: &SceneFile) -> Option<DateTime> {
     parse_local_time(&scene.sky.time.as_ref()?.text()).ok()
 }
 
-/// Writes a moment into the scene, instead of sun angles.
+/// Sets the scene's date and time, replacing sun angles.
 pub fn set(scene: &mut SceneFile, time: DateTime) {
     scene.sky.time = Some(TimeKey::of(time));
     scene.sky.sun.altitude = None;
     scene.sky.sun.azimuth = None;
 }
 
-/// Moves the scene's moment; false where there is none or the calendar ends.
+/// Moves the scene's date and time; returns `false` if there is none or the calendar ends.
 pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
     let span: Span = days.days().minutes(minutes);
     let Some(moved) = of(scene).and_then(|time| time.checked_add(span).ok()) else { return false };
@@ -32,41 +32,41 @@ pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
     true
 }
 
-/// The place whose sun shines: of an hour of a weather that of the weather, else the scene's, if it is whole. `base`: what
-/// relative paths start from.
+/// Returns the place of the sun: for a weather hour that of the weather, else the scene's, if complete. `base`: folder
+/// that relative paths start from.
 pub fn place(scene: &SceneFile, base: &Path) -> Option<Place> {
     let Some(name) = &scene.sky.weather else { return place_of_site(scene) };
     place_of_station(&kept(name, base).ok()?.weather.station)
 }
 
-/// That of a weather.
+/// Returns the place of a weather station.
 pub fn place_of_station(station: &Station) -> Option<Place> {
     Place::new(station.latitude, station.longitude, station.utc_offset).ok()
 }
 
-/// The scene's own, whatever the weather, if it is whole.
+/// Returns the scene's own place, independent of the weather; `None` if it is incomplete.
 pub fn place_of_site(scene: &SceneFile) -> Option<Place> {
     let site = &scene.site;
     Place::new(site.latitude?, site.longitude?, site.utc_offset?).ok()
 }
 
-/// Local standard time of what the scene's clock shows.
+/// Returns the local standard time of a clock time of the scene.
 fn standard(scene: &SceneFile, clock: DateTime) -> DateTime {
     scene.site.dst.standard(clock, scene.site.utc_offset.unwrap_or(0.0))
 }
 
-/// Sunrise and sunset of the scene's day at [`place`], by the clock.
+/// Returns sunrise and sunset of the scene's day at [`place`], by the clock.
 pub fn sun_hours(scene: &SceneFile, base: &Path) -> Option<RiseSet> {
     let time = of(scene)?;
     let hours = rise_set(&place(scene, base)?, time.year(), time.month(), time.day()).ok()?;
-    // By the clock that the day is read by; it changes at night.
+    // By the clock time of that day; the clock changes at night.
     let noon = time.date().at(12, 0, 0, 0);
     let ahead = if standard(scene, noon) == noon { 0.0 } else { 1.0 };
     Some(RiseSet { rise: hours.rise.map(|hour| hour + ahead), set: hours.set.map(|hour| hour + ahead) })
 }
 
-/// Altitude \[rad\] and bearing \[°\] of the sun at the scene's moment: of an hour of a weather, where its light comes from.
-/// `base`: what relative paths start from.
+/// Returns altitude \[rad\] and bearing \[°\] of the sun at the scene's moment: for a weather hour the position that
+/// its light comes from. `base`: folder that relative paths start from.
 pub fn sun(scene: &SceneFile, base: &Path) -> Option<(f64, f64)> {
     if scene.sky.weather.is_some() {
         let sun = hour_of_weather(&scene.sky, &scene.site, base).ok()??.hour.sun;
@@ -75,9 +75,10 @@ pub fn sun(scene: &SceneFile, base: &Path) -> Option<(f64, f64)> {
     sun_of_site(scene)
 }
 
-/// The same by the scene's own place and clock, whatever the weather.
+/// Returns altitude \[rad\] and bearing \[°\] of the sun by the scene's own place and clock, independent of the
+/// weather.
 pub fn sun_of_site(scene: &SceneFile) -> Option<(f64, f64)> {
-    // Stated angles say where the sun is, also beside a date.
+    // Given angles have priority over a date.
     if let (Some(altitude), Some(azimuth)) = (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
         return Some((altitude.to_radians(), azimuth));
     }
@@ -85,23 +86,24 @@ pub fn sun_of_site(scene: &SceneFile) -> Option<(f64, f64)> {
     Some((altitude, bearing.degrees()))
 }
 
-/// Sets the date and leaves the clock; false where there is none.
+/// Sets the date and leaves the clock time; returns `false` if there is none.
 pub fn set_date(scene: &mut SceneFile, date: Date) -> bool {
     let Some(now) = of(scene) else { return false };
     set(scene, date.to_datetime(now.time()));
     true
 }
 
-/// Sets the clock and leaves the date; false where there is none, or no such time.
+/// Sets the clock time and leaves the date; returns `false` if there is none, or the time does not exist.
 pub fn set_clock(scene: &mut SceneFile, hour: i8, minute: i8) -> bool {
     let (Some(now), Ok(time)) = (of(scene), Time::new(hour, minute, 0, 0)) else { return false };
     set(scene, now.date().to_datetime(time));
     true
 }
 
-/// Moves the clock, and with `date` the date too, to where the sun comes nearest to a place in the sky \[rad\], in steps
-/// of 5 minutes; false without a place and a date to start from. The day stays else: on its path the sun above the
-/// horizon is looked for, where it rises. Of two days that fit, the one nearer to the present one.
+/// Moves the clock time, and with `date` the date too, to where the sun comes nearest to a position in the sky \[rad\],
+/// in steps of 5 minutes; returns `false` without a place and a date to start from. Without `date` the day remains: the
+/// sun above the horizon is searched on its path, if it rises. Of two days that fit, the one nearer to the present one
+/// is taken.
 pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -> bool {
     let (Some(place), Some(now)) = (place_of_site(scene), of(scene)) else { return false };
     let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
@@ -115,7 +117,7 @@ pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -
     };
     let moved = |days: i32, minutes: i32| now.checked_add(days.days().minutes(minutes)).ok();
     let start = 60 * i32::from(now.hour()) + i32::from(now.minute());
-    // In steps of 4 days and half hours first, then finer about the best; a day further away must be worth it.
+    // In steps of 4 days and half hours first, then finer about the best; a date further away must fit better.
     let far = if date { 180 } else { 0 };
     let mut best = (f64::INFINITY, now);
     for days in (-far..=far).step_by(4) {
@@ -143,38 +145,38 @@ pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -
     true
 }
 
-/// Is the sun at an altitude \[rad\] and a bearing \[°\] before a façade that faces another? \[°\]
+/// Whether the sun at an altitude \[rad\] and a bearing \[°\] is in front of a façade that faces `facade`. \[°\]
 pub fn before_facade((altitude, bearing): (f64, f64), facade: f64) -> bool {
     altitude > 0.0 && (bearing - facade).to_radians().cos() * altitude.cos() > 0.0
 }
 
-/// `14:05` of hours since midnight.
+/// Formats hours since midnight: `14:05`.
 pub fn clock(hours: f64) -> String {
     let minutes = (hours * 60.0).round() as i64;
     format!("{:02}:{:02}", minutes.div_euclid(60), minutes.rem_euclid(60))
 }
 
-/// `21 Mar 12:00`
+/// Formats date and time: `21 Mar 12:00`.
 pub fn words(time: DateTime) -> String {
     texts::moment(time.day(), month(time.month()), time.strftime("%H:%M"))
 }
 
-/// A month's short name; January is 1.
+/// Returns a month's short name; January is 1.
 pub fn month(number: i8) -> Text {
     texts::MONTHS[usize::try_from(number - 1).unwrap_or(0).min(11)]
 }
 
-/// An altitude in degrees in words, with so many decimals: `41° high`, `15° below the horizon`.
+/// Formats an altitude in degrees with `decimals` decimals: `41° high`, `15° below the horizon`.
 pub fn height_words(degrees: f64, decimals: usize) -> String {
     let shown = format!("{}°", fixed(degrees.abs(), decimals));
-    // What rounds to 0 is on the horizon, not under it.
+    // An altitude that rounds to 0 is on the horizon, not below it.
     if shown.chars().all(|c| !c.is_ascii_digit() || c == '0') {
         return texts::ON_THE_HORIZON.into();
     }
     if degrees < 0.0 { texts::below_the_horizon(shown) } else { texts::high(shown) }
 }
 
-/// A bearing in words: `south`, `south-west`.
+/// Returns the name of a bearing: `south`, `south-west`.
 pub fn bearing_word(degrees: f64) -> &'static str {
     const WORDS: [Text; 8] = [
         texts::NORTH,

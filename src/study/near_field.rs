@@ -1,18 +1,18 @@
-//! `compute.near_field` and `compute.near_field_samples`: which way eq 17 is integrated, for comparison with the
-//! ordinary one.
+//! Keys `compute.near_field` and `compute.near_field_samples`: method of integrating eq 17, for comparison with the
+//! default method.
 
 use super::error::StudyError;
 use crate::compute::room::near_field::NearField;
 use serde::{Deserialize, Serialize};
 
-/// `compute.near_field`
+/// Values of `compute.near_field`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "&'static str")]
 pub enum NearFieldKey {
-    /// Closed forms and error-controlled cubature.
+    /// Closed forms and error-controlled cubature over the solid angle.
     #[default]
     SolidAngle,
-    /// The aperture as point luminaires.
+    /// Point luminaires in place of the aperture.
     Subdivision,
     /// Random points on the aperture.
     MonteCarlo,
@@ -43,13 +43,13 @@ impl From<NearFieldKey> for &'static str {
     }
 }
 
-/// Random points without a number of one's own.
+/// Default number of random points.
 const POINTS: usize = 1024;
-/// Cells along a profile angle without a number of one's own.
+/// Default number of cells along a profile angle.
 const CELLS: usize = 180;
 
-/// Judges the two keys together. `samples`: point luminaires in all, random points a sensor, or cells along each
-/// profile angle.
+/// Checks the two keys together. `samples`: number of all point luminaires, of random points per sensor, or of cells
+/// along each profile angle.
 pub fn near_field(key: NearFieldKey, samples: Option<usize>) -> Result<NearField, StudyError> {
     let within = |least: usize, most: usize, what: &str| match samples {
         Some(samples) if !(least..=most).contains(&samples) => {

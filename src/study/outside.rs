@@ -18,23 +18,23 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Maximum number of boxes of a scene: every ray is tested against all of them.
 pub const MOST_BOXES: usize = limits::BOXES;
-/// Longest way of a box from the room's origin. \[m\]
+/// Maximum distance of a box from the room's origin. \[m\]
 const FARTHEST: f64 = 1e6;
-/// Shortest side of a box: what is thinner is typed by mistake, and rays could pass it unseen. \[m\]
+/// Minimum side of a box: a thinner one is a typing error, and rays could miss it. \[m\]
 const THINNEST: f64 = 1e-6;
 /// Height above the ground below which a box is left out. \[m\]
 const LOWEST: f64 = 1e-6;
-/// Height of a box relative to its distance from all apertures below which it may be left out: it hides the sun for minutes at
-/// the horizon only.
+/// Height of a box relative to its distance from all apertures below which it may be left out: it hides the sun for
+/// minutes at the horizon only.
 const LOW: f64 = 0.01;
 /// Solid angle below which such boxes are left out together: a ten-thousandth of what a façade sees. \[sr\]
 const UNSEEN: f64 = 3e-4;
-/// Number of lit obstructions that are kept: those of a scene, coarse and fine, and those before its last change.
+/// Maximum number of stored lit obstructions: those of a scene, coarse and fine, and those before its last change.
 const MOST_LIT: usize = 3;
-/// Lengths typed as decimals do not meet exactly. \[m\]
+/// Tolerance of lengths that should meet: typed as decimals they do not exactly. \[m\]
 const TOUCHING: f64 = 1e-6;
 
-/// Judges the boxes; in room axes.
+/// Checks the boxes, and returns them in room axes.
 pub fn boxes(file: &SceneFile, room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, StudyError> {
     let keys = &file.outside;
     if keys.len() > MOST_BOXES {
@@ -42,11 +42,11 @@ pub fn boxes(file: &SceneFile, room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, S
     }
     let rises = |(solid, _): &(Solid, Finish)| solid.heights()[1] > file.site.ground_height + LOWEST;
     let all = keys.iter().enumerate().map(|(index, keys)| one_box(index, keys, room));
-    // What lies below the ground is not there.
+    // A box below the ground does not exist.
     all.filter(|one| one.as_ref().map_or(true, rises)).collect()
 }
 
-/// Judges the ground's height.
+/// Checks the height of the ground.
 fn ground_height(file: &SceneFile, apertures: &[Aperture]) -> Result<f64, StudyError> {
     let height = file.site.ground_height;
     let wrong = |message: String| Err(StudyError::key("site.ground_height", message));
@@ -60,7 +60,7 @@ fn ground_height(file: &SceneFile, apertures: &[Aperture]) -> Result<f64, StudyE
     Ok(height)
 }
 
-/// Judges the building; with its reflectance.
+/// Checks the building, and returns it with its reflectance.
 fn building(
     keys: &BuildingKeys,
     room: &BoxRoom,
@@ -157,7 +157,7 @@ fn own_box(room: &BoxRoom) -> Solid {
     Solid::new(DVec3::ZERO, room.size, 0.0)
 }
 
-/// Removes boxes that are too far and too low to matter, whatever light falls on them.
+/// Removes boxes that are too far and too low to matter, independent of the light on them.
 fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], ground: f64) {
     let far = |(solid, finish): &(Solid, Finish)| {
         let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
@@ -173,17 +173,17 @@ fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], groun
     });
 }
 
-/// What the light of obstructions depends on, everything in the world's axes.
+/// Input of the light on obstructions, everything in world axes.
 #[derive(PartialEq)]
 struct Asked {
     /// Sky, ground and skyline.
     outside: Outside,
     sun: Option<Sun>,
     setting: Setting,
-    /// Cosine and sine of the turn of the room's x axis.
+    /// Cosine and sine of the rotation of the room's x axis.
     turn: [f64; 2],
     viewpoints: Vec<DVec3>,
-    /// Relative error asked for.
+    /// Relative error target.
     target: f64,
 }
 
@@ -197,12 +197,12 @@ impl Asked {
     }
 }
 
-/// The obstructions that were lit last: another product, or another result of the same scene, has them at once.
+/// Store of the last lit obstructions, for another product or another result of the same scene.
 #[derive(Default)]
 pub struct LitObstructions(Mutex<VecDeque<(Asked, Outside)>>);
 
 impl LitObstructions {
-    /// Returns obstructions that are lit, by those who ask at the same time only once.
+    /// Returns lit obstructions; simultaneous requests compute them only once.
     fn get(&self, asked: Asked, progress: &dyn Progress) -> Result<Outside, Cancelled> {
         if rayon::current_thread_index().is_some() {
             // A thread of a parallel computation that waited here could wait for itself.
@@ -224,19 +224,19 @@ impl LitObstructions {
 pub struct Before {
     /// Bodies in room axes, on the ground.
     setting: Setting,
-    /// Corners of the apertures, or what else it is seen from, in room axes.
+    /// Points that the obstructions are seen from in room axes, by default the corners of the apertures.
     viewpoints: Vec<DVec3>,
-    /// Relative error asked for.
+    /// Relative error target.
     target: f64,
-    /// Sentences on what was assumed and what was left out.
+    /// Notes on assumptions and on what was left out.
     pub notes: Vec<String>,
 }
 
 impl Before {
-    /// Before some apertures.
+    /// Creates the obstructions in front of apertures.
     ///
     /// # Errors
-    /// Boxes, a building or a height of the ground that cannot be.
+    /// Returns an error if boxes, building or height of the ground are not valid.
     pub fn of(file: &SceneFile, room: &BoxRoom, apertures: &[Aperture]) -> Result<Self, StudyError> {
         let mut boxes = boxes(file, room)?;
         let ground = ground_height(file, apertures)?;
@@ -261,7 +261,7 @@ impl Before {
         })
     }
 
-    /// Returns the obstructions as they are seen from one point, in room axes.
+    /// Returns the obstructions as seen from one point, in room axes.
     pub fn seen_from(self, eye: DVec3) -> Self {
         Self { viewpoints: vec![eye], ..self }
     }
@@ -271,18 +271,18 @@ impl Before {
         self.setting.boxes.is_empty() && self.setting.building.is_none()
     }
 
-    /// Returns the ground with the sun's shade on it, in room axes; `None` without obstructions above ground that lies at the
-    /// room's floor. `outside`: the sky with its skyline.
+    /// Returns the ground with the sun's shade on it, in room axes; `None` without obstructions above ground that lies
+    /// at the room's floor. `outside`: the sky with its skyline.
     pub fn ground_shade(&self, outside: &Outside, sun: Option<&Sun>, orientation: Orientation) -> Option<GroundShade> {
         let any = !self.is_empty() || self.setting.ground != 0.0;
         any.then(|| GroundShade::new(&self.setting, outside, sun, orientation))
     }
 
-    /// A sky behind it, which lights it; its skyline stays. Where nothing stands there, as it was. `kept`: where the result is
-    /// looked for first.
+    /// Computes the light on the obstructions and places them in front of a sky, whose skyline remains; without
+    /// obstructions the sky is returned unchanged. `kept`: store that is searched for the result first.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns an error if cancelled.
     pub fn stand(
         &self,
         outside: Outside,

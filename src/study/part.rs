@@ -1,7 +1,7 @@
-//! A file that is being written, beside the one whose place it will take.
+//! A file that is being written, beside the file that it will replace.
 //!
-//! It is locked as long as its program lives; the system takes the lock away however the program ends. What is left without
-//! one belongs to nobody, and goes when something is written into the same folder.
+//! It is locked as long as its program runs; the system releases the lock however the program ends. A remaining file
+//! without a lock has no owner, and is removed when something is written to the same folder.
 
 use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
@@ -11,29 +11,30 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// How the name of a part ends, behind a number of this many hexadecimal digits that no other has.
+/// End of a part's name, after its number.
 const ENDING: &str = ".part";
+/// Number of hexadecimal digits of the unique number in a part's name.
 const DIGITS: usize = 16;
-/// Longer names have no room for the number: systems take 255 bytes.
+/// Maximum length of a name that a part keeps: with a longer one the number has no room in the 255 bytes of systems.
 const LONGEST_NAME: usize = 200;
-/// Where files cannot be locked, parts that were not written to for so long belong to nobody.
+/// Age without changes above which parts have no owner, where files cannot be locked.
 const OLD: Duration = Duration::from_secs(3600);
-/// New names are tried so often when somebody else took a part away between its making and its locking.
+/// Number of attempts with new names if another program removed a part between its creation and its locking.
 const TRIES: usize = 8;
 
-/// Folders that have been swept by this program.
+/// Folders from which this program has removed abandoned parts.
 static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// The file that a name stands for: of a link what it leads to.
+/// Returns the file that a name denotes: for a link its target.
 pub(super) fn resolved(path: &Path) -> PathBuf {
     let link = std::fs::symlink_metadata(path).is_ok_and(|meta| meta.is_symlink());
     let led = link.then(|| std::fs::canonicalize(path).ok()).flatten();
     led.unwrap_or_else(|| path.to_owned())
 }
 
-/// A file that is being written. Dropped before it has taken its name, it goes.
+/// A file that is being written. It is removed if it is dropped before it has been renamed.
 pub(super) struct Part {
-    /// None while it rests, and when it has taken its name.
+    /// Open file; `None` while it is closed by [`Self::rest`], and after it has been renamed.
     file: Option<File>,
     path: PathBuf,
     target: PathBuf,
@@ -41,7 +42,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Begins a file that will be `target`, with the rights of what is there.
+    /// Creates the part of a file `target`, with the permissions of an existing one.
     pub(super) fn beside(target: &Path) -> std::io::Result<Self> {
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         sweep(folder);
@@ -54,7 +55,7 @@ impl Part {
             let file = File::options().write(true).create_new(true).open(&path)?;
             let part = Self { file: Some(file), path, target: target.to_owned(), named: false };
             match part.file().try_lock() {
-                // Between its making and its locking it belonged to nobody.
+                // Between its creation and its locking it had no owner.
                 Ok(()) if !part.path.exists() => continue,
                 Err(TryLockError::WouldBlock) => continue,
                 // Where nothing can be locked, its age protects it.
@@ -68,30 +69,30 @@ impl Part {
         Err(std::io::Error::other("something takes away what is being written"))
     }
 
-    /// The file.
+    /// Returns the open file.
     ///
     /// # Panics
-    /// Never: it is there until [`Self::rest`] or [`Self::take_name`].
+    /// Never: it is open until [`Self::rest`] or [`Self::take_name`].
     pub(super) fn file(&self) -> &File {
         self.file.as_ref().expect("a part is written before it rests or takes its name")
     }
 
-    /// Adds to it.
+    /// Appends bytes.
     pub(super) fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
         self.file().write_all(bytes)
     }
 
-    /// Lets the handle go until it takes its name, and with it the lock: for seconds, not hours.
+    /// Closes the file until it is renamed, and so releases the lock: for seconds, not hours.
     pub(super) fn rest(&mut self) {
         self.file = None;
     }
 
-    /// Puts it in the place of what has its name; the file, unless it rested.
+    /// Renames the part to its target, and returns the file unless it was closed.
     pub(super) fn take_name(mut self) -> std::io::Result<Option<File>> {
         std::fs::rename(&self.path, &self.target)?;
         self.named = true;
         let file = self.file.take();
-        // Readers need not wait for it any more. Where nothing can be locked, nothing can be unlocked.
+        // Readers need not wait any more. Where nothing can be locked, nothing can be unlocked.
         drop(file.as_ref().map(File::unlock));
         Ok(file)
     }
@@ -106,7 +107,7 @@ impl Drop for Part {
     }
 }
 
-/// Is this the name of a part?
+/// Whether a name is that of a part.
 fn is_part(name: &str) -> bool {
     let number = name.strip_suffix(ENDING).and_then(|rest| rest.rsplit_once('.'));
     number.is_some_and(|(stem, number)| {
@@ -114,7 +115,7 @@ fn is_part(name: &str) -> bool {
     })
 }
 
-/// Takes away the parts of programs that ended in the middle, once for every folder.
+/// Removes the parts of programs that ended prematurely, once for every folder.
 fn sweep(folder: &Path) {
     let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(whole) {

@@ -1,7 +1,6 @@
-//! Some thousand cities to choose a site from: found by what somebody types, or by nearness.
+//! Some thousand cities for the choice of a site: found by text, or by distance.
 //!
-//! The data are those of GeoNames (see `assets/places`): latitude, longitude, elevation, and what standard time is ahead
-//! of UTC.
+//! Data from GeoNames (see `assets/places`): latitude, longitude, elevation, and UTC offset of standard time.
 
 pub use crate::formats::gazetteer::City;
 
@@ -10,26 +9,26 @@ use crate::study::scene_file::DstKey;
 use crate::texts::folded;
 use std::sync::LazyLock;
 
-/// All, the largest first.
+/// All cities, the largest first.
 pub static CITIES: LazyLock<Vec<City>> = LazyLock::new(|| {
     // The table is part of the program, and a test reads it.
     read_cities(include_bytes!("../../assets/places/places.tsv.zst")).expect("the table of places is whole")
 });
 
-/// A place this near to a city's middle bears its name. \[km\]
+/// Distance from a city's centre up to which a place is named after it. \[km\]
 const IN_CITY: f64 = 10.0;
 
-/// Along a meridian. \[km/°\]
+/// Length of a degree along a meridian. \[km/°\]
 const KM_PER_DEGREE: f64 = 111.2;
 
-/// The cities' names and countries as the search compares them.
+/// Names and countries of the cities in the form that the search compares.
 static PLAIN: LazyLock<Vec<[String; 2]>> =
     LazyLock::new(|| CITIES.iter().map(|city| [&*city.name, &*city.country].map(folded)).collect());
 
-/// How well a city, `own` its plain name, answers to a name: 0 the best; `None` where it does not.
+/// Returns the rank of a city with plain name `own` for a searched name: 0 the best; `None` if it does not match.
 fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
     let known = || std::iter::once(own).chain(city.other_names.iter().map(|other| &**other));
-    // Of a name with accents the plain form is written the same way.
+    // A name with accents has the same spelling in plain form.
     let spelled = || known().take(if city.name.is_ascii() { 1 } else { 2 });
     if known().any(|known| known == name) {
         Some(0)
@@ -44,14 +43,14 @@ fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
     }
 }
 
-/// Is a city, `country` its plain country, in a country or state that begins so, or has this code?
+/// Whether a city with plain country `country` is in a country or state that begins with `area`, or has this code.
 fn within(city: &City, country: &str, area: &str) -> bool {
     let code: String = city.code.iter().collect();
     code.eq_ignore_ascii_case(area) || city.region.eq_ignore_ascii_case(area) || country.starts_with(area)
 }
 
-/// Cities that answer to what was typed, the best first: `stutt`, `münchen`, `portland, us`. At most `most`, and how many
-/// there are.
+/// Returns at most `most` cities that match the typed text, best first, and the number of all: `stutt`, `münchen`,
+/// `portland, us`.
 pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     let typed = folded(typed.trim());
     let (name, area) = typed.split_once(',').unwrap_or((&typed, ""));
@@ -71,15 +70,16 @@ pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     (found.into_iter().take(most).map(|(_, city)| city).collect(), count)
 }
 
-/// Countries whose clocks change with those of the European Union, and with those of the United States.
+/// Codes of countries whose clocks change with those of the European Union.
 const WITH_EU: &str = "AD AL AT AX BA BE BG CH CY CZ DE DK EE ES FI FO FR GB GG GI GL GR HR HU IE IM IT JE LI LT LU LV MC MD \
                        ME MK MT NL NO PL PT RO RS SE SI SJ SK SM UA VA XK";
+/// Codes of countries whose clocks change with those of the United States.
 const WITH_US: &str = "BM BS CA CU HT PM TC US";
-/// States of the United States that keep standard time.
+/// Codes of states of the United States without summer time.
 const WITHOUT_SUMMER_TIME: [&str; 2] = ["AZ", "HI"];
 
-/// The rule of summer time at a city (IANA time zone database, 2026); [`DstKey::None`] where it keeps standard time, or
-/// has a rule without a name.
+/// Returns the rule of summer time at a city (IANA time zone database, 2026); [`DstKey::None`] if it keeps standard
+/// time, or has a rule without a name.
 pub fn summer_time(city: &City) -> DstKey {
     let code: String = city.code.iter().collect();
     let among = |codes: &str| codes.split(' ').any(|one| one == code);
@@ -100,12 +100,12 @@ pub fn summer_time(city: &City) -> DstKey {
     }
 }
 
-/// The city that lies nearest to a place \[°\], and how far away it is. \[km\]
+/// Returns the city nearest to a place \[°\], and its distance. \[km\]
 pub fn nearest(latitude: f64, longitude: f64) -> Option<(&'static City, f64)> {
     closest(latitude, longitude, 180.0)
 }
 
-/// The same among those at most `most` degrees of latitude away.
+/// Returns the nearest city of those at most `most` degrees of latitude away, and its distance. \[km\]
 fn closest(latitude: f64, longitude: f64, most: f64) -> Option<(&'static City, f64)> {
     let distance = |city: &City| {
         let east = (city.longitude - longitude + 540.0).rem_euclid(360.0) - 180.0;
@@ -116,7 +116,7 @@ fn closest(latitude: f64, longitude: f64, most: f64) -> Option<(&'static City, f
     near.map(|city| (city, distance(city))).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The city that a place \[°\] lies in.
+/// Returns the city that contains a place \[°\].
 pub fn city_at(latitude: f64, longitude: f64) -> Option<&'static City> {
     closest(latitude, longitude, IN_CITY / KM_PER_DEGREE)
         .filter(|(_, distance)| *distance < IN_CITY)

@@ -1,4 +1,5 @@
-//! What a scene needs, and what was left out and why: decided before any work, printed with every result.
+//! Plan of a computation: the stages that a scene needs, and the reasons for skipped ones. Made before any work,
+//! printed with every result.
 
 use super::scene::{Scene, surface};
 use crate::compute::btdf::{Btdf, Scattered};
@@ -7,32 +8,32 @@ use std::time::Duration;
 /// One stage of the computation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Stable name.
+    /// Stable name of the stage.
     pub name: &'static str,
-    /// True if it runs.
+    /// Whether the stage runs.
     pub runs: bool,
-    /// Why it runs or is left out.
+    /// Reason why it runs or is skipped.
     pub reason: String,
-    /// Time spent on it, once done.
+    /// Time spent on the stage.
     pub time: Duration,
 }
 
 impl Stage {
-    /// Was its result kept from before, so that it says nothing about this computation?
+    /// Whether the stage is only about a stored result, so that it says nothing about this computation.
     pub fn is_kept(&self) -> bool {
         self.reason.starts_with("reused") || self.reason == "not there yet"
     }
 }
 
-/// The list of stages.
+/// Stages of a computation.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plan {
-    /// In order of work.
+    /// Stages in order of execution.
     pub stages: Vec<Stage>,
 }
 
 impl Plan {
-    /// Looks at a scene.
+    /// Creates the plan of a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut plan = Self::default();
         let scattered = |test: fn(&Scattered) -> bool| {
@@ -40,7 +41,7 @@ impl Plan {
         };
         let regular = scene.apertures.iter().any(|a| a.transmission().is_some_and(|btdf| btdf.regular.is_some()));
         let cells = scattered(|part| !matches!(part, Scattered::Lambert(_)));
-        // Of such systems the data may be left out that the next stages look at.
+        // The data of such systems may be missing, which the next stages use.
         let described = scene.beams && scene.apertures.iter().any(|a| a.system.very.is_some());
         let sun_on = (0..scene.apertures.len()).any(|index| scene.facing(index).sun_illuminance() > 0.0);
         plan.add(
@@ -128,7 +129,7 @@ impl Plan {
         plan
     }
 
-    /// Adds what turned out on the way.
+    /// Adds a stage or a note on one that is known only during the computation.
     pub(super) fn note(&mut self, name: &'static str, runs: bool, reason: &str) {
         self.add(name, runs, reason);
     }
@@ -137,12 +138,12 @@ impl Plan {
         self.stages.push(Stage { name, runs, reason: reason.to_owned(), time: Duration::ZERO });
     }
 
-    /// Does a stage run?
+    /// Whether a stage runs.
     pub fn runs(&self, name: &str) -> bool {
         self.stages.iter().any(|stage| stage.name == name && stage.runs)
     }
 
-    /// Books time on a stage; stages that only take time are added.
+    /// Adds time to a stage; a stage without a plan entry is added.
     pub fn spend(&mut self, name: &'static str, time: Duration) {
         match self.stages.iter_mut().find(|stage| stage.name == name) {
             Some(stage) => stage.time += time,

@@ -1,6 +1,7 @@
-//! What control does with a moving product: which rule, which state at which hour of today and of the year.
+//! Shading control of a moving product: its rule, and its states over a day and a year.
 //!
-//! Today and the year are told for a sun that shines: which hours it is before the façade, and which state it asks for.
+//! Day and year are computed for permanent sunshine: the hours with the sun in front of the façade, and the states that
+//! the rule requires.
 
 use super::StudyError;
 use super::control::year::{Moment, Moving, Setting, Situation, day, year as study_year};
@@ -15,24 +16,24 @@ use crate::texts::{Text, decimal, words as texts};
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
-/// Minutes between the hours of a year.
+/// Step of a year. \[min\]
 const YEAR_STEP: u32 = 60;
-/// Minutes between the points of today.
+/// Step of a day. \[min\]
 const DAY_STEP: u32 = 30;
 
-/// What people call a rule.
+/// Texts about a control rule.
 pub struct Words {
-    /// In a list.
+    /// Name in a list.
     pub short: &'static str,
-    /// As what a product does.
+    /// Phrase for what a product does by the rule.
     pub does: &'static str,
-    /// As what it is told to do.
+    /// Phrase for the rule as an instruction.
     pub order: &'static str,
-    /// One sentence.
+    /// Description in one sentence.
     pub tip: &'static str,
 }
 
-/// What people call a rule, in the language that is spoken.
+/// Returns the texts about a control rule in the current language.
 pub fn words(mode: ControlMode) -> Words {
     use texts::*;
     let [short, does, order, tip] = match mode {
@@ -49,17 +50,17 @@ pub fn words(mode: ControlMode) -> Words {
     Words { short, does, order, tip }
 }
 
-/// A state in words: slat angles and other numbers as degrees, else as the product calls it.
+/// Returns the label of a state: slat angles and other numbers in degrees, else the product's own name.
 pub fn state_words(state: &State) -> String {
     match state.value {
-        // A key that is the number: the format wrote an angle.
+        // If the key is the number, the format has written an angle.
         Some(value) if state.key.parse() == Ok(value) => decimal(format!("{value}°")),
         _ if state.label.is_empty() => state.key.clone(),
         _ => state.label.clone(),
     }
 }
 
-/// The control of a product that was just chosen; `None`: by hand.
+/// Returns the initial control of a newly chosen product; `None`: by hand.
 pub fn first_keys(rule: FirstRule) -> Option<ControlKeys> {
     let mode = match rule {
         FirstRule::ByHand => return None,
@@ -70,12 +71,12 @@ pub fn first_keys(rule: FirstRule) -> Option<ControlKeys> {
     Some(ControlKeys::of(mode))
 }
 
-/// Place, façade and rule: all that a year of control hangs on.
+/// Site, façade and rule: all input of a year of control.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearKey {
-    /// Which product moves.
+    /// Key of the moving product.
     pub product: String,
-    /// By which rule; "fixed" with the state that is set by hand.
+    /// Control rule; "fixed" with the state that is set by hand.
     pub keys: ControlKeys,
     situation: Situation,
     opening: Aperture,
@@ -83,14 +84,15 @@ pub struct YearKey {
 }
 
 impl YearKey {
-    /// Of a scene in whose `aperture`, from 0, one product moves by these keys; `None` without place and date.
+    /// Creates the key for a scene with one product in `aperture`, from 0, that moves by these keys; `None` without
+    /// site and date.
     pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, aperture: usize, base: PathBuf) -> Option<Self> {
         moment::of(scene)?;
         let (situation, opening) = (Situation::of(scene).ok()?, opening(scene, aperture).ok()??);
         Some(Self { product: product.to_owned(), keys, situation, opening, base })
     }
 
-    /// Why a scene has no year of control, and what can be done.
+    /// Returns the reason why a scene has no year of control, and the remedy.
     pub fn missing(scene: &SceneFile) -> Option<String> {
         if moment::of(scene).is_none() {
             return Some(texts::YEAR_NEEDS_DATE.into());
@@ -106,20 +108,21 @@ impl YearKey {
     }
 }
 
-/// A state for every hour of the year.
+/// States in every hour of a year.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Year {
-    /// Of what.
+    /// Input of the year.
     pub key: YearKey,
-    /// Keys of the states, by rising value.
+    /// Keys of the states, in ascending order of their values.
     pub states: Vec<String>,
-    /// Day by day, the middle of each hour; `None` while the sun is not before the façade.
+    /// Indices of the states in the middle of each hour, day by day; `None` while the sun is not in front of the
+    /// façade.
     pub hours: Vec<Option<u16>>,
-    /// How often the device moves.
+    /// Number of state changes.
     pub movements: usize,
 }
 
-/// Keys and numbers of the states, by rising value. Without numbers their order stands for them.
+/// Returns keys and values of the states, in ascending order. Without values their order is used.
 pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
     let number = |(i, state): (usize, &State)| (state.key.clone(), state.value.unwrap_or(i as f64));
     let mut list: Vec<(String, f64)> = product.states.iter().enumerate().map(number).collect();
@@ -127,7 +130,8 @@ pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
     list
 }
 
-/// Profile angle \[°\] and place of the state among the ordered ones; `None` while the sun is not before the façade.
+/// Returns profile angle \[°\] and index of the state among the ordered ones; `None` while the sun is not in front of
+/// the façade.
 fn seen(product: &Product, states: &[String], setting: &Setting) -> Option<(f64, u16)> {
     let psi = setting.profile_angle?;
     let key = &product.states[setting.state].key;
@@ -139,7 +143,7 @@ fn ordered_keys(product: &Product) -> Vec<String> {
     ordered_states(product).into_iter().map(|(state, _)| state).collect()
 }
 
-/// The year of a product. Called in a job.
+/// Computes the year of a product. Runs as a background job.
 pub fn year(product: &Product, key: YearKey, progress: &dyn Progress) -> Result<Year, StudyError> {
     let moving = key.moving(product)?;
     let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &key.situation.sky, progress)?;
@@ -150,10 +154,10 @@ pub fn year(product: &Product, key: YearKey, progress: &dyn Progress) -> Result<
     Ok(Year { key, states, hours, movements })
 }
 
-/// A point of today: hour, profile angle \[°\] and state, or neither while the sun is not before the façade.
+/// Point of a day: hour, and profile angle \[°\] with state index; `None` while the sun is not in front of the façade.
 pub type TodayPoint = (f64, Option<(f64, u16)>);
 
-/// Every half hour of the scene's day.
+/// Computes a point for every half hour of the scene's day.
 pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<TodayPoint>, StudyError> {
     let Some(time) = moment::of(scene) else { return Ok(Vec::new()) };
     let date: Date = time.date();
@@ -164,7 +168,7 @@ pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<
     Ok(moments.iter().enumerate().map(|(k, moment)| (hour(k), seen(product, &states, &moment.settings[0]))).collect())
 }
 
-/// What a rule asks for at profile angles: points of its curve (profile angle \[°\], value); none for rules without one.
+/// Returns the points of a rule's curve (profile angle \[°\], value); none for rules without a curve.
 pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
     let device = Device::of(product)?;
     if keys.mode == ControlMode::Curve {
@@ -174,7 +178,7 @@ pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<
     Ok(settings.curve().into_iter().map(|(psi, value)| [psi.to_degrees(), value.to_degrees()]).collect())
 }
 
-/// What the numbers of a product's states are.
+/// Returns the name of the quantity of a product's state values.
 pub fn quantity(product: &Product) -> &'static str {
     let numeric = product.states.iter().all(|state| state.value.is_some());
     match (numeric, product.kind.as_str()) {

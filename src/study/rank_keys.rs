@@ -1,60 +1,60 @@
-//! `[rank]` of a scene as typed: which products are ranked in it, and by what.
+//! Keys of `[rank]` in a scene, as typed: ranked products and objectives.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// `[rank]`
+/// Keys of `[rank]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RankKeys {
-    /// Words as in the window's search; empty: the whole catalogue.
+    /// Search words for products, as in the window; empty: the whole catalogue.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub products: String,
-    /// By whose rule products move.
+    /// Source of the control rule of moving products.
     #[serde(default, skip_serializing_if = "RankControlKey::is_default")]
     pub control: RankControlKey,
-    /// Weather files instead of `year.weather`.
+    /// Weather files that replace `year.weather`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub weather: Vec<PathBuf>,
-    /// Bearings of the façade's outward normal instead of `site.azimuth`. \[°\]
+    /// Bearings of the façade's outward normal that replace `site.azimuth`. \[°\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub azimuths: Vec<f64>,
-    /// At least one.
+    /// Objectives, at least one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objective: Vec<ObjectiveKeys>,
 }
 
-/// `rank.control`
+/// Values of `rank.control`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RankControlKey {
-    /// Each product's own rule where it has one, else `[control]`.
+    /// Each product's own rule if it has one, else `[control]`.
     #[default]
     Product,
-    /// `[control]` for all that move.
+    /// The scene's `[control]` for all moving products.
     Scene,
 }
 
 impl RankControlKey {
-    /// The key's default, which is not written.
+    /// Whether the key has its default value, which is not written.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// `[[rank.objective]]`
+/// Keys of `[[rank.objective]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveKeys {
-    /// Key of a figure of the year, as `cfs year --json` names it under "metrics"; of a list its mean counts.
+    /// Key of an annual figure, as `cfs year --json` names it under "metrics"; of a list the mean counts.
     pub figure: String,
-    /// Which way is better.
+    /// Direction in which the figure is better.
     pub better: BetterKey,
-    /// Where the utility is 0.
+    /// Value of the figure with score 0.
     pub worst: f64,
-    /// Where the utility is 1.
+    /// Value of the figure with score 1.
     pub best: f64,
-    /// Counts relative to the sum of all.
+    /// Weight, relative to the sum of all weights.
     #[serde(default = "one")]
     pub weight: f64,
 }
@@ -63,12 +63,12 @@ const fn one() -> f64 {
     1.0
 }
 
-/// `rank.objective.better`
+/// Values of `rank.objective.better`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BetterKey {
-    /// The less the better.
+    /// Smaller values are better.
     Less,
-    /// The more the better.
+    /// Larger values are better.
     More,
 }

@@ -1,4 +1,4 @@
-//! The scene as it is meant: keys judged together, systems loaded, everything in the units and frames of `compute`.
+//! Resolved scene: keys checked together, systems loaded, everything in the units and frames of `compute`.
 
 use super::control::table::of_scene;
 use super::control::year::CONTROLLED;
@@ -33,47 +33,48 @@ use crate::formats::toml_place::{TomlPlace, place};
 use std::path::Path;
 use std::sync::Arc;
 
-/// One aperture with what fills it.
+/// One aperture with its system.
 #[derive(Debug, Clone)]
 pub struct SceneAperture {
-    /// Geometry.
+    /// Position and size of the aperture.
     pub aperture: Aperture,
-    /// What fills it.
+    /// System of the aperture.
     pub system: Arc<System>,
-    /// Its transmission with regular transmission separated, where that is recognised in patch-averaged data.
+    /// Transmission with regular transmission separated; `None` if that is not recognised in patch-averaged data.
     pub separated: Option<Arc<Btdf>>,
     /// Diffuse reflectance of the room side.
     pub reflectance: f64,
-    /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
+    /// Period of the visible structure (pitch of slats or cuts); `None` if it is not known. \[m\]
     pub structure: Option<f64>,
-    /// The room side reflects by its dataset's own cells instead.
+    /// Whether the room side reflects by its dataset's patches instead of diffusely.
     pub directional: bool,
-    /// Share of the light that frame and dirt leave.
+    /// Transmission factor of frame and dirt, 0 … 1.
     pub clear: f64,
-    /// The state that a control picked; `None` where the scene names it.
+    /// State that a control has chosen; `None` if the scene names it.
     pub controlled: Option<String>,
-    /// Luminaires that light the room in the system's place; `None`: the outside does, through the system.
+    /// Luminaires that light the room instead of the system; `None`: the outside does, through the system.
     pub lamps: Option<Arc<Lamps>>,
 }
 
 impl SceneAperture {
-    /// Transmission for light from outside, regular transmission separated unless the scene uses the data as given; `None` for
-    /// luminaires.
+    /// Returns the transmission for light from outside, with regular transmission separated unless the scene uses the
+    /// data as given; `None` for luminaires.
     pub fn transmission(&self) -> Option<&Btdf> {
         self.separated.as_deref().or_else(|| self.system.dataset.transmission())
     }
 
-    /// Sensors nearer than this see the structure, which the data do not hold; `None` where it is not known. \[m\]
+    /// Returns the distance below which sensors see the structure, which the data do not contain; `None` if it is not
+    /// known. \[m\]
     pub fn homogeneity_distance(&self) -> Option<f64> {
         self.structure.map(homogeneity::distance)
     }
 
-    /// What the room side reflects without direction.
+    /// Returns the diffuse reflectance of the room side; 0 if it reflects by patches.
     pub fn diffuse_reflectance(&self) -> f64 {
         if self.directional { 0.0 } else { self.reflectance }
     }
 
-    /// The dataset's back reflection, where it is followed by direction.
+    /// Returns the dataset's back reflection by patches; `None` if the room side reflects diffusely.
     pub fn back_reflection(&self) -> Option<&CellMatrix> {
         reflecting_cells(self.system.dataset.visible.reflection_back.as_ref()?.scattered.as_ref())
             .filter(|_| self.directional)
@@ -83,41 +84,41 @@ impl SceneAperture {
 /// A resolved scene.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// The box.
+    /// Room, a box.
     pub room: BoxRoom,
-    /// At least one.
+    /// Apertures, at least one.
     pub apertures: Vec<SceneAperture>,
-    /// Room against compass.
+    /// Orientation of the room to the compass.
     pub orientation: Orientation,
     /// Bearing of the façade's outward normal.
     pub facade: Bearing,
-    /// Sky, ground, skyline, and boxes before them.
+    /// Sky, ground, skyline, and boxes outside.
     pub outside: Outside,
-    /// The disc, if it shines.
+    /// Sun; `None` if it does not shine.
     pub sun: Option<Sun>,
-    /// What sky and sun are scaled to; `None` for skies that bring their own.
+    /// Illuminances that sky and sun are scaled to; `None` for skies with absolute values.
     pub illuminances: Option<Illuminances>,
-    /// Where illuminance is asked for.
+    /// Sensor points.
     pub sensors: Vec<Sensor>,
-    /// Cells along x and y when the sensors come from `sensors.plane`.
+    /// Numbers of sensors along x and y if they are those of `sensors.plane`.
     pub grid: Option<[usize; 2]>,
-    /// Interreflection wanted?
+    /// Whether interreflection is computed.
     pub interreflection: bool,
-    /// Relative error asked for.
+    /// Relative error target.
     pub error_target: Option<f64>,
-    /// Between and inside the dataset's directions.
+    /// Interpolation between and inside the dataset's directions.
     pub interpolation: Interpolation,
-    /// Is what comes through unscattered kept sharp?
+    /// Whether direct sun is transmitted as sharp beams.
     pub beams: bool,
-    /// Between the dataset's incident directions, for the sun.
+    /// Interpolation between the dataset's incident directions, for the sun.
     pub sun_interpolation: SunScheme,
-    /// Between the dataset's incident directions, for sky and ground.
+    /// Interpolation between the dataset's incident directions, for sky and ground.
     pub diffuse_interpolation: DiffuseScheme,
-    /// How an aperture's light is integrated at a sensor.
+    /// Method of integrating an aperture's light at a sensor.
     pub near_field: NearField,
-    /// What was left out of what stands outside, and what was taken for granted, in words.
+    /// Notes on what was left out of the obstructions, and on assumptions about them.
     pub outside_notes: Vec<String>,
-    /// The hour of weather that sky and sun are; `None` for skies of a model.
+    /// Weather hour of sky and sun; `None` for sky models.
     pub weather: Option<HourOfWeather>,
 }
 
@@ -134,19 +135,19 @@ impl SceneFile {
 }
 
 impl Scene {
-    /// [`Self::resolve_within`] without reports.
+    /// Resolves a scene like [`Self::resolve_within`], without reporting progress.
     ///
     /// # Errors
-    /// Of keys and files.
+    /// Returns an error if a key is wrong or a file cannot be read.
     pub fn resolve(file: &SceneFile, base: &Path, library: &dyn SystemLibrary) -> Result<Self, StudyError> {
         Self::resolve_within(file, base, library, &Silent)
     }
 
-    /// Judges the keys together, loads the systems and lights what stands outside. `base` is what relative paths start
-    /// from.
+    /// Resolves a scene: checks the keys together, loads the systems and computes the light on obstructions outside.
+    /// `base`: folder that relative paths start from.
     ///
     /// # Errors
-    /// Of keys and files; cancelled.
+    /// Returns an error if a key is wrong or a file cannot be read, or if cancelled.
     pub fn resolve_within(
         file: &SceneFile,
         base: &Path,
@@ -177,7 +178,7 @@ impl Scene {
                 _ => in_aperture(index, error),
             })?;
             let picked = if wanted == keys.system { None } else { wanted_state(&wanted) };
-            // Without diffuse light, and with nothing that comes back, a description need not become data.
+            // Without diffuse light, and without back reflection, a description need not be converted to data.
             let back = file.compute.interreflection && reflects(file);
             let need = if back || !beams { Need::Everything } else { Need::Light { lit: facing.outside.is_lit() } };
             let lamps = match &wanted {
@@ -262,7 +263,7 @@ impl Scene {
         })
     }
 
-    /// Sensors before an aperture's structure, by aperture: how many lie nearer than its homogeneity distance.
+    /// Returns the number of sensors nearer to each aperture than its homogeneity distance.
     pub fn too_near(&self) -> Vec<usize> {
         let nearer = |one: &SceneAperture| {
             one.homogeneity_distance().map_or(0, |limit| {
@@ -272,7 +273,7 @@ impl Scene {
         self.apertures.iter().map(nearer).collect()
     }
 
-    /// The outside as one aperture faces it.
+    /// Returns the outside as one aperture faces it.
     pub fn facing(&self, aperture: usize) -> Facing<'_> {
         Facing {
             outside: &self.outside,
@@ -283,11 +284,11 @@ impl Scene {
     }
 }
 
-/// Sky and ground with what stands before them, as the middle of the first aperture sees them; `None` where nothing stands
-/// outside.
+/// Returns sky and ground with the obstructions outside, as seen from the middle of the first aperture; `None` without
+/// obstructions.
 ///
 /// # Errors
-/// Keys of room, apertures or boxes; cancelled.
+/// Returns an error if a key of room, apertures or boxes is wrong, or if cancelled.
 pub fn seen_by_first_aperture(
     file: &SceneFile,
     outside: &Outside,
@@ -301,7 +302,7 @@ pub fn seen_by_first_aperture(
     let geometry = apertures(&file.aperture, &room)?;
     let orientation = Orientation::new(Bearing::from_degrees(file.site.azimuth));
     let Some([low, _, high, _]) = geometry.first().map(Aperture::corners) else { return Ok(None) };
-    // From there alone: faces that only others see stay dark.
+    // Seen from that point alone: faces that are visible only from elsewhere stay dark.
     let eye = 0.5 * (low + high);
     let before = Before::of(file, &room, &geometry)?.seen_from(eye);
     let behind = before.stand(outside.clone(), sun, orientation, None, progress)?;
@@ -319,13 +320,14 @@ pub fn ground_shade(file: &SceneFile, outside: &Outside, sun: Option<&Sun>) -> R
     Ok(before.ground_shade(outside, sun, Orientation::new(Bearing::from_degrees(file.site.azimuth))))
 }
 
-/// Area of all six sides. \[m²\]
+/// Returns the area of all six sides. \[m²\]
 pub(super) fn surface(room: &BoxRoom) -> f64 {
     let s = room.size;
     2.0 * (s.x * s.y + s.y * s.z + s.z * s.x)
 }
 
-/// Has it a back reflection that can be followed by direction? A part that is thrown back like from a pane cannot.
+/// Whether the system has a back reflection that can be computed by direction. Regular reflection, as of a pane,
+/// cannot.
 fn reflects_by_cells(system: &System) -> bool {
     system
         .dataset
@@ -335,7 +337,7 @@ fn reflects_by_cells(system: &System) -> bool {
         .is_some_and(|btdf| btdf.regular.is_none() && reflecting_cells(btdf.scattered.as_ref()).is_some())
 }
 
-/// The error with the place in the scene that led to it.
+/// Returns the error with the number of the aperture that led to it.
 fn in_aperture(index: usize, error: StudyError) -> StudyError {
     let place = |key: &str| format!("aperture[{}].{key}", index + 1);
     match error {
@@ -348,7 +350,7 @@ fn in_aperture(index: usize, error: StudyError) -> StudyError {
     }
 }
 
-/// The system's keys with the state that the control picks, where the aperture leaves the state to it.
+/// Returns the system's keys with the state that the control chooses, if the aperture leaves the state to it.
 fn controlled_state(
     keys: &ApertureKeys,
     asked: Option<&ControlQuestion<'_>>,
@@ -377,20 +379,20 @@ fn controlled_state(
     }
 }
 
-/// May light fall on an aperture from the room: from its surfaces, or from another aperture?
+/// Whether light may reach an aperture from the room: from its surfaces, or from another aperture.
 fn reflects(file: &SceneFile) -> bool {
     let rho = &file.room.reflectance;
     rho.floor > 0.0 || rho.walls > 0.0 || rho.ceiling > 0.0 || file.aperture.len() > 1
 }
 
-/// Hour of the scene's day; `None` where the sun is given by angles.
+/// Returns the hour of the scene's day; `None` if the sun is given by angles.
 fn hour(file: &SceneFile) -> Result<Option<f64>, StudyError> {
     let Some(time) = &file.sky.time else { return Ok(None) };
     let time = parse_local_time(&time.text()).map_err(|error| StudyError::key("sky.time", error.to_string()))?;
     Ok(Some(f64::from(time.hour()) + f64::from(time.minute()) / 60.0))
 }
 
-/// The state that keys name.
+/// Returns the state that the keys name.
 fn wanted_state(keys: &SystemKeys) -> Option<String> {
     match keys {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {

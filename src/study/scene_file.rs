@@ -1,7 +1,7 @@
-//! The scene file as typed: TOML keys, defaults, and ranges that can be judged without knowing the rest.
+//! Scene file as typed: TOML keys, defaults, and ranges that can be checked independently of each other.
 //!
-//! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². What the keys mean together is
-//! [`super::scene`]'s business.
+//! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². Keys that depend on each other are
+//! checked by [`super::scene`].
 
 mod dst;
 mod outside;
@@ -21,116 +21,116 @@ use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 pub use outside::{BoxKeys, BuildingKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
 use serde::{Deserialize, Serialize};
 
-/// Relative error that a scene asks for which names none.
+/// Relative error target that is assumed for a scene without one.
 pub(super) const ORDINARY_TARGET: f64 = 0.01;
 
 /// A whole scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
-    /// The box.
+    /// Room, a box.
     pub room: RoomKeys,
-    /// Windows and rooflights.
+    /// Apertures in façade and roof.
     pub aperture: Vec<ApertureKeys>,
-    /// Boxes before the façade and above the roof.
+    /// Boxes outside, in front of the façade and above the roof.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<OutsideKeys>,
     /// The building that the room belongs to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub building: Option<BuildingKeys>,
-    /// Place and ground.
+    /// Site and ground.
     #[serde(default)]
     pub site: SiteKeys,
     /// Sky and sun.
     pub sky: SkyKeys,
-    /// Where illuminance is asked for.
+    /// Sensor points.
     pub sensors: SensorKeys,
-    /// What chooses the state of moving systems.
+    /// Control of moving systems; `None`: states are fixed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
-    /// How to compute.
+    /// Settings of the computation.
     #[serde(default)]
     pub compute: ComputeKeys,
-    /// A year of weather, and what is asked of it.
+    /// Annual simulation; `None` without a year.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub year: Option<YearKeys>,
-    /// What is ranked in it, and by what.
+    /// Ranking of products; `None` without a ranking.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rank: Option<RankKeys>,
-    /// What is set beside each other: the tray of the window, the columns of `cfs compare`.
+    /// Candidates of the comparison: the list in the window, the columns of `cfs compare`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<CompareKeys>,
 }
 
 impl SceneFile {
-    /// Do boxes or a building stand outside?
+    /// Whether there are boxes or a building outside.
     pub fn has_outside(&self) -> bool {
         !self.outside.is_empty() || self.building.is_some()
     }
 
-    /// The scene without boxes and building.
+    /// Returns the scene without boxes and building.
     pub fn without_outside(&self) -> Self {
         Self { outside: Vec::new(), building: None, ..self.clone() }
     }
 }
 
-/// `[[compare]]`: one of the things that are compared. What it does not say is as in the rest of the scene.
+/// `[[compare]]`: a candidate of the comparison. Keys that it does not set are as in the rest of the scene.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CompareKeys {
-    /// What it is called; empty: by its system.
+    /// Name of the candidate; empty: named by its system.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// What fills the apertures that are filled from the catalogue, or the first aperture where none is.
+    /// System of the apertures that are filled from the catalogue, or of the first aperture if none is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub system: Option<SystemKeys>,
-    /// What chooses the state of `system` or `aperture`.
+    /// Control of `system` or `aperture`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
-    /// Another sky or moment.
+    /// Sky and date of the candidate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sky: Option<SkyKeys>,
-    /// Another place.
+    /// Site of the candidate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub site: Option<SiteKeys>,
-    /// Another room.
+    /// Room of the candidate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub room: Option<RoomKeys>,
-    /// Other apertures; empty: those of the scene.
+    /// Apertures of the candidate; empty: those of the scene.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub aperture: Vec<ApertureKeys>,
-    /// Other sensors.
+    /// Sensors of the candidate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensors: Option<SensorKeys>,
 }
 
-/// `[room]`
+/// Keys of `[room]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoomKeys {
-    /// Along the façade. \[m\]
+    /// Width of the room, along the façade. \[m\]
     pub width: f64,
-    /// Away from the façade. \[m\]
+    /// Depth of the room, perpendicular to the façade. \[m\]
     pub depth: f64,
-    /// Floor to ceiling. \[m\]
+    /// Height of the room from floor to ceiling. \[m\]
     pub height: f64,
-    /// Diffuse reflectances outside the apertures.
+    /// Diffuse reflectances of the surfaces without the apertures.
     pub reflectance: ReflectanceKeys,
 }
 
-/// `room.reflectance`
+/// Keys of `room.reflectance`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReflectanceKeys {
-    /// 0 … 1
+    /// Reflectance of the floor, 0 … 1.
     pub floor: f64,
-    /// 0 … 1
+    /// Reflectance of the walls, 0 … 1.
     pub walls: f64,
-    /// 0 … 1
+    /// Reflectance of the ceiling, 0 … 1.
     pub ceiling: f64,
 }
 
-/// `aperture.surface`
+/// Values of `aperture.surface`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SurfaceKey {
@@ -140,31 +140,32 @@ pub enum SurfaceKey {
     Roof,
 }
 
-/// `[[aperture]]`
+/// Keys of `[[aperture]]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ApertureKeys {
-    /// Façade or roof.
+    /// Surface of the aperture: façade or roof.
     pub surface: SurfaceKey,
     /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
     pub origin: [f64; 2],
-    /// Along x, and along z (façade) or y (roof). \[m\]
+    /// Size along x, and along z (façade) or y (roof). \[m\]
     pub size: [f64; 2],
-    /// What fills it.
+    /// System of the aperture.
     pub system: SystemKeys,
     /// Room-side diffuse reflectance, or "dataset".
     #[serde(default)]
     pub reflectance: ApertureReflectance,
-    /// Period of the visible structure (pitch of slats or cuts) where the dataset does not say or says it wrong. \[m\]
+    /// Period of the visible structure (pitch of slats or cuts), if the dataset does not have it or has a wrong one.
+    /// \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub structure: Option<f64>,
-    /// Share of the area that is opaque frame, spread evenly; 0 … 0.95.
+    /// Share of the area that is opaque frame, uniformly distributed; 0 … 0.95.
     #[serde(default, skip_serializing_if = "outside::is_none")]
     pub frame: f64,
-    /// Factor on all light that comes in, 0 … 1.
+    /// Dirt factor of all transmitted light, 0 … 1.
     #[serde(default = "outside::clean", skip_serializing_if = "outside::is_clean")]
     pub dirt: f64,
-    /// What chooses the state here, instead of the scene's `[control]`.
+    /// Control of this aperture, instead of the scene's `[control]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
 }
@@ -172,7 +173,7 @@ pub struct ApertureKeys {
 /// `aperture.reflectance`: a number, or "dataset".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ApertureReflectance {
-    /// The dataset's own back reflection where it has one, 0 for ideal systems.
+    /// Back reflection of the dataset if it has one; 0 for ideal systems.
     #[default]
     Dataset,
     /// Diffuse reflectance of the room side, 0 … 1.
@@ -217,29 +218,29 @@ impl<'de> Deserialize<'de> for ApertureReflectance {
     }
 }
 
-/// `[site]`
+/// Keys of `[site]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SiteKeys {
     /// Bearing of the façade's outward normal. \[°\]
     pub azimuth: f64,
-    /// \[°\], north positive.
+    /// Latitude, north positive. \[°\]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub latitude: Option<f64>,
-    /// \[°\], east positive.
+    /// Longitude, east positive. \[°\]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub longitude: Option<f64>,
-    /// Hours ahead of UTC.
+    /// Offset of local standard time from UTC. \[h\]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub utc_offset: Option<f64>,
-    /// When `sky.time` and schedules are summer time.
+    /// Rule of summer time for `sky.time` and schedules.
     #[serde(skip_serializing_if = "DstKey::is_none")]
     pub dst: DstKey,
-    /// Above the sea, for clear-sky illuminances. \[m\]
+    /// Elevation above sea level, for clear-sky illuminances. \[m\]
     pub elevation: f64,
-    /// Uniform ground, 0 … 1.
+    /// Reflectance of the uniform ground, 0 … 1.
     pub ground_reflectance: f64,
-    /// Height of the ground, room axes. \[m\]
+    /// Height of the ground in room axes. \[m\]
     pub ground_height: f64,
 }
 
@@ -258,32 +259,32 @@ impl Default for SiteKeys {
     }
 }
 
-/// `[sensors]`
+/// Keys of `[sensors]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct SensorKeys {
-    /// A grid over the floor.
+    /// Grid of sensors over the floor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<PlaneKeys>,
-    /// Listed points (x, y, z). \[m\]
+    /// Single sensor points (x, y, z). \[m\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 3]>,
-    /// Normal of the listed points.
+    /// Normal of the single points.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
 }
 
-/// `sensors.plane`
+/// Keys of `sensors.plane`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneKeys {
     /// Height above the floor. \[m\]
     pub z: f64,
-    /// Cells along x.
+    /// Number of sensors along x.
     pub nx: usize,
-    /// Cells along y.
+    /// Number of sensors along y.
     pub ny: usize,
-    /// Direction the sensors face.
+    /// Normal of the sensors.
     #[serde(default = "up")]
     pub normal: [f64; 3],
 }
@@ -292,82 +293,83 @@ const fn up() -> [f64; 3] {
     [0.0, 0.0, 1.0]
 }
 
-/// `compute.interpolation`
+/// Values of `compute.interpolation`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Interpolation {
     /// The program chooses.
     #[default]
     Auto,
-    /// The data are constant on their own cells; nothing is filtered, moved or refined.
+    /// The data are constant on their patches; nothing is filtered, moved or refined.
     Patch,
 }
 
-/// `compute.beam`
+/// Values of `compute.beam`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BeamMode {
-    /// What comes through unscattered is kept sharp: by the description where there is one, else as far as data stand out.
+    /// Sharp beams: by the optical model if there is one, else for peaks that stand out of the data.
     #[default]
     Auto,
-    /// As stored.
+    /// Patch-averaged data, used as given.
     Cells,
 }
 
 impl BeamMode {
-    /// Nothing that the file needs to say.
+    /// Whether the file can omit the key.
     fn is_auto(&self) -> bool {
         *self == Self::Auto
     }
 }
 
-/// `compute.back_reflection`
+/// Values of `compute.back_reflection`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BackReflectionMode {
-    /// By the dataset's own back reflection wherever it is given on cells and no other aperture faces this one, else
-    /// diffuse.
+    /// Directional by the dataset's back reflection if it is given by patches and no other aperture faces this one,
+    /// else diffuse.
     #[default]
     Auto,
-    /// Diffuse.
+    /// Diffuse reflection.
     Diffuse,
-    /// By cells all the same; what comes straight from other apertures is not thrown back then.
+    /// Directional by patches in any case; direct light from other apertures is then not reflected.
     Directional,
 }
 
 impl BackReflectionMode {
-    /// Nothing that the file needs to say.
+    /// Whether the file can omit the key.
     fn is_auto(&self) -> bool {
         *self == Self::Auto
     }
 }
 
-/// `[compute]`
+/// Keys of `[compute]`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ComputeKeys {
-    /// False: the direct component alone.
+    /// Whether interreflection is computed; `false`: the direct component alone.
     pub interreflection: bool,
-    /// Relative error asked for; the program chooses its effort.
+    /// Relative error target, by which the program chooses its effort.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_target: Option<f64>,
-    /// Between and inside the dataset's directions.
+    /// Interpolation between and inside the dataset's directions.
     pub interpolation: Interpolation,
-    /// Between incident directions, for the sun.
+    /// Interpolation between incident directions, for the sun.
     #[serde(with = "super::scheme_words::sun")]
     pub sun_interpolation: SunScheme,
-    /// Between incident directions, for sky and ground.
+    /// Interpolation between incident directions, for sky and ground.
     #[serde(with = "super::scheme_words::diffuse")]
     pub diffuse_interpolation: DiffuseScheme,
-    /// How an aperture's light is integrated at a sensor.
+    /// Method of integrating an aperture's light at a sensor.
     pub near_field: NearFieldKey,
-    /// Effort of the methods that have one: point luminaires in all, random points a sensor, cells along each angle.
+    /// Effort of the methods that have one: number of point luminaires, of random points per sensor, of cells along
+    /// each angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near_field_samples: Option<usize>,
-    /// What becomes of light that comes through unscattered.
+    /// Treatment of light that is transmitted unscattered.
     #[serde(skip_serializing_if = "BeamMode::is_auto")]
     pub beam: BeamMode,
-    /// How apertures of `reflectance = "dataset"` reflect the room's light.
+    /// Reflection of the room's light by apertures with `reflectance = "dataset"`.
     #[serde(skip_serializing_if = "BackReflectionMode::is_auto")]
     pub back_reflection: BackReflectionMode,
 }

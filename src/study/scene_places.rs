@@ -1,4 +1,4 @@
-//! Where a scene's room, apertures and sensors are: their keys judged, in the room's axes.
+//! Geometry of a scene's room, apertures and sensors, from their checked keys, in room axes.
 
 use super::error::StudyError;
 use super::scene_file::{ApertureKeys, RoomKeys, SceneFile, SensorKeys, SurfaceKey};
@@ -9,7 +9,7 @@ use crate::compute::room::direct::Sensor;
 use crate::compute::room::mesh::BoxRoom;
 use glam::DVec3;
 
-/// Most sensors that one scene may have.
+/// Maximum number of sensors of a scene.
 const MOST_SENSORS: usize = limits::SENSORS;
 
 pub(super) fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, StudyError> {
@@ -20,7 +20,7 @@ pub(super) fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> R
     }
 }
 
-/// The room.
+/// Checks the room, and creates it.
 pub(super) fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
     let length = |key: &str, value| within(key, value, 1e-3, 1e5, " m");
     let share = |key: &str, value| within(key, value, 0.0, 1.0, "");
@@ -39,12 +39,12 @@ pub(super) fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
 /// Returns the geometry of the aperture `aperture` of a scene, counted from 0; `None` where there are fewer.
 ///
 /// # Errors
-/// Keys of room and apertures.
+/// Returns an error if a key of room or apertures is wrong.
 pub fn opening(scene: &SceneFile, aperture: usize) -> Result<Option<Aperture>, StudyError> {
     Ok(apertures(&scene.aperture, &room(&scene.room)?)?.get(aperture).copied())
 }
 
-/// The apertures, each in its wall and apart from all others.
+/// Checks the apertures: each must be in its surface, without overlapping another.
 pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, StudyError> {
     if keys.is_empty() {
         return Err(StudyError::key("aperture", "the scene needs at least one [[aperture]]"));
@@ -61,7 +61,7 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
             SurfaceKey::Roof => (Surface::Roof, "roof", [room.size.x, room.size.y]),
         };
         for ((from, size), limit) in keys.origin.into_iter().zip(keys.size).zip(limits) {
-            // Written so that what is no number fails too.
+            // Written so that NaN fails too.
             if !(size > 0.0 && size.is_finite()) {
                 return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
             }
@@ -74,7 +74,7 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
             let slack = 1e-9 * limit;
             if !(from >= -slack && from + size <= limit + slack) {
                 return Err(StudyError::key(
-                    // The key that is to be changed: from a good origin it is the size that reaches too far.
+                    // The key to be changed: with a valid origin the size is too large.
                     name(if from >= -slack && from <= limit { "size" } else { "origin" }),
                     format!("{from} m to {} m lies beyond the {wall}, 0 to {} m", from + size, limit),
                 ));
@@ -105,14 +105,14 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
     Ok(list)
 }
 
-/// Share of its light that an aperture's frame and dirt leave; `index` from 0.
+/// Returns the transmission factor of an aperture's frame and dirt; `index` from 0.
 pub(super) fn clear(keys: &ApertureKeys, index: usize) -> Result<f64, StudyError> {
     let name = |key: &str| format!("aperture[{}].{key}", index + 1);
     let frame = within(&name("frame"), keys.frame, 0.0, 0.95, "")?;
     Ok((1.0 - frame) * within(&name("dirt"), keys.dirt, 0.0, 1.0, "")?)
 }
 
-/// The sensors, and how many stand along each side where they are a plane.
+/// Returns the sensors, and their numbers along each side if they are a plane.
 pub(super) fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[usize; 2]>), StudyError> {
     let mut list = Vec::new();
     let mut grid = None;
@@ -125,7 +125,7 @@ pub(super) fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>,
         within("sensors.plane.z", plane.z, 0.0, room.size.z, " m")?;
         let normal = unit("sensors.plane.normal", plane.normal)?;
         for (key, n) in [("sensors.plane.nx", plane.nx), ("sensors.plane.ny", plane.ny)] {
-            // Judged before the list is made: a slip of the keyboard must not fill the memory.
+            // Checked before the list is made: a typing error must not fill the memory.
             if n == 0 || n > MOST_SENSORS {
                 return Err(StudyError::key(key, format!("{n} cells (allowed: 1 to {MOST_SENSORS})")));
             }
@@ -144,7 +144,7 @@ pub(super) fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>,
                 list.push(Sensor { position, normal });
             }
         }
-        // With points besides, the results are no grid that could be drawn as a plan.
+        // With additional points the results are not a grid that could be drawn as a plan.
         if keys.points.is_empty() {
             grid = Some([plane.nx, plane.ny]);
         }
@@ -153,7 +153,7 @@ pub(super) fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>,
         return Err(StudyError::key("sensors.points", format!("more than {MOST_SENSORS} sensors")));
     }
     if !keys.points.is_empty() {
-        // Points have no plane to say where they face: a desk's upper side is meant.
+        // Points have no plane that defines their normal: upwards, as for a desk, is assumed.
         let normal = unit("sensors.normal", keys.normal.unwrap_or([0.0, 0.0, 1.0]))?;
         for (number, point) in keys.points.iter().enumerate() {
             let position = DVec3::from_array(*point);

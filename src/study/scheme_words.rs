@@ -1,25 +1,25 @@
-//! Words of the scene file for the ways between incident directions: `compute` knows the words, serde stays out of it.
+//! Keys of the interpolation schemes in scene files: `compute` defines them, serde is used here only.
 
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
-/// One clear sentence: which key, what it says, what it may say.
+/// Returns the message about an unknown scheme: key, given word, allowed words.
 fn unknown<'a>(key: &str, word: &str, allowed: impl Iterator<Item = &'a str>) -> String {
     let list: Vec<String> = allowed.map(|word| format!("\"{word}\"")).collect();
     format!("compute.{key}: \"{word}\" is not known (allowed: {})", list.join(", "))
 }
 
-/// `compute.sun_interpolation`
+/// Serialisation of `compute.sun_interpolation`.
 pub mod sun {
     use super::*;
 
-    /// The scheme's word; the default stays the program's choice.
+    /// Writes the scheme's key; the default is written as the program's choice.
     pub fn serialize<S: Serializer>(scheme: &SunScheme, serializer: S) -> Result<S::Ok, S::Error> {
         let auto = *scheme == SunScheme::default();
         serializer.serialize_str(if auto { SunScheme::AUTO } else { scheme.key() })
     }
 
-    /// The word's scheme; an error lists the words.
+    /// Reads a scheme by its key; an error lists the keys.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SunScheme, D::Error> {
         let word = String::deserialize(deserializer)?;
         let allowed = [SunScheme::AUTO].into_iter().chain(SunScheme::ALL.map(SunScheme::key));
@@ -27,16 +27,16 @@ pub mod sun {
     }
 }
 
-/// `compute.diffuse_interpolation`
+/// Serialisation of `compute.diffuse_interpolation`.
 pub mod diffuse {
     use super::*;
 
-    /// The scheme's word.
+    /// Writes the scheme's key.
     pub fn serialize<S: Serializer>(scheme: &DiffuseScheme, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(scheme.key())
     }
 
-    /// The word's scheme; an error lists the words.
+    /// Reads a scheme by its key; an error lists the keys.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DiffuseScheme, D::Error> {
         let word = String::deserialize(deserializer)?;
         let allowed = DiffuseScheme::ALL.into_iter().map(DiffuseScheme::key);

@@ -1,5 +1,5 @@
-//! Descriptions that go with the data computed from them: with all layers in their own text, whatever folder or
-//! catalogue they came from.
+//! Self-contained descriptions that are stored with the data computed from them: all layers are in their own text,
+//! independent of folder and catalogue.
 
 use super::goniophotometer::{Base, Described, LayerLibrary};
 use crate::compute::btdf::DescribedState;
@@ -7,13 +7,13 @@ use crate::compute::system::stack::LayerSource;
 use crate::formats::system_toml::{self, MOST_NESTED, is_system_file};
 
 impl Described {
-    /// The text with all layers in it that are system files, built-in or beside it, or products of the catalogue with a
-    /// description of their own. `None` where a layer is measured data, which no text replaces, or cannot be read.
+    /// Returns the text with all layers included that are system files, built-in or beside it, or products of the
+    /// catalogue with a description. `None` if a layer is measured data, which no text replaces, or cannot be read.
     pub fn self_contained(&self, library: &dyn LayerLibrary) -> Option<String> {
         self.contained_within(library, 0)
     }
 
-    /// What goes with the data of a state.
+    /// Returns the description that is stored with the data of a state.
     pub fn described(&self, state: &str, library: &dyn LayerLibrary) -> Option<DescribedState> {
         Some(DescribedState { text: self.self_contained(library)?, state: state.to_owned() })
     }

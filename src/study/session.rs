@@ -1,5 +1,6 @@
-//! Answers questions about scenes, and keeps between them what did not change: factored rooms, and what sensors and
-//! surfaces see of each aperture. A new sky, time or product of the same basis costs only products with these.
+//! Sessions compute the light of scenes, and store what does not change between them: factored rooms, and the responses
+//! of sensors and surfaces to each aperture. A new sky, time or product of the same basis costs only products with
+//! these.
 
 mod behind;
 mod creases;
@@ -64,13 +65,13 @@ use targets::cubature;
 use unit_beams::UnitBeams;
 use weights::{ByCells, Response};
 
-/// What a room computes first, as progress names it.
+/// First stage of a room, as progress names it.
 const DIRECT: &str = "direct light";
 
-/// Steps that a room reports: emission, direct light, two meshes.
+/// Number of stages that a room reports: emission, direct light, two meshes.
 const STEPS: usize = 4;
 
-/// Caches. One for the life of a program; shared between threads.
+/// Caches of the computations. One session lasts as long as the program, and is shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
     gather: Cache<Vec<[Reconstruction; 2]>>,
@@ -87,9 +88,9 @@ pub struct Session {
     trial_skies: Cache<Vec<Outside>>,
     /// Obstructions prepared for the hours of a year.
     standing: Cache<Prepared>,
-    /// What points of apertures see of them.
+    /// Counts of obstructions that points of apertures see.
     seen_patches: Cache<Vec<Vec<Counts>>>,
-    /// Where on an aperture sensors see cells.
+    /// Weights by which sensors see patches at points of an aperture.
     cells_at_points: Cache<Vec<CellWeights>>,
     by_cells: Cache<ByCells>,
     by_nodes: Cache<Vec<ByCells>>,
@@ -99,9 +100,9 @@ pub struct Session {
     interpolators: Cache<Interpolator>,
     suns: Cache<(VerySystem, SunThrough)>,
     skies: Cache<(VerySystem, SkyThrough)>,
-    /// The data stay alive with them, so that no others can have their address.
+    /// Peaks of datasets. The datasets stay alive with them, so that no others can have their address.
     peaks: Cache<(Arc<Dataset>, Peaks)>,
-    /// Is what an aperture throws back without direction taken as even over it?
+    /// Whether light that an aperture reflects diffusely is taken as uniform over the aperture.
     evenly: bool,
 }
 
@@ -112,26 +113,27 @@ impl Default for Session {
 }
 
 impl Session {
-    /// Empty caches.
+    /// Creates a session with empty caches.
     pub const fn new() -> Self {
         Self::keeping(1, false)
     }
 
-    /// For work that goes from product to product and does not come back: less is kept of what hangs on a product, and as much
-    /// of what hangs on the weather. The room is solved once for all of them: what panes and diffusers throw back is even over
-    /// each aperture. Beside a patch of sun that is off by up to 0.5 % for a pane, over a year by 0.03 % for a white diffuser;
-    /// the errors say so.
+    /// Creates a session for work that passes from product to product and does not return: less is stored of what
+    /// depends on a product, and as much of what depends on the weather. The room is solved once for all of them: light
+    /// that panes and diffusers reflect is taken as uniform over each aperture. Near a patch of sun the error
+    /// is up to 0.5 % for a pane, over a year 0.03 % for a white diffuser; the stated errors include it.
     pub const fn passing() -> Self {
         Self::keeping(3, true)
     }
 
-    /// The same with what is thrown back as it is from point to point: a room for every reflectance.
+    /// Returns the session with reflected light varying from point to point of an aperture: one room for every
+    /// reflectance.
     #[must_use]
     pub fn point_by_point(self) -> Self {
         Self { evenly: false, ..self }
     }
 
-    /// A part of what is kept usually.
+    /// Creates a session with 1 / `part` of the usual cache sizes.
     const fn keeping(part: usize, evenly: bool) -> Self {
         Self {
             rooms: Cache::new(9 / part),
@@ -157,14 +159,14 @@ impl Session {
             bands: Cache::new(18 / part),
             interpolators: Cache::new(6 / part),
             suns: Cache::new(66 / part),
-            // Of a blind all states: light and glare go through them one after the other.
+            // All states of a blind: light and glare pass through them one after the other.
             skies: Cache::new(21 / part),
             peaks: Cache::new(6 / part),
             evenly,
         }
     }
 
-    /// The light of one aperture (eq 5). `aperture` counts from 0 and must exist.
+    /// Computes the light of one aperture (eq 5). `aperture` counts from 0 and must exist.
     pub fn lid(&self, scene: &Scene, aperture: usize, progress: &dyn Progress) -> Result<LidResult, StudyError> {
         check(progress)?;
         let geometry = &scene.apertures[aperture].aperture;
@@ -181,7 +183,7 @@ impl Session {
         result.checked()
     }
 
-    /// Illuminance at every sensor.
+    /// Computes the illuminance at every sensor.
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
@@ -231,7 +233,7 @@ impl Session {
             (vec![Estimate::default(); scene.sensors.len()], 0.0)
         };
         plan.spend("interreflection", clock.elapsed());
-        // What the data leave open of the flux that comes in, they leave open of what it becomes.
+        // The relative uncertainty of the incoming flux by the data also applies to the interreflected light.
         let doubted: f64 =
             emissions.iter().zip(&scene.apertures).map(|(e, one)| e.exitance_doubt() * one.aperture.area()).sum();
         let open = if flux.value > 0.0 { doubted / flux.value } else { 0.0 };
@@ -252,15 +254,15 @@ impl Session {
         Ok(RoomResult { sensors, flux, flux_gap, beams, outside, plan })
     }
 
-    /// Is everything there that sensors and apertures are to each other?
+    /// Whether the responses of all sensors to the apertures are stored.
     fn holds_receptions(&self, scene: &Scene, emissions: &[Emission]) -> bool {
         emissions.iter().enumerate().all(|(index, emission)| {
             bases(emission).iter().all(|basis| self.reception.holds(&reception_key(scene, index, *basis)))
         })
     }
 
-    /// Emergent cells that send nothing to any sensor have no weights to be computed, and without interreflection their
-    /// light counts for nothing.
+    /// Adds a note on emergent cells that send no light to any sensor: they need no weights, and without
+    /// interreflection their light does not count.
     fn note_unseen(
         &self,
         scene: &Scene,
@@ -284,7 +286,7 @@ impl Session {
         Ok(())
     }
 
-    /// What every sensor receives from one aperture per luminance, on the cells of a basis.
+    /// Returns the response of every sensor to one aperture's luminance, on the cells of a basis.
     pub(super) fn receptions(
         &self,
         scene: &Scene,
@@ -306,7 +308,7 @@ impl Session {
         })
     }
 
-    /// The same cell by cell.
+    /// Returns the responses of all sensors to one aperture's luminance, cell by cell.
     pub(super) fn seen_cells(
         &self,
         scene: &Scene,
@@ -321,7 +323,8 @@ impl Session {
         })
     }
 
-    /// What sensors see of an aperture on the cells of a basis.
+    /// Returns the response of the sensors to an aperture on the cells of a basis: stored, or computed sensor by
+    /// sensor.
     fn seen<'a>(
         &self,
         scene: &'a Scene,
@@ -335,7 +338,7 @@ impl Session {
         Ok(Seen::Anew(&scene.apertures[index].aperture, basis))
     }
 
-    /// What every sensor receives from one aperture by bands of the profile angle.
+    /// Returns the response of every sensor to one aperture by bands of the profile angle.
     fn band_weights<'a>(
         &self,
         scene: &'a Scene,
@@ -351,7 +354,7 @@ impl Session {
         self.kept_bands(scene, index, (upright, count), progress).map(SeenBands::Kept)
     }
 
-    /// The same for bands of a kind: upright or not, and how many; always kept.
+    /// Returns the responses for a number of bands, vertical or horizontal; always stored.
     pub(super) fn kept_bands(
         &self,
         scene: &Scene,
@@ -398,8 +401,8 @@ impl Session {
                 Some(bands) => Some(self.band_weights(scene, index, bands, progress)?),
                 None => None,
             };
-            // Below this a sensor is dark: the error is relative to what it receives, also in dark corners, since what the
-            // rules state there is thousands of times what they miss.
+            // Below this a sensor is dark: the error is relative to the illuminance, also in dark corners, since the
+            // error that the rules state there is thousands of times the actual one.
             let absolute = 1e-14 * facing.outside.diffuse_horizontal();
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
             let part = in_blocks(scene, DIRECT, progress, |s, sensor| {
@@ -416,7 +419,7 @@ impl Session {
     }
 }
 
-/// What is to be said of an aperture's beams.
+/// Returns the note on an aperture's beams.
 fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
     let said = emission.notes.iter().rev().find_map(|note| note.strip_prefix("sun: "));
     match (said, emission.beam_source) {
@@ -430,7 +433,7 @@ fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
     }
 }
 
-/// The bases of an emission's parts on cells; one `None` where there are no such parts.
+/// Returns the bases of an emission's parts on cells; one `None` if there are no such parts.
 fn bases(emission: &Emission) -> Vec<Option<&RingBasis>> {
     let own: Vec<_> = emission.cells.iter().map(|light| Some(&*light.basis)).collect();
     if own.is_empty() { vec![None] } else { own }

@@ -1,4 +1,4 @@
-//! From the scene's `[sky]` and `[site]` to sky and sun: which keys belong together, and what they may be.
+//! Sky and sun from the scene's `[sky]` and `[site]`: combinations of keys, and their ranges.
 
 mod hour;
 mod illuminance;
@@ -20,8 +20,8 @@ use crate::compute::weather::Hour;
 use crate::formats::scan::read_scan;
 use std::path::Path;
 
-/// Sky, ground and skyline, and the sun where there is a beam and any of its disc is above the horizon.
-/// `base_dir`: the scene file's directory, which `sky.file` is relative to.
+/// Returns sky, ground and skyline, and the sun if it has a beam and any part of its disc is above the horizon.
+/// `base_dir`: folder of the scene file, which `sky.file` is relative to.
 pub fn outside_from_keys(
     sky: &SkyKeys,
     site: &SiteKeys,
@@ -40,12 +40,12 @@ pub fn outside_from_keys(
             (scaled(Distribution::uniform(), light.diffuse_horizontal)?, light.direct_normal)
         }
         SkyModelKey::Cie => {
-            // A wrong type is told first: whether the sun is needed hangs on it.
+            // A wrong type is reported first: whether the sun is needed depends on it.
             let distribution = cie_distribution(sky, sun)?;
             let light = of_sun(sky, site, sun)?;
             (scaled(distribution, light.diffuse_horizontal)?, light.direct_normal)
         }
-        // Judged above: a model of this name belongs to weather, which was not given.
+        // Checked above: a model of this name belongs to weather, which was not given.
         SkyModelKey::Weather => return Err(wrong("sky.weather", "missing: the name of a weather file")),
         SkyModelKey::Scan => (measured(sky, base_dir)?, sky.sun.direct_normal.unwrap_or(0.0)),
         SkyModelKey::Perez => {
@@ -59,19 +59,20 @@ pub fn outside_from_keys(
     finished(outside, sun, direct_normal, sky, site)
 }
 
-/// Sky and sun of an hour of many: with the ground of `site` and the skyline of `sky`, whose model and values are not read;
-/// scaled to 2e-5.
+/// Returns sky and sun of one hour of weather: with the ground of `site` and the skyline of `sky`, whose model and
+/// values are not used; scaled to 2e-5.
 ///
 /// # Errors
-/// Ground or skyline out of range.
+/// Returns an error if ground or skyline are out of range.
 pub fn outside_of_hour(hour: &Hour, sky: &SkyKeys, site: &SiteKeys) -> Result<(Outside, Option<Sun>), SkyKeyError> {
     finished(hour::sky_of(hour, Outside::quickly)?, Some(hour.sun), hour.direct_normal, sky, site)
 }
 
-/// The same under a sky that is equally bright all over: for what asks where the sun is, and whether there is light.
+/// Returns outside and sun of an hour under a uniform sky: for uses that need only the sun position, and whether there
+/// is light.
 ///
 /// # Errors
-/// As [`outside_of_hour`].
+/// Returns the errors of [`outside_of_hour`].
 pub fn even_outside_of_hour(
     hour: &Hour,
     sky: &SkyKeys,
@@ -81,7 +82,7 @@ pub fn even_outside_of_hour(
     finished(even, Some(hour.sun), hour.direct_normal, sky, site)
 }
 
-/// Sun, ground and skyline added to a sky.
+/// Adds sun, ground and skyline to a sky.
 fn finished(
     outside: Outside,
     sun: Option<Dir<World>>,
@@ -120,7 +121,7 @@ fn cie_distribution(sky: &SkyKeys, sun: Option<Dir<World>>) -> Result<Distributi
         let message = format!("type {sky_type} has a circumsolar part: give altitude and azimuth, or sky.time");
         return Err(wrong("sky.sun", message));
     }
-    // The other types take no notice of the direction.
+    // The other types do not depend on the direction.
     let sun = sun.unwrap_or(Dir::from_unit(glam::DVec3::Z));
     Distribution::cie(sky_type, sun).ok_or_else(|| wrong("sky.type", format!("{sky_type} is no type: give {RIGHT}")))
 }
@@ -138,7 +139,7 @@ fn measured(sky: &SkyKeys, base_dir: &Path) -> Result<Outside, SkyKeyError> {
     }
 }
 
-/// The sky, and the beam on a plane that faces the sun \[lx\]: as given, else by luminous efficacy.
+/// Returns the sky, and the direct normal illuminance \[lx\]: as given, else by luminous efficacy.
 fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, f64), SkyKeyError> {
     let need = |key, value: Option<f64>| {
         value.ok_or_else(|| wrong(key, "missing: model \"perez\" needs it, in W/m² on the horizontal plane"))
@@ -161,7 +162,7 @@ fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, 
     let up = altitude > 0.0;
     let (direct, sun, altitude) =
         if up { (direct, sun, altitude) } else { (0.0, Dir::from_altitude_bearing(0.0, sun.bearing()), 0.0) };
-    // Near the horizon a beam on the horizontal plane is more than the sun sends: the solar constant bounds it.
+    // Near the horizon a horizontal beam may mean more than the sun emits: the solar constant limits it.
     let direct_normal = if up { direct / altitude.sin() } else { 0.0 };
     if direct_normal > 1500.0 {
         let message = format!(
@@ -171,7 +172,7 @@ fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, 
         return Err(wrong("sky.direct_horizontal_irradiance", message));
     }
     if dark {
-        // No diffuse light: the clearness is infinite, there is no sky but the sun.
+        // Without diffuse light the clearness is infinite, and there is no sky but the sun.
         if sky.diffuse_horizontal.unwrap_or(0.0) > 0.0 {
             let message = "0 W/m², but diffuse_horizontal is above 0 lx: give the irradiance that belongs to it";
             return Err(wrong("sky.diffuse_horizontal_irradiance", message));

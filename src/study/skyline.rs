@@ -1,4 +1,4 @@
-//! From `sky.skyline` to a skyline that rises and falls with the bearing.
+//! Skyline from `sky.skyline`, which varies with the bearing.
 
 use super::scene_file::SkylineKeys;
 use crate::compute::limits;
@@ -7,10 +7,10 @@ use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::skyline::Skyline;
 use std::sync::Arc;
 
-/// A key that is wrong, and what is wrong and would be right.
+/// Name of a wrong key, and the error with what is expected.
 pub type Wrong = (&'static str, String);
 
-/// Judges `sky.skyline`.
+/// Checks `sky.skyline`, and creates the skyline.
 pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
     let wrong = |key, message: String| Err((key, message));
     if !(0.0..=limits::LUMINANCE).contains(&keys.luminance) {
@@ -43,7 +43,7 @@ pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
     }
 }
 
-/// An outside behind a skyline that has no boxes before it.
+/// Returns an outside with a skyline and without boxes.
 pub fn behind_skyline(outside: Outside, skyline: Skyline) -> Outside {
     outside.behind(Arc::new(Surroundings::dark(Vec::new(), Some(skyline))))
 }

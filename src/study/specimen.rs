@@ -1,5 +1,5 @@
-//! What a description makes: its layers run together into one specimen, in either spectral band, and what of it is known in the
-//! solar one.
+//! Optical model of a described system: its layers combined into one model in either spectral band, and the materials
+//! with known solar properties.
 
 use super::error::StudyError;
 use super::goniophotometer::{Described, LayerLibrary};
@@ -15,11 +15,11 @@ use crate::compute::system::stack::{DataLayer, Layer, LayerSource, Stack};
 use crate::formats::system_toml::{EACH_STATE, MOST_NESTED, is_system_file};
 use std::sync::Arc;
 
-/// Layers of a stack with all stacks in it, at most.
+/// Maximum number of layers of a stack, including nested stacks.
 const MOST_LAYERS: usize = 40;
 
-/// A layer of a stack. Panes next to each other stay panes: light keeps its polarisation between them, which matrices
-/// do not know.
+/// A layer of a stack. Adjacent panes are kept as panes: light keeps its polarisation between them, which matrices do
+/// not contain.
 enum LayerRun {
     Panes(Vec<Pane>),
     Other(Box<dyn Specimen>),
@@ -33,7 +33,7 @@ impl LayerRun {
         }
     }
 
-    /// By a quarter turn about the normal, which panes do not notice.
+    /// Rotates the layer by a quarter turn about the normal, which does not affect panes.
     fn turn(&mut self) {
         if let Self::Other(_) = self
             && let Self::Other(specimen) = std::mem::replace(self, Self::Panes(Vec::new()))
@@ -44,7 +44,7 @@ impl LayerRun {
 }
 
 impl Described {
-    /// Keys of its states. For a stack with a moving layer, those of the layer.
+    /// Returns the keys of the states. For a stack with a moving layer, those of the layer.
     pub fn states(&self, library: &dyn LayerLibrary) -> Result<Vec<String>, StudyError> {
         self.states_within(library, 0)
     }
@@ -71,12 +71,13 @@ impl Described {
         }
     }
 
-    /// One state, ready to be measured.
+    /// Creates the optical model of one state.
     pub fn specimen(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn Specimen>, StudyError> {
         self.specimen_in(BandName::Visible, state, library)
     }
 
-    /// The same in a spectral band; what has no solar properties is taken by those of light, see [`Self::materials`].
+    /// Creates the optical model of one state in a spectral band. Visible properties replace missing solar ones, see
+    /// [`Self::materials`].
     pub fn specimen_in(
         &self,
         band: BandName,
@@ -92,7 +93,7 @@ impl Described {
         })
     }
 
-    /// Appends the system as a layer. Of a stack all layers, so that a stack in a stack is solved with it, on the same
+    /// Appends the system as a layer; of a stack all layers, so that a stack in a stack is solved with it, on the same
     /// cells.
     fn layers_into(
         &self,
@@ -148,7 +149,7 @@ impl Described {
         }
     }
 
-    /// The description of a layer; `None` for one that is known by data.
+    /// Returns the description of a layer; `None` for one that is known by data.
     fn described_layer(&self, layer: &Layer) -> Result<Option<Self>, StudyError> {
         match &layer.source {
             LayerSource::File(name) if is_system_file(name) => self.other(name).map(Some),
@@ -157,7 +158,7 @@ impl Described {
         }
     }
 
-    /// The data of a layer that is no description here.
+    /// Returns the data of a layer that has no description here.
     fn data_layer(&self, layer: &Layer, state: &str, library: &dyn LayerLibrary) -> Result<Arc<System>, StudyError> {
         let state = (!state.is_empty()).then(|| state.to_owned());
         let keys = match &layer.source {
@@ -167,7 +168,7 @@ impl Described {
         library.load(&keys, self.folder(), Need::Everything)
     }
 
-    /// How many materials have solar properties, and how many there are in a state; data count as one.
+    /// Returns the number of materials with solar properties, and of all materials in a state; data count as one.
     pub fn materials(&self, state: &str, library: &dyn LayerLibrary) -> Result<[usize; 2], StudyError> {
         self.materials_within(state, library, 0)
     }

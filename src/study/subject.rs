@@ -1,4 +1,5 @@
-//! Everything that pictures and reports show of a scene, computed in one go by the calls that window and command line make.
+//! All results of a scene that pictures and reports show, computed together by the calls that window and command line
+//! use.
 
 use super::control::device::is_upright;
 use super::control::slat_angle;
@@ -22,92 +23,92 @@ use crate::compute::lid::c_gamma::Peaks;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What is asked about.
+/// Request for results of a scene.
 pub struct Asked<'a> {
-    /// The scene as typed.
+    /// Scene file as typed.
     pub file: &'a SceneFile,
-    /// What its relative paths start from.
+    /// Folder that relative paths start from.
     pub base: &'a Path,
-    /// The incidence that was chosen; `None`: the sun's.
+    /// Chosen incident direction; `None`: that of the sun.
     pub incident: Option<Incident>,
-    /// What of it.
+    /// Requested parts.
     pub wanted: Wanted,
 }
 
-/// Which parts are wanted; sky and system always are.
+/// Requested parts of the results; sky and system are always included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wanted {
-    /// The luminous-intensity distribution with its peaks.
+    /// Luminous-intensity distribution with its peaks.
     pub lid: bool,
     /// Illuminances in the room.
     pub room: bool,
-    /// What control does over day and year.
+    /// Shading control over day and year.
     pub control: bool,
-    /// The room through a year of weather: it takes longer than all else.
+    /// Annual simulation, which takes longer than all other parts.
     pub year: bool,
 }
 
 impl Wanted {
-    /// Everything but a year of weather.
+    /// All parts except the annual simulation.
     pub const ALL: Self = Self { lid: true, room: true, control: true, year: false };
     /// Sky and system alone.
     pub const NOTHING: Self = Self { lid: false, room: false, control: false, year: false };
 }
 
-/// What control does with the first aperture's product.
+/// Shading control of the first aperture's product.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Controlled {
-    /// By which rule.
+    /// Control rule.
     pub mode: ControlMode,
-    /// Keys and numbers of the states, by rising number.
+    /// Keys and values of the states, in ascending order of the values.
     pub states: Vec<(String, f64)>,
-    /// What the numbers are, e.g. `slat angle / °`.
+    /// Name and unit of the values, e.g. `slat angle / °`.
     pub quantity: &'static str,
-    /// The rule: number over profile angle \[°\]; empty for rules without a curve.
+    /// Curve of the rule: value over profile angle \[°\]; empty for rules without a curve.
     pub curve: Vec<[f64; 2]>,
-    /// Every half hour of the scene's day; empty without place and date.
+    /// Points for every half hour of the scene's day; empty without site and date.
     pub today: Vec<TodayPoint>,
-    /// Profile angle of the sun now \[°\]; `None` while it is not before the aperture.
+    /// Profile angle of the sun at the scene's moment \[°\]; `None` while it is not in front of the aperture.
     pub profile_angle: Option<f64>,
-    /// Place of the present state.
+    /// Index of the current state.
     pub current: usize,
-    /// The year; `None` without place and date.
+    /// Year of control; `None` without site and date.
     pub year: Option<Year>,
 }
 
 /// A scene with its results.
 pub struct Subject {
-    /// The scene as typed.
+    /// Scene file as typed.
     pub file: SceneFile,
-    /// As meant.
+    /// Resolved scene.
     pub scene: Scene,
-    /// The first aperture's product; `None` for files and ideal systems.
+    /// Product of the first aperture; `None` for files and ideal systems.
     pub product: Option<Product>,
     /// Product and state of the first aperture in words.
     pub name: String,
-    /// Its state in words; empty without states.
+    /// Label of the first aperture's state; empty without states.
     pub state: String,
-    /// The incidence that pictures of the product speak of.
+    /// Incidence that pictures of the product use.
     pub incidence: Incidence,
-    /// The sun, where it is before the aperture.
+    /// Incident direction of the sun; `None` if it is not in front of the aperture.
     pub sun: Option<Incident>,
-    /// The first aperture as a luminaire, and its largest intensities.
+    /// Light of the first aperture, and its largest intensities.
     pub lid: Option<(LidResult, Peaks)>,
-    /// The room.
+    /// Illuminances in the room.
     pub room: Option<RoomResult>,
-    /// `None` where nothing moves, and where it was not wanted.
+    /// Shading control; `None` if nothing moves, or if not requested.
     pub control: Option<Controlled>,
-    /// A year of weather, and how it is looked at; `None` where it was not wanted.
+    /// Annual simulation with its view; `None` if not requested.
     pub year: Option<(Arc<Annual>, Look)>,
-    /// A ranking, and how it is looked at: never computed here.
+    /// Ranking with its view: never computed here.
     pub ranking: Option<(Arc<Shortlist>, RankLook)>,
 }
 
 impl Subject {
-    /// Computes what is asked. `product` looks a product of the catalogue up by its key.
+    /// Computes the requested parts. `product` returns a product of the catalogue by its key.
     ///
     /// # Errors
-    /// What the scene or its system lacks, or that the work was cancelled.
+    /// Returns an error if the scene or its system is incomplete, or if cancelled.
     pub fn of(
         asked: &Asked<'_>,
         session: &Session,
@@ -131,7 +132,7 @@ impl Subject {
             .and_then(|product| product.states.iter().find(|one| one.key == first.system.state))
             .map_or_else(|| first.system.state.clone(), state_words);
         let label = &first.system.label;
-        // Described systems of files are called by their state already.
+        // The label of a described system of a file contains its state already.
         let told = state.is_empty() || (product.is_none() && label.ends_with(&format!(", {state}")));
         let name = if told { label.clone() } else { format!("{label}, {state}") };
         progress.advance("luminous intensities", 1, STEPS);
@@ -179,7 +180,7 @@ impl Subject {
         &self.scene.apertures[0].system.dataset
     }
 
-    /// Its transmission of light from outside; resolving a scene asks for it.
+    /// Returns the transmission of light from outside; present in every resolved scene except for luminaires.
     pub fn transmission(&self) -> Option<&Btdf> {
         self.dataset().transmission()
     }
@@ -200,7 +201,7 @@ fn controlled(
     let keys = rule.cloned().unwrap_or_else(by_hand);
     let states = ordered_states(product);
     let curve = if keys.mode == ControlMode::Fixed {
-        // By hand, the product's own curve is shown for orientation.
+        // With control by hand, the product's own curve is shown for orientation.
         product.control_curve.iter().map(|point| [point.profile_angle, point.value]).collect()
     } else {
         rule_curve(product, &keys, base)?

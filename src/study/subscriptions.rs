@@ -5,18 +5,18 @@ use crate::catalogue::{Catalogue, CatalogueError};
 use crate::compute::estimate::Progress;
 use std::path::{Path, PathBuf};
 
-/// What reading all subscribed folders changed.
+/// Changes by reading all subscribed folders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Report {
-    /// Products that came or changed.
+    /// Number of added or changed products.
     pub taken: usize,
-    /// Products that went.
+    /// Number of removed products.
     pub gone: usize,
-    /// Folders that are away and packages that are not used, in a sentence each.
+    /// Messages about missing folders and unused packages, one sentence each.
     pub problems: Vec<String>,
 }
 
-/// Packages that lie in a folder, sorted.
+/// Returns the packages in a folder, sorted.
 fn packages(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut list = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -29,10 +29,10 @@ fn packages(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(list)
 }
 
-/// The path under which a folder is subscribed to: whole, and as it is.
+/// Returns the absolute path under which a folder is subscribed to.
 ///
 /// # Errors
-/// One sentence: no such folder.
+/// Returns a message if there is no such folder.
 pub fn folder_of(path: &Path) -> Result<String, String> {
     let wrong = |error: std::io::Error| format!("{}: {error}; expected a folder of packages (.cfsp)", path.display());
     let whole = std::fs::canonicalize(path).map_err(wrong)?;
@@ -42,11 +42,11 @@ pub fn folder_of(path: &Path) -> Result<String, String> {
     Ok(whole.display().to_string())
 }
 
-/// Reads all subscribed folders anew. A folder that is away keeps its products; a package that is damaged, or whose data do
-/// not match their hashes, is told and not used; what came from it before stays.
+/// Reads all subscribed folders again. A missing folder keeps its products; a package that is damaged, or whose data do
+/// not match their hashes, is reported and not used, and its earlier products stay.
 ///
 /// # Errors
-/// Of the catalogue itself.
+/// Returns an error of the catalogue itself.
 pub fn sync(catalogue: &mut Catalogue, progress: &dyn Progress) -> Result<Report, CatalogueError> {
     let mut report = Report::default();
     for subscription in catalogue.subscriptions()? {

@@ -1,20 +1,20 @@
-//! Where the sun is: from place and local standard time, by the NREL Solar Position Algorithm.
+//! Sun position from place and local standard time, by the NREL Solar Position Algorithm.
 //!
-//! True altitude, no refraction: the 0.5° it lifts the sun on the horizon do not matter to rooms. Sunrise and sunset
-//! are those of calendars (upper limb, standard refraction).
+//! Altitudes are true, without refraction: the 0.5° by which it lifts the sun on the horizon do not matter to rooms.
+//! Sunrise and sunset are those of calendars (upper limb, standard refraction).
 
 use crate::compute::angle::Bearing;
 use jiff::civil::{Date, DateTime};
 use solar_positioning::time::JulianDate;
 use solar_positioning::{Horizon, Location, SolarEvents, SolarPositions, delta_t};
 
-/// Why there is no sun position.
+/// Error of a sun position.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SunPositionError {
-    /// Not a date and time.
+    /// The text is not a date and time.
     #[error("\"{0}\" is no local standard time: write YYYY-MM-DDTHH:MM, optionally with :SS, without a zone")]
     Time(String),
-    /// Not a day of the calendar.
+    /// The day is not in the calendar.
     #[error("there is no {year}-{month:02}-{day:02}")]
     Date {
         /// Year.
@@ -24,19 +24,19 @@ pub enum SunPositionError {
         /// Day of the month.
         day: i8,
     },
-    /// A place off the globe, or an offset no clock has.
+    /// A coordinate is not on the globe, or an offset is not that of a clock.
     #[error("{name} = {value} (allowed: {min} to {max})")]
     Place {
-        /// Which key.
+        /// Name of the value.
         name: &'static str,
-        /// As given.
+        /// Given value.
         value: f64,
-        /// Least.
+        /// Minimum value.
         min: f64,
-        /// Greatest.
+        /// Maximum value.
         max: f64,
     },
-    /// Outside the algorithm's range.
+    /// The date is outside the algorithm's range.
     #[error("no position of the sun: {0}")]
     Algorithm(String),
 }
@@ -50,7 +50,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// Latitude (north positive) and longitude (east positive) \[°\], hours that local standard time is ahead of UTC.
+    /// Creates a place from latitude (north positive), longitude (east positive) \[°\] and the UTC offset of local
+    /// standard time \[h\].
     pub fn new(latitude: f64, longitude: f64, utc_offset: f64) -> Result<Self, SunPositionError> {
         let within = |name, value: f64, min: f64, max: f64| {
             if (min..=max).contains(&value) { Ok(()) } else { Err(SunPositionError::Place { name, value, min, max }) }
@@ -66,23 +67,23 @@ impl Place {
     }
 }
 
-/// A day's rise and set in hours of local standard time; `None` where the sun does not cross the horizon.
+/// Sunrise and sunset of a day in local standard time; `None` if the sun does not cross the horizon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RiseSet {
-    /// First rise of the day. \[h\]
+    /// First sunrise of the day. \[h\]
     pub rise: Option<f64>,
-    /// Last set of the day. \[h\]
+    /// Last sunset of the day. \[h\]
     pub set: Option<f64>,
 }
 
-/// The sun at an hour of a day.
+/// Sun position at an hour of a day.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
     /// Local standard time. \[h\]
     pub hour: f64,
     /// True altitude. \[rad\]
     pub altitude: f64,
-    /// Compass bearing.
+    /// Compass bearing of the sun.
     pub bearing: Bearing,
 }
 
@@ -90,7 +91,7 @@ pub struct PathPoint {
 pub fn parse_local_time(text: &str) -> Result<DateTime, SunPositionError> {
     let wrong = || SunPositionError::Time(text.chars().take(80).collect());
     let trimmed = text.trim();
-    // A civil parser would drop an offset in silence, and a bare date would be midnight.
+    // A civil parser would silently drop an offset, and a bare date would be midnight.
     let clock = trimmed.split_once(['T', 't', ' ']).ok_or_else(wrong)?.1;
     if !clock.contains(':') || clock.contains(['Z', 'z', '+', '-', '[']) {
         return Err(wrong());
@@ -98,7 +99,7 @@ pub fn parse_local_time(text: &str) -> Result<DateTime, SunPositionError> {
     trimmed.parse().map_err(|_| wrong())
 }
 
-/// Altitude (true) \[rad\] and bearing of the sun at a local standard time.
+/// Returns true altitude \[rad\] and bearing of the sun at a local standard time.
 pub fn sun_position(place: &Place, time: DateTime) -> Result<(f64, Bearing), SunPositionError> {
     let hour = f64::from(time.hour())
         + f64::from(time.minute()) / 60.0
@@ -106,7 +107,8 @@ pub fn sun_position(place: &Place, time: DateTime) -> Result<(f64, Bearing), Sun
     position_at(place, time.date(), hour)
 }
 
-/// The sun every `step` hours (at least one minute) from 0 to 24 h of a day, above and below the horizon.
+/// Returns the sun position every `step` hours (at least one minute) from 0 to 24 h of a day, above and below the
+/// horizon.
 pub fn sun_path(place: &Place, year: i16, month: i8, day: i8, step: f64) -> Result<Vec<PathPoint>, SunPositionError> {
     let date = date(year, month, day)?;
     let count = (24.0 / step.clamp(1.0 / 60.0, 24.0)).round() as usize;
@@ -118,7 +120,7 @@ pub fn sun_path(place: &Place, year: i16, month: i8, day: i8, step: f64) -> Resu
         .collect()
 }
 
-/// Sunrise and sunset of a day.
+/// Returns sunrise and sunset of a day.
 pub fn rise_set(place: &Place, year: i16, month: i8, day: i8) -> Result<RiseSet, SunPositionError> {
     let date = date(year, month, day)?;
     let start = julian_midnight(date) - place.utc_offset / 24.0;
@@ -137,13 +139,13 @@ fn algorithm(error: solar_positioning::Error) -> SunPositionError {
     SunPositionError::Algorithm(error.to_string())
 }
 
-/// Julian date of a day's midnight, as if UT. 1970-01-01 is 2440587.5.
+/// Returns the Julian date of a day's midnight, as if in UT. 1970-01-01 is 2440587.5.
 fn julian_midnight(date: Date) -> f64 {
     let days = date.duration_since(jiff::civil::date(1970, 1, 1)).as_hours() / 24;
     2_440_587.5 + days as f64
 }
 
-/// TT − UT1. \[s\]
+/// Returns the difference TT − UT1. \[s\]
 fn seconds_ahead(date: Date) -> Result<f64, SunPositionError> {
     delta_t::estimate(f64::from(date.year()) + f64::from(date.day_of_year()) / 365.25).map_err(algorithm)
 }

@@ -1,4 +1,4 @@
-//! Where the systems of a scene come from: closed forms, files, the catalogue.
+//! Systems of a scene: ideal ones, files, the catalogue.
 
 use super::control::{ControlQuestion, Device};
 use super::error::StudyError;
@@ -10,32 +10,32 @@ use std::fmt;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// A system ready to be computed with.
+/// A system that is ready for computations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct System {
-    /// What to call it in results.
+    /// Label in results.
     pub label: String,
-    /// Key of the state; empty for systems without.
+    /// Key of the state; empty for systems without states.
     pub state: String,
-    /// Its photometry.
+    /// Photometric data of the system.
     pub dataset: Arc<Dataset>,
-    /// What answers for single directions, where the system is known by its description.
+    /// Optical model for single directions; `None` if the system is known by its data alone.
     pub very: Option<VerySystem>,
 }
 
-/// A system that answers for light of single directions; and in the solar band, where its description has properties for it.
-/// Two are equal when they are the same.
+/// Optical model of a system for single directions, with a model of the solar band if the description has solar
+/// properties. Two are equal if they are the same object.
 #[derive(Clone)]
 pub struct VerySystem(pub Arc<dyn Specimen>, pub Option<(Arc<dyn Specimen>, SolarSource)>);
 
 impl VerySystem {
-    /// What answers in the solar band: by its own properties, else by those of light.
+    /// Returns the model of the solar band, or of light if there is none, and the source of the solar properties.
     pub fn solar(&self) -> (&dyn Specimen, SolarSource) {
         self.1.as_ref().map_or((&*self.0, SolarSource::Visible), |(specimen, source)| (&**specimen, *source))
     }
 
-    /// May sky and ground be computed from its answers? Else its data are: where thousands of answers take too long, and
-    /// where data keep straight light apart, which is better still.
+    /// Whether light from sky and ground may be computed with the model. If not, the data are used: where thousands of
+    /// directions take too long, and where data separate regular transmission, which is more exact.
     pub fn answers_for_the_sky(&self) -> bool {
         self.0.is_quick() && !self.0.keeps_regular_apart()
     }
@@ -53,11 +53,12 @@ impl PartialEq for VerySystem {
     }
 }
 
-/// Transmission of a dataset with regular transmission separated; `None` where none is recognised. Computed once a dataset.
+/// Returns the transmission of a dataset with regular transmission separated; `None` if none is recognised. Computed
+/// once per dataset.
 pub fn separate_regular(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
     type Known = (Weak<Dataset>, Option<Arc<Btdf>>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
-    // What is kept is whole even if another thread has failed while it held the lock.
+    // Stored values are complete even if another thread has failed while it held the lock.
     let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     let same = |known: &Known| known.0.as_ptr() == Arc::as_ptr(dataset);
     if let Some((_, found)) = kept().iter().find(|known| same(known)) {
@@ -65,37 +66,36 @@ pub fn separate_regular(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
     }
     let found = dataset.transmission().and_then(btdf::separate_regular).map(Arc::new);
     let mut kept = kept();
-    // An address that is held, if by a weak reference alone, is no other's.
+    // An address that is held, even by a weak reference alone, is not reused.
     kept.retain(|(other, _)| other.strong_count() > 0);
     kept.push((Arc::downgrade(dataset), found.clone()));
     found
 }
 
-/// How much of a system a scene needs.
+/// Extent of a system's data that a scene needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Need {
-    /// All that is known of it.
+    /// All data of the system.
     Everything,
-    /// What it does to light from outside, as far as its description does not tell by itself; `lit`: is there light from
-    /// sky or ground?
+    /// Transmission of light from outside, unless the optical model is sufficient.
     Light {
-        /// Sky or ground shine.
+        /// Whether there is light from sky or ground.
         lit: bool,
     },
 }
 
-/// Loads what `aperture.system` names.
+/// Source of the systems that `aperture.system` names.
 pub trait SystemLibrary: Sync {
     /// Loads a system. Key names in errors are relative to the aperture.
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError>;
 
-    /// The state that a control picks for a product.
+    /// Returns the state that a control chooses for a product.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
 
-    /// What a control needs to know of a moving system.
+    /// Returns the properties of a moving system that a control needs.
     ///
     /// # Errors
-    /// No such system, or one that nothing moves.
+    /// Returns an error if there is no such system, or if it has no moving states.
     fn device(&self, keys: &SystemKeys, base: &Path) -> Result<Device, StudyError> {
         let _ = base;
         match keys {
@@ -104,19 +104,19 @@ pub trait SystemLibrary: Sync {
         }
     }
 
-    /// The state that a control picks for a description in a file.
+    /// Returns the state that a control chooses for a description in a file.
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         let _ = asked;
         Err(StudyError::key("system.file", format!("{}: no descriptions are read here", path.display())))
     }
 
-    /// Where lit obstructions are kept, if they are.
+    /// Returns the store of lit obstructions; `None` if they are not stored.
     fn lit_obstructions(&self) -> Option<&LitObstructions> {
         None
     }
 }
 
-/// An ideal system.
+/// Creates an ideal system.
 pub fn ideal(kind: IdealKind, transmittance: f64) -> Result<Arc<System>, StudyError> {
     if !(0.0..=1.0).contains(&transmittance) {
         return Err(StudyError::key(

@@ -1,4 +1,4 @@
-//! Weather files by name: beside a scene, or years that come with the program.
+//! Weather files by name: relative to a scene, or built-in years.
 
 use super::error::StudyError;
 use super::files;
@@ -12,21 +12,21 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// What the name of a year that comes with the program begins with.
+/// Prefix of the names of built-in years.
 pub const BUILTIN: &str = "builtin:";
 
-/// A year that comes with the program.
+/// A built-in weather year.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BuiltinYear {
-    /// What stands behind [`BUILTIN`].
+    /// Name without the prefix [`BUILTIN`].
     pub key: &'static str,
-    /// In words: place, kind of year.
+    /// Description: place, kind of year.
     pub words: &'static str,
-    /// The table, see [`weather::table`].
+    /// Data of the year, see [`weather::table`].
     pub table: &'static str,
 }
 
-/// The years that come with the program; where they are from: `assets/weather/README.md`.
+/// Built-in years; for their sources see `assets/weather/README.md`.
 pub const YEARS: [BuiltinYear; 3] = [
     BuiltinYear {
         key: "new-york",
@@ -46,12 +46,12 @@ pub const YEARS: [BuiltinYear; 3] = [
 ];
 
 impl BuiltinYear {
-    /// Its name in scenes, e.g. `builtin:renton`.
+    /// Returns the name in scenes, e.g. `builtin:renton`.
     pub fn name(&self) -> PathBuf {
         PathBuf::from(format!("{BUILTIN}{}", self.key))
     }
 
-    /// Latitude (north positive) and longitude (east positive), as the head of its table has them. \[°\]
+    /// Returns latitude (north positive) and longitude (east positive) from the head of its table. \[°\]
     pub fn place(&self) -> Option<[f64; 2]> {
         let of = |key: &str| {
             let head = self.table.lines().take_while(|line| !line.is_empty());
@@ -62,7 +62,7 @@ impl BuiltinYear {
     }
 }
 
-/// A year that comes with the program in words of the language that is spoken: place, kind of year.
+/// Returns the description of a built-in year in the current language: place, kind of year.
 pub fn words(year: &BuiltinYear) -> &'static str {
     match year.key {
         "new-york" => say::NEW_YORK.get(),
@@ -72,15 +72,15 @@ pub fn words(year: &BuiltinYear) -> &'static str {
     }
 }
 
-/// A weather in a few words: the place of a year that comes with the program, else the file's name.
+/// Returns a short name of a weather: the place of a built-in year, else the file's name.
 pub fn short_name(name: &Path) -> String {
     let built_in = YEARS.iter().find(|year| *name == *year.name());
-    // The place stands before the first comma.
+    // The place is the text before the first comma.
     let place = built_in.map(|year| words(year).split(',').next().unwrap_or_default().to_owned());
     place.unwrap_or_else(|| name.file_name().unwrap_or(name.as_os_str()).to_string_lossy().into_owned())
 }
 
-/// The year that comes with the program from nearest to a place \[latitude and longitude in °\], along the earth's surface.
+/// Returns the built-in year nearest to a place \[latitude and longitude in °\], along the earth's surface.
 pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
     let upright = |[latitude, longitude]: [f64; 2]| {
         let (latitude, longitude) = (latitude.to_radians(), longitude.to_radians());
@@ -92,20 +92,20 @@ pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
         let there = upright(year.place().unwrap_or([f64::NAN; 2]));
         here.iter().zip(there).map(|(a, b)| a * b).sum::<f64>()
     };
-    // What lies nowhere is never the nearest.
+    // A year without a place is never the nearest.
     let better = |a: f64, b: f64| a > b || b.is_nan();
     YEARS.iter().fold(&YEARS[0], |best, year| if better(near(year), near(best)) { year } else { best })
 }
 
-/// The same as [`load`] gives, kept from one question to the next while the file stays what it is.
+/// Reads a weather file like [`load`], and stores it as long as the file does not change.
 ///
 /// # Errors
-/// As [`load`].
+/// Returns the errors of [`load`].
 pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
     type Known = (PathBuf, Option<(SystemTime, u64)>, Arc<KeptWeather>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
     const MOST: usize = 4;
-    // What is kept is whole even if another thread has failed while it held the lock.
+    // Stored values are complete even if another thread has failed while it held the lock.
     let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     let path = if name.to_str().is_some_and(|name| name.starts_with(BUILTIN)) { name.into() } else { base.join(name) };
     let stamp = std::fs::metadata(&path).ok().and_then(|meta| Some((meta.modified().ok()?, meta.len())));
@@ -123,24 +123,25 @@ pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
     Ok(made)
 }
 
-/// A weather, and what was found of it.
+/// A weather file with its summary.
 pub struct KeptWeather {
-    /// As the file has it.
+    /// Content of the file.
     pub weather: Weather,
-    /// Its clock and its faults.
+    /// Test of its clock, and its findings.
     pub summary: Summary,
 }
 
 impl KeptWeather {
-    /// Warnings that belong beside every figure of the weather. Whether its clock is off depends on how it is read, and
-    /// what a part of a year lacks on what is asked.
+    /// Returns the warnings that belong to every figure of the weather. Not included are the test of the clock, which
+    /// depends on how the file is read, and missing values, which depend on the requested part of the year.
     pub fn warnings(&self) -> impl Iterator<Item = &Finding> {
         let depends = |code: &str| matches!(code, "clock-off" | "partial-year");
         self.summary.findings.iter().filter(move |one| one.severity > Severity::Info && !depends(one.code))
     }
 }
 
-/// A warning of a weather file in the window's language, by its code; the code itself where there are no words for it.
+/// Returns a warning of a weather file in the current language, by its code; the code itself if there is no text for
+/// it.
 pub fn warning_words(code: &'static str) -> &'static str {
     let words = match code {
         "gaps" => say::WEATHER_GAPS,
@@ -159,8 +160,8 @@ pub fn warning_words(code: &'static str) -> &'static str {
     words.get()
 }
 
-/// A moment in local standard time: seconds from the midnight of a record's day. A 29th of February in a common year is
-/// believed as a row, but no calendar has it: it is the 28th.
+/// Returns a moment in local standard time: seconds from the midnight of a record's day. A 29th of February in a common
+/// year is accepted as a row, but counted as the 28th, since no calendar has it.
 pub fn moment(record: &Record, seconds: f64) -> DateTime {
     let day = record.day;
     let of = |number: u8| Date::new(day.year, day.month.cast_signed(), number.cast_signed());
@@ -168,11 +169,10 @@ pub fn moment(record: &Record, seconds: f64) -> DateTime {
     date.at(0, 0, 0, 0).saturating_add(jiff::Span::new().seconds(seconds.round() as i64))
 }
 
-/// Reads a weather file, or a year that comes with the program (`builtin:new-york`). A name that is not absolute starts
-/// from `base`.
+/// Reads a weather file, or a built-in year (`builtin:new-york`). A relative name starts from `base`.
 ///
 /// # Errors
-/// One sentence: the file, line and column in it, what is wrong, what would be right.
+/// Returns an error that names the file with line and column, the error, and what is expected.
 pub fn load(name: &Path, base: &Path) -> Result<Weather, StudyError> {
     let wrong = |message: String| StudyError::File { path: name.to_owned(), message };
     if let Some(key) = name.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {

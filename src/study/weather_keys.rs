@@ -1,32 +1,32 @@
-//! Keys that say how a weather file is read: of `[sky]`, and of a year.
+//! Keys for reading a weather file, in `[sky]` and `[year]`.
 
 use crate::compute::weather::{LightSource, Reading, SunOffset, WIDEST_OFFSET};
 use serde::{Deserialize, Serialize};
 
-/// `light`: where illuminances come from.
+/// Values of `light`: source of the illuminances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LightKey {
     /// Irradiances times luminous efficacies (Perez 1990).
     #[default]
     Efficacy,
-    /// The file's own where they are there and plausible.
+    /// Illuminances of the file where they exist and are plausible.
     File,
 }
 
 impl LightKey {
-    /// The key's default, which is not written.
+    /// Whether the key has its default value, which is not written.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// `sun_offset_minutes`: minutes by which the file's intervals lie later than it says, or "auto".
+/// Values of `sun_offset_minutes`: offset by which the file's intervals lie later than it says, or "auto".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OffsetKey {
-    /// \[min\]
+    /// Given offset. \[min\]
     Minutes(f64),
-    /// Where the file's irradiances close best.
+    /// Offset at which the file's irradiances close best.
     Auto,
 }
 
@@ -37,7 +37,7 @@ impl Default for OffsetKey {
 }
 
 impl OffsetKey {
-    /// The key's default, which is not written.
+    /// Whether the key has its default value, which is not written.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -85,7 +85,7 @@ impl<'de> Deserialize<'de> for OffsetKey {
     }
 }
 
-/// How a weather file is read under both keys.
+/// Returns how a weather file is read with both keys.
 pub fn reading(light: LightKey, offset: OffsetKey) -> Reading {
     Reading {
         light: match light {

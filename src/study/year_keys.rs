@@ -1,46 +1,46 @@
-//! `[year]` of a scene as typed: which weather, which hours, which eyes, which lamps.
+//! Keys of `[year]` in a scene, as typed: weather, hours, observers, electric lighting.
 
 use super::weather_keys::{LightKey, OffsetKey};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// `[year]`
+/// Keys of `[year]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct YearKeys {
-    /// Weather file, relative to the scene, or a year that comes with the program.
+    /// Weather file, relative to the scene, or the name of a built-in year.
     pub weather: PathBuf,
-    /// Where illuminances come from.
+    /// Source of the illuminances.
     #[serde(default, skip_serializing_if = "LightKey::is_default")]
     pub light: LightKey,
-    /// Minutes by which the weather's intervals lie later than the file says, or "auto".
+    /// Offset by which the weather's intervals lie later than the file says, or "auto". \[min\]
     #[serde(default, skip_serializing_if = "OffsetKey::is_default")]
     pub sun_offset_minutes: OffsetKey,
-    /// Steps an hour, 1, 2, 4 or 12: the sun moves inside an interval, its irradiances stay.
+    /// Steps per hour, 1, 2, 4 or 12: the sun moves within an interval, its irradiances are constant.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub steps_per_hour: u32,
-    /// When somebody is there.
+    /// Occupied hours.
     #[serde(default)]
     pub hours: HoursKeys,
     /// Reflectances of the ground, month by month, instead of `site.ground_reflectance`; none or twelve.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ground: Vec<f64>,
-    /// Where somebody looks, and whither.
+    /// Observers with their view directions.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub eyes: Vec<EyeKeys>,
-    /// Is solar energy asked for, directly transmitted?
+    /// Whether directly transmitted solar energy is computed.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub solar: bool,
-    /// Is spatial daylight autonomy asked for with blinds by IES LM-83-12's own rule?
+    /// Whether spatial daylight autonomy is also computed with blinds operated by the rule of IES LM-83-12.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub lm83: bool,
-    /// Daylight glare probability at the eyes in every lit occupied step?
+    /// Whether daylight glare probability is computed for the observers in every lit occupied step.
     #[serde(default = "yes", skip_serializing_if = "is_yes")]
     pub dgp: bool,
-    /// The day of EN 17037's exposure to sunlight.
+    /// Day and minimum solar altitude of the exposure to sunlight by EN 17037.
     #[serde(default, skip_serializing_if = "SunlightKeys::is_default")]
     pub sunlight: SunlightKeys,
-    /// Lamps; without them there are no figures of lighting.
+    /// Electric lighting; `None`: no figures of lighting.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lighting: Option<LightingKeys>,
 }
@@ -49,21 +49,21 @@ const fn one() -> u32 {
     1
 }
 
-/// Nothing that the file needs to say.
+/// Whether the file can omit the key.
 const fn is_one(steps: &u32) -> bool {
     *steps == 1
 }
 
-/// `year.hours`: occupied are steps whose middle lies in `from` to before `to` by the clock of `site.dst`; with `from` later
-/// than `to` the hours run across midnight.
+/// Keys of `year.hours`. Steps are occupied if their middle is in `from` to before `to` by the clock of `site.dst`;
+/// with `from` later than `to` the hours extend across midnight.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct HoursKeys {
-    /// Hour of the day.
+    /// Begin of the occupied hours, as hour of the day.
     pub from: f64,
-    /// Hour of the day.
+    /// End of the occupied hours, as hour of the day.
     pub to: f64,
-    /// Which days.
+    /// Days with occupied hours.
     pub days: DaysKey,
 }
 
@@ -74,19 +74,19 @@ impl Default for HoursKeys {
 }
 
 impl HoursKeys {
-    /// Whether `clock`, an hour of the day from 0 to before 24, is one of them.
+    /// Whether `clock`, an hour of the day from 0 to before 24, is occupied.
     pub fn hold(&self, clock: f64) -> bool {
         if self.from < self.to { (self.from..self.to).contains(&clock) } else { clock >= self.from || clock < self.to }
     }
 }
 
-/// `year.sunlight`
+/// Keys of `year.sunlight`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SunlightKeys {
     /// Month and day, MM-DD, from 02-01 to 03-21.
     pub date: String,
-    /// The sun counts from this altitude on; national annexes name it. \[°\]
+    /// Minimum solar altitude that counts as sunlight, given by national annexes. \[°\]
     pub min_altitude: f64,
 }
 
@@ -102,7 +102,7 @@ impl SunlightKeys {
     }
 }
 
-/// `year.hours.days`
+/// Values of `year.hours.days`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum DaysKey {
@@ -113,43 +113,43 @@ pub enum DaysKey {
     Weekdays,
 }
 
-/// One of `year.eyes`
+/// Keys of one observer in `year.eyes`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EyeKeys {
-    /// Room axes. \[m\]
+    /// Position of the eye in room axes. \[m\]
     pub point: [f64; 3],
-    /// Room axes.
+    /// View direction in room axes.
     pub direction: [f64; 3],
 }
 
-/// `[year.lighting]`
+/// Keys of `[year.lighting]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LightingKeys {
-    /// Installed. \[W/m²\]
+    /// Installed power. \[W/m²\]
     pub power: f64,
-    /// Illuminance to be reached. \[lx\]
+    /// Illuminance to be maintained. \[lx\]
     pub target: f64,
-    /// How lamps follow daylight.
+    /// Control of the electric lighting by daylight.
     #[serde(default)]
     pub control: LampControlKey,
-    /// Of "stepped".
+    /// Number of power steps of "stepped".
     #[serde(default = "usual_steps")]
     pub steps: u32,
-    /// Of "dimming": least light, as a share.
+    /// Minimum light output of "dimming", as a share.
     #[serde(default)]
     pub min_light: f64,
-    /// Of "dimming": the power that least light takes, as a share.
+    /// Power at the minimum light output of "dimming", as a share.
     #[serde(default)]
     pub min_power: f64,
-    /// Of "dimming": off when daylight suffices.
+    /// Whether lighting with "dimming" is switched off if daylight is sufficient.
     #[serde(default = "yes")]
     pub off: bool,
-    /// Taken while off, nights included. \[W/m²\]
+    /// Power while off, including nights. \[W/m²\]
     #[serde(default)]
     pub standby: f64,
-    /// Lamps that follow the mean of some sensors; none: one zone of all sensors.
+    /// Lighting zones, each controlled by the mean of its sensors; empty: one zone of all sensors.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub zones: Vec<ZoneKeys>,
 }
@@ -162,27 +162,27 @@ const fn yes() -> bool {
     true
 }
 
-/// Nothing that the file needs to say.
+/// Whether the file can omit the key.
 const fn is_yes(asked: &bool) -> bool {
     *asked
 }
 
-/// `year.lighting.control`
+/// Values of `year.lighting.control`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LampControlKey {
-    /// Always on while somebody is there.
+    /// Always on in occupied hours.
     None,
-    /// On while daylight does not suffice.
+    /// Switched on while daylight is not sufficient.
     OnOff,
-    /// In steps of power.
+    /// Switched in steps of power.
     Stepped,
-    /// Dimmed.
+    /// Continuously dimmed.
     #[default]
     Dimming,
 }
 
-/// One of `year.lighting.zones`
+/// Keys of one zone in `year.lighting.zones`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ZoneKeys {

@@ -1,4 +1,5 @@
-//! Text of any script as it is compared, and in ASCII: keys of products, names of files, formats that know no other letters.
+//! Text of any script in comparable form, and in ASCII: keys of products, names of files, formats that know no other
+//! letters.
 
 use any_ascii::any_ascii_char;
 use unicode_normalization::UnicodeNormalization as _;
@@ -9,7 +10,7 @@ pub const fn is_syllable(letter: char) -> bool {
     matches!(letter, '\u{2e80}'..='\u{d7ff}' | '\u{20000}'..='\u{3ffff}')
 }
 
-/// Returns the same text with every letter and its marks as one character, where Unicode has one.
+/// Returns a text with every letter and its marks as one character, where Unicode has one.
 pub fn composed(text: &str) -> String {
     text.nfc().collect()
 }
@@ -65,8 +66,8 @@ pub fn ascii_words(text: &str) -> String {
     words.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Returns letters and digits of a text as [`ascii_words`] does, for keys and names of files: signs other than dashes are
-/// blanks.
+/// Returns letters and digits of a text as [`ascii_words`] does, for keys and names of files: signs other than dashes
+/// are blanks.
 pub fn ascii_letters(text: &str) -> String {
     let letter = |letter: char| match letter {
         '\u{2010}'..='\u{2015}' | '−' => '-',

@@ -1,6 +1,6 @@
-//! Order in which the parts of a line are seen, where Hebrew, Arabic or another script from right to left is among them.
+//! Visual order of the parts of a line with Hebrew, Arabic or another script from right to left.
 //!
-//! Letters are not turned or joined here: whoever draws a part hands it to a shaper with its direction.
+//! Letters are not turned or joined here: the code that draws a part passes it to a shaper with its direction.
 
 use std::ops::Range;
 use unicode_bidi::{BidiClass, Level, ParagraphBidiInfo, bidi_class};
@@ -12,8 +12,8 @@ pub fn has_right_to_left(text: &str) -> bool {
     !text.is_ascii() && text.chars().any(of_such_script)
 }
 
-/// Returns the parts of a line from left to right as they are seen, and whether each is written from right to left: such
-/// words whole, in the order of their letters, and what stands between them one by one.
+/// Returns the parts of a line from left to right as they are seen, and whether each is written from right to left:
+/// such words whole, in the order of their letters, and the text between them one by one.
 ///
 /// The line itself runs from left to right, as the sentences of the program do, whatever name they begin with.
 pub fn visual_parts(line: &str) -> Vec<(Range<usize>, bool)> {

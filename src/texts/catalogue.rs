@@ -1,4 +1,4 @@
-//! The list of products: search, facets, gallery, collections; products after they are stored.
+//! Texts of the product list: search, facets, gallery, collections; changes of stored products.
 
 texts! {
     // The panel.
@@ -192,7 +192,7 @@ texts! {
     const NEEDS_A_NAME = "It needs a name." | "Ein Name fehlt.";
     fn no_angle(text) = "“{text}” is no angle; expected a number of degrees." | "„{text}“ ist kein Winkel; erwartet wird eine Zahl in Grad.";
 
-    // What is said after a change.
+    // Messages after a change.
     const DELETED_ALREADY = "It is deleted already; choose another product" | "Bereits gelöscht; ein anderes Produkt wählen";
     fn deleted(name) = "Deleted: {name}. Ctrl+Z, or Recently deleted in the Edit menu, brings it back" | "Gelöscht: {name}. Strg+Z oder „Zuletzt gelöscht“ im Menü Bearbeiten holt es zurück";
     fn synced(taken, gone) = "Subscribed folders: {taken} products came or changed, {gone} went" | "Abonnierte Ordner: {taken} Produkte neu oder geändert, {gone} entfallen";

@@ -1,4 +1,4 @@
-//! Which system for this façade.
+//! Texts of the ranking: which system suits the façade.
 
 texts! {
     // Figures that may be objectives.
@@ -80,7 +80,7 @@ texts! {
     const COARSE_TIP = "By data on cells so far, which blur the sun; beams as they are follow" | "Bisher nach Daten auf Feldern, die die Sonne verwischen; Strahlen, wie sie sind, folgen";
     fn approximate_since(reasons) = "Approximate: {reasons}" | "Näherung: {reasons}";
 
-    // Why, and the ways out.
+    // Reasons of the ranking, and what can be done next.
     const CHOOSE_ONE = "Choose a product to read why it stands where it does; double click takes it into the room" | "Ein Produkt wählen, um zu lesen, warum es dort steht; Doppelklick nimmt es in den Raum";
     const ONLY_ONE = "There is no other to set it against" | "Es gibt kein anderes, gegen das es stünde";
     const AGAINST = "against" | "gegen";
@@ -98,7 +98,7 @@ texts! {
     const INTO_TRAY_TIP = "This product into the comparison's tray" | "Dieses Produkt in die Ablage des Vergleichs";
     fn excluded_because(reason) = "Takes no part: {reason}" | "Nimmt nicht teil: {reason}";
 
-    // What counts.
+    // Objectives.
     const WEIGHT_TIP = "How much it counts, relative to the others" | "Wie viel es zählt, im Verhältnis zu den anderen";
     fn weight_of(name) = "Weight of {name}" | "Gewicht von {name}";
     const WORST = "0 at" | "0 bei";
@@ -136,7 +136,7 @@ texts! {
     const ELSEWHERE = "elsewhere" | "anderswo";
 }
 
-/// Season, sun or zone of a part in the language that is spoken; one that is not known here as it is.
+/// Returns season, sun or zone of a part in the current language; an unknown word unchanged.
 pub fn part_word(word: &str) -> &str {
     let known = [WINTER, SPRING, SUMMER, AUTUMN, SUN, NO_SUN, FRONT, REAR, WHOLE_ROOM, ELSEWHERE];
     known.into_iter().find(|text| text.english() == word).map_or(word, |text| text.get())

@@ -1,4 +1,4 @@
-//! What menus, palette and keys sheet offer.
+//! Texts of menus, command palette and the sheet of keyboard shortcuts.
 
 texts! {
     const FILE = "File" | "Datei";

@@ -1,7 +1,7 @@
-//! Comparing products, states, moments and rooms.
+//! Texts of comparing products, states, moments and rooms.
 
 texts! {
-    // The tray.
+    // The comparison.
     const COMPARE = "Compare" | "Vergleichen";
     const COMPARE_TIP = "All of the tray in the tiles' place, or back to the tiles (Shift+X)" | "Die ganze Vergleichsliste anstelle der Kacheln, oder zurück zu den Kacheln (Umschalt+X)";
     const SWAP = "Swap" | "Tauschen";
@@ -26,7 +26,7 @@ texts! {
     const REMOVE = "Remove" | "Entfernen";
     const REMOVE_TIP = "Take it out of the tray" | "Aus der Vergleichsliste nehmen";
 
-    // How it is compared.
+    // Ways of comparing.
     const BESIDE = "Side by side" | "Nebeneinander";
     const BESIDE_TIP = "The same tile for each, all on one scale" | "Für jeden dieselbe Kachel, alle mit einer Skala";
     const DIFFERENCE = "Difference" | "Differenz";
@@ -51,7 +51,7 @@ texts! {
     const LOG = "log" | "log";
     const LOG_TIP = "Logarithmic in all tiles" | "Logarithmisch in allen Kacheln";
 
-    // What stands in place of a picture.
+    // Texts in place of a picture.
     const COMPUTING = "Computing…" | "Wird berechnet…";
     const NO_CURVES = "None of these follows a rule that has a curve." | "Keiner von diesen folgt einer Regel, die eine Kurve hat.";
     const CURVES_OF = "Curves are drawn of LID, room, transmittance and control." | "Kurven gibt es von LVK, Raum, Transmissionsgrad und Regelung.";
@@ -112,7 +112,7 @@ texts! {
     const PROFILE_ANGLE = "profile angle" | "Profilwinkel";
     const STATE = "state" | "Stellung";
 
-    // What is said.
+    // Messages.
     const TRAY_EMPTY = "Nothing to compare yet: C adds what is shown, or use the ⊕ of a row in the catalogue" | "Noch nichts zu vergleichen: C fügt hinzu, was zu sehen ist, oder das ⊕ einer Zeile im Katalog";
     fn tray_full(most) = "The tray holds {most}: take one out first" | "Die Vergleichsliste fasst {most}: erst einen herausnehmen";
     const NOTHING_SHOWN = "Nothing is shown yet that could be compared" | "Noch ist nichts zu sehen, was verglichen werden könnte";

@@ -1,7 +1,7 @@
 //! Findings about datasets by their code: a title and what they mean for results.
 //!
-//! The sentence of a finding, with its place and numbers, comes from the reader or check that reports it and is English in
-//! every language.
+//! The sentence of a finding, with its place and numbers, comes from the reader or check that reports it and is English
+//! in every language.
 
 use super::Text;
 
@@ -19,7 +19,7 @@ pub fn words(code: &str) -> Option<FindingWords> {
     WORDS.iter().find(|(known, _)| *known == code).map(|(_, words)| *words)
 }
 
-/// Returns what findings of `code` mean for results, in the language that is spoken; empty where their title says all.
+/// Returns what findings of `code` mean for results, in the current language; empty where their title says all.
 pub fn meaning(code: &str) -> &'static str {
     words(code).map_or("", |words| words.meaning.get())
 }

@@ -1,4 +1,4 @@
-//! The goniophotometer's sheet.
+//! Texts of the goniophotometer's sheet.
 
 texts! {
     const OFFER = "Compute gives transmission and reflection from both sides, with balance, reciprocity and error; then it can be added to the catalogue." | "„Rechnen“ ergibt Transmission und Reflexion von beiden Seiten, mit Bilanz, Reziprozität und Unsicherheit; danach kann das System in den Katalog.";

@@ -1,4 +1,4 @@
-//! Handing on: its sheet, pictures and reports.
+//! Texts of exporting: its sheet, pictures and reports.
 
 texts! {
     // Tiles.
@@ -253,7 +253,7 @@ texts! {
     fn lid_not_written(why) = "The LID is not written: {why}" | "Die LVK wird nicht geschrieben: {why}";
     const LICENCE = "license" | "Lizenz";
 
-    // What is wrong.
+    // Errors.
     fn wrong_size(typed, why) = "size \"{typed}\": {why}; expected e.g. 1600x1200 (pixels) or 160x120mm" | "Größe „{typed}“: {why}; erwartet z. B. 1600x1200 (Pixel) oder 160x120mm";
     const TOO_SMALL = "too small for its words (240 pixels, 21 mm at least)" | "zu klein für ihre Wörter (mindestens 240 Pixel, 21 mm)";
     const TOO_LARGE = "larger than 8000 pixels, 677 mm" | "größer als 8000 Pixel, 677 mm";

@@ -1,11 +1,11 @@
-//! Every word that the window, its pictures and its reports say, in English and in German, side by side.
+//! Texts of the window, its pictures and its reports, in English and in German, side by side.
 //!
 //! A text without figures is a [`Text`], which may stand in a constant table; one with figures is a function that takes
-//! them. Which language a thread speaks is set where its work begins ([`speak`]); until then it is English, so that
-//! what the command line prints and what stands in data files does not depend on where the program runs.
+//! them. The language of a thread is set where its work begins ([`speak`]); until then it is English, so that the
+//! output of the command line and the content of data files do not depend on where the program runs.
 //!
-//! What comes from data (names of products, paths) and units are no texts. Names of things are the field's own:
-//! CIE S 017 (ILV) and DIN 5034 for German.
+//! Data (names of products, paths) and units are not texts of this crate. Terms are the field's own: CIE S 017 (ILV)
+//! and DIN 5034 for German.
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 
@@ -23,18 +23,18 @@ pub use csv_cell::{csv_cell, inert_cell};
 pub use plain::{character_names, message, one_line, short_numbers, visible};
 pub use spoken::{Language, Speaking, Text, decimal, decimal_sign, fixed, language, speak};
 
-/// Texts of one file: constants, and functions of what they name in braces (anything that [`std::fmt::Display`]s; numbers
-/// come written, see [`fixed`]).
+/// Defines the texts of one file: constants, and functions of the arguments in braces (anything that
+/// [`std::fmt::Display`]s; numbers are formatted before, see [`fixed`]).
 macro_rules! texts {
     ($($kind:tt $name:ident $(($($arg:ident),+ $(,)?))? = $english:literal | $german:literal;)*) => {
         $($crate::text! { $kind $name $(($($arg),+))? = $english | $german })*
 
-        /// Every text of this file in English and in German, with the names of what is filled in.
+        /// Every text of this file in English and in German, with the names of the arguments.
         pub(super) const PAIRS: &[(&str, &str)] = &[$(($english, $german)),*];
     };
 }
 
-/// One text of [`texts!`].
+/// Defines one text of [`texts!`].
 macro_rules! text {
     (const $name:ident = $english:literal | $german:literal) => {
         #[doc = concat!("`", $english, "`")]
@@ -68,7 +68,7 @@ pub mod tiles;
 pub mod words;
 pub mod year;
 
-/// Every text in English and in German, with the names of what is filled in, by the file that says it.
+/// Returns every text in English and in German, with the names of the arguments, and the name of its file.
 pub fn pairs() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
     let files: [(&str, &[(&str, &str)]); 14] = [
         ("catalogue", catalogue::PAIRS),

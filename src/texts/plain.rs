@@ -1,24 +1,25 @@
-//! Text from files as it may be shown: what commands a terminal or turns a line around is made visible, and a number of
-//! three hundred digits is written short.
+//! Text from files in a form that can be shown: characters that control a terminal or reverse a line are made visible,
+//! and numbers of very many digits are shortened.
 
 use super::take_in;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// Digits in a row that nobody reads.
+/// Number of digits above which a number is shortened.
 const MOST_DIGITS: usize = 24;
 /// Maximum number of characters that a message names. Chosen: a line.
 const MAX_NAMED: usize = 8;
 
-/// Does a character do something else than stand where it is? Line breaks and tabs are what they look like.
+/// Whether a character has an invisible effect on a terminal or on the order of writing. Line breaks and tabs do not
+/// count.
 fn acts(c: char) -> bool {
     (c.is_control() && !matches!(c, '\n' | '\t'))
         // Marks that turn the direction of writing, breaks of lines and paragraphs, a mark of the byte order.
         || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
-/// The same text with characters that do something else than stand where they are written as `\u001b`: what JSON takes for
-/// the same characters. A carriage return before a line break stays.
+/// Returns a text in which characters with an invisible effect are written as `\u001b`, which JSON reads as the same
+/// characters. A carriage return before a line break stays.
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.chars().any(acts) {
         return Cow::Borrowed(text);
@@ -36,7 +37,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// A name or a message on one line: [`visible`], line breaks and tabs as blanks.
+/// Returns a name or a message on one line: as [`visible`], with line breaks and tabs as blanks.
 pub fn one_line(text: &str) -> Cow<'_, str> {
     if !text.contains(['\n', '\r', '\t']) {
         return visible(text);
@@ -45,7 +46,7 @@ pub fn one_line(text: &str) -> Cow<'_, str> {
     Cow::Owned(visible(&words.join(" ")).into_owned())
 }
 
-/// The same text with numbers of very many digits as powers of ten.
+/// Returns a text in which numbers of very many digits are written as powers of ten.
 pub fn short_numbers(text: &str) -> Cow<'_, str> {
     let of_number = |c: char| c.is_ascii_digit() || c == '.';
     let long = |word: &str| word.bytes().filter(u8::is_ascii_digit).count() > MOST_DIGITS;
@@ -79,12 +80,12 @@ pub fn short_numbers(text: &str) -> Cow<'_, str> {
     Cow::Owned(shown)
 }
 
-/// A message as it is shown: on one line, nothing hidden, no number longer than its reader's patience.
+/// Returns a message in the form in which it is shown: on one line, nothing hidden, no very long numbers.
 pub fn message(text: &str) -> String {
     short_numbers(&one_line(text)).into_owned()
 }
 
-/// Returns characters with their numbers in Unicode: "铝 (U+94DD), 百 (U+767E)", the first of many.
+/// Returns characters with their numbers in Unicode: "铝 (U+94DD), 百 (U+767E)"; only the first `MAX_NAMED` of them.
 pub fn character_names(characters: &[char]) -> String {
     let name = |c: &char| format!("{c} (U+{:04X})", u32::from(*c));
     let names: Vec<String> = characters.iter().take(MAX_NAMED).map(name).collect();

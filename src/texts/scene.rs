@@ -1,4 +1,4 @@
-//! The scene: place, time, sky, apertures, room.
+//! Texts of the scene: place, time, sky, apertures, room.
 
 texts! {
     const SCENE = "Scene" | "Szene";

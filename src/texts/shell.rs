@@ -1,4 +1,4 @@
-//! Sheets, status, messages, palette, tour, goniophotometer and errors of the window.
+//! Texts of sheets, status, messages, palette, tour, goniophotometer and errors of the window.
 
 texts! {
     const AS_THE_DESKTOP = "as the desktop" | "wie der Desktop";

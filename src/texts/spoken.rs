@@ -1,10 +1,10 @@
-//! Which language a thread speaks, and how it writes texts and numbers in it.
+//! Language of a thread, and how texts and numbers are written in it.
 
 use std::cell::Cell;
 use std::fmt;
 use std::marker::PhantomData;
 
-/// A language of the window.
+/// Language of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Language {
     /// English.
@@ -15,10 +15,10 @@ pub enum Language {
 }
 
 impl Language {
-    /// All, in the order in which they are offered.
+    /// All languages, in the order in which they are offered.
     pub const ALL: [Self; 2] = [Self::English, Self::German];
 
-    /// Its name in itself.
+    /// Returns the name of the language in that language.
     pub fn name(self) -> &'static str {
         match self {
             Self::English => "English",
@@ -26,7 +26,7 @@ impl Language {
         }
     }
 
-    /// The language for a locale's name such as "de_AT.UTF-8" or "de-CH"; English for those that are not spoken.
+    /// Returns the language for a locale's name such as "de_AT.UTF-8" or "de-CH"; English for languages without texts.
     pub fn of_locale(locale: &str) -> Self {
         match locale.split(['_', '-', '.', '@']).next() {
             Some(tag) if tag.eq_ignore_ascii_case("de") => Self::German,
@@ -39,22 +39,22 @@ thread_local! {
     static SPOKEN: Cell<Language> = const { Cell::new(Language::English) };
 }
 
-/// What this thread speaks.
+/// Returns the current language of this thread.
 pub fn language() -> Language {
     SPOKEN.get()
 }
 
-/// Speaks a language on this thread until the answer is dropped.
+/// Sets the language of this thread until the returned value is dropped.
 #[must_use = "the language is spoken until this is dropped"]
 pub fn speak(language: Language) -> Speaking {
     Speaking { before: SPOKEN.replace(language), here: PhantomData }
 }
 
-/// A thread's language as long as it is set, see [`speak`].
+/// Guard for a thread's language as long as it is set, see [`speak`].
 #[derive(Debug)]
 pub struct Speaking {
     before: Language,
-    /// It belongs to its thread.
+    /// Marker that keeps the value on its thread.
     here: PhantomData<*const ()>,
 }
 
@@ -64,7 +64,7 @@ impl Drop for Speaking {
     }
 }
 
-/// A text in every language; it shows as the one that is spoken.
+/// Text in every language; it is displayed in the current one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Text {
     english: &'static str,
@@ -72,12 +72,12 @@ pub struct Text {
 }
 
 impl Text {
-    /// From the text in English and in German.
+    /// Creates a text from its English and German forms.
     pub const fn new(english: &'static str, german: &'static str) -> Self {
         Self { english, german }
     }
 
-    /// The text in the language that is spoken.
+    /// Returns the text in the current language.
     pub fn get(self) -> &'static str {
         match language() {
             Language::English => self.english,
@@ -85,7 +85,7 @@ impl Text {
         }
     }
 
-    /// The text in English, for names that must not change with the language (files, identifiers).
+    /// Returns the text in English, for names that must not change with the language (files, identifiers).
     pub const fn english(self) -> &'static str {
         self.english
     }
@@ -109,9 +109,9 @@ impl From<Text> for &'static str {
     }
 }
 
-/// What stands between ones and tenths in the language that is spoken.
+/// Returns the sign between ones and tenths in the current language.
 ///
-/// For what people read; files keep the point.
+/// It is used in texts for people; files keep the point.
 pub fn decimal_sign() -> char {
     match language() {
         Language::English => '.',
@@ -119,7 +119,7 @@ pub fn decimal_sign() -> char {
     }
 }
 
-/// A number that was written with a decimal point, as the language that is spoken writes it.
+/// Returns a number that was written with a decimal point in the notation of the current language.
 pub fn decimal(written: String) -> String {
     match decimal_sign() {
         '.' => written,
@@ -127,7 +127,7 @@ pub fn decimal(written: String) -> String {
     }
 }
 
-/// `value` with `decimals` digits behind the decimal sign, as the language that is spoken writes it.
+/// Returns `value` with `decimals` digits after the decimal sign of the current language.
 pub fn fixed(value: f64, decimals: usize) -> String {
     decimal(format!("{value:.decimals$}"))
 }

@@ -1,4 +1,4 @@
-//! Stages of what is being computed, as they are shown; the layers below name them in English.
+//! Texts of the stages of computations; the layers below name the stages in English.
 
 texts! {
     const ACCURACY = "accuracy" | "Genauigkeit";
@@ -31,7 +31,7 @@ texts! {
     const WAITING = "waiting for the product's data" | "auf Produktdaten warten";
 }
 
-/// The word for a stage in the language that is spoken; one that is not known here as it is.
+/// Returns the text for a stage in the current language; an unknown stage unchanged.
 pub fn word(stage: &'static str) -> &'static str {
     match super::language() {
         super::Language::English => stage,

@@ -1,9 +1,9 @@
-//! Taking products in: import, questions, findings.
+//! Texts of importing products: files, questions, findings.
 
 texts! {
     const IMPORT = "Import" | "Import";
 
-    // What can be done with what was read.
+    // Actions for files that were read.
     const DROP_HERE = "Drop dataset files, folders, zip archives or packages anywhere on the window, or press Ctrl+O." | "Datensätze, Ordner, ZIP-Archive oder Pakete irgendwo auf das Fenster ziehen oder Strg+O drücken.";
     const UNCHANGED = "The catalogue is unchanged." | "Der Katalog ist unverändert.";
     const ADD_ONE = "Add to catalogue" | "In den Katalog aufnehmen";
@@ -40,7 +40,7 @@ texts! {
     fn notes(count) = "{count} notes" | "{count} Hinweise";
     fn products_of_states(products, states) = "{products} of {states}" | "{products}, {states}";
 
-    // How files are taken.
+    // Ways of grouping files.
     const BY_ANGLE = "By angle" | "Nach Winkel";
     const BY_ANGLE_TIP = "Files that differ by an angle alone are states of one product" | "Dateien, die sich nur durch einen Winkel unterscheiden, sind Stellungen eines Produkts";
     const EVERY_FILE = "Every file apart" | "Jede Datei für sich";
@@ -93,7 +93,7 @@ texts! {
     const STATE_NAME = "State name" | "Name der Stellung";
     fn of_file(what, file) = "{what} of {file}" | "{what} von {file}";
 
-    // Why something cannot be stored.
+    // Reasons why something cannot be stored.
     fn tells_nothing(file) = "{file} tells no visible transmission, and cannot be stored" | "{file} enthält keine sichtbare Transmission und lässt sich nicht speichern";
     const NAME_MISSING = "A name is missing" | "Ein Name fehlt";
     fn no_angle(text) = "“{text}” is no angle; expected a number of degrees" | "„{text}“ ist kein Winkel; erwartet wird eine Zahl in Grad";
@@ -139,7 +139,7 @@ texts! {
     fn sun_at_45(tau, up, down) = "Sun at 45° altitude, perpendicular to the façade in plan: τ {tau}; {up} % of the transmitted light goes up, {down} % down" | "Sonne in 45° Höhe, im Grundriss senkrecht zur Fassade: τ {tau}; vom durchgelassenen Licht gehen {up} % nach oben, {down} % nach unten";
     const PICTURE_TIP = "Section: outside on the left; if it is not so, up and down or the sides are exchanged" | "Schnitt: außen links; stimmt das nicht, sind oben und unten oder die Seiten vertauscht";
 
-    // What is said after a change.
+    // Messages after a change.
     fn kept(name) = "Kept as a draft: {name}. The import sheet (I) lists it" | "Als Entwurf behalten: {name}. Das Blatt Import (I) listet ihn";
     fn discarded(name) = "Discarded: {name}. Ctrl+Z brings it back" | "Verworfen: {name}. Strg+Z holt es zurück";
     fn nothing_added(error) = "Nothing was added: {error}" | "Nichts wurde aufgenommen: {error}";

@@ -1,4 +1,4 @@
-//! The tiles of the bench and what stands in them.
+//! Texts of the tiles and of their content.
 
 texts! {
     // Titles and help.
@@ -129,7 +129,7 @@ texts! {
     const NO_PRODUCT = "No product chosen: choose one in the catalogue." | "Kein Produkt gewählt: im Katalog eines wählen.";
     fn logarithmic(unit) = "{unit} (log)" | "{unit} (log)";
 
-    // Bench.
+    // The tile area.
     fn layout_unreadable(problem) = "The kept layout of the tiles cannot be read: {problem}; they stand as at a first start" | "Die gespeicherte Anordnung der Kacheln ist nicht lesbar: {problem}; sie stehen wie beim ersten Start";
     fn layout_form(given, known) = "form {given}, where this program reads {known}" | "Form {given}, dieses Programm liest {known}";
     const LAYOUT_SHARE = "a share of a row or column is not between 0.001 and 1000" | "ein Anteil einer Zeile oder Spalte liegt nicht zwischen 0,001 und 1000";

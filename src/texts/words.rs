@@ -1,4 +1,4 @@
-//! Words of the layers below that window, pictures and reports show: moments, skies, rules, accuracy.
+//! Texts for terms of the layers below in window, pictures and reports: moments, skies, rules, accuracy.
 
 texts! {
     // Moments and places.
@@ -107,7 +107,7 @@ texts! {
     const WARNING = "warning" | "Warnung";
     const ERROR = "error" | "Fehler";
 
-    // What datasets tell of heat and extents.
+    // Thermal data and extents of datasets.
     const CONDUCTIVITY = "conductivity" | "Wärmeleitfähigkeit";
     const AIR_PERMEABILITY = "air permeability" | "Luftdurchlässigkeit";
     const EMISSIVITY_FRONT = "front emissivity" | "Emissionsgrad außen";
@@ -118,7 +118,7 @@ texts! {
     const WIDTH = "width" | "Breite";
     const HEIGHT = "height" | "Höhe";
 
-    // Stages of a computation, and where beams come from.
+    // Stages of a computation, and sources of sharp beams.
     const STAGE_SUN = "sun" | "Sonne";
     const STAGE_GROUND = "ground" | "Boden";
     const STAGE_CELLS = "cells" | "Zellen";
@@ -149,7 +149,7 @@ texts! {
     const YEAR_NEEDS_DATE = "No year of control: the sun is given by angles. Choose “By date and time” in the scene." | "Kein Jahr der Regelung: Die Sonne ist durch Winkel gegeben. In der Szene „Nach Datum und Zeit“ wählen.";
     fn no_year(problem) = "No year of control: {problem}" | "Kein Jahr der Regelung: {problem}";
 
-    // What stands outside.
+    // Obstructions.
     fn boxes_below_ground(count, height) = "{count} of the boxes outside: not above the ground at {height} m (site.ground_height), so not there" | "{count} der Körper draußen: nicht über dem Boden auf {height} m (site.ground_height), also nicht da";
     fn boxes_left_out(count) = "{count} of the boxes outside: left out, too low and too far away to matter" | "{count} der Körper draußen: weggelassen, zu niedrig und zu fern, um etwas zu ändern";
     const BUILDING_UNNAMED = "no [building] named: of the building only the boxes shade the ground" | "kein [building] benannt: Vom Gebäude beschatten nur die Körper den Boden";
@@ -190,6 +190,6 @@ texts! {
 
 use super::Text;
 
-/// Short names of the months, January first.
+/// Short names of the months, beginning with January.
 pub const MONTHS: [Text; 12] =
     [JANUARY, FEBRUARY, MARCH, APRIL, MAY, JUNE, JULY, AUGUST, SEPTEMBER, OCTOBER, NOVEMBER, DECEMBER];

@@ -1,4 +1,4 @@
-//! A year of weather in the room: the map of its hours, its figures, the lamps, and the weather it is of.
+//! Texts of the annual simulation: the map of hours, figures, electric lighting, and the weather.
 
 texts! {
     const YEAR = "Year" | "Jahr";
@@ -117,7 +117,7 @@ texts! {
     fn between_is(range) = "Lowest and highest of the sensors: {range}" | "Niedrigster und höchster Wert der Sensoren: {range}";
     const BETWEEN_TIP = "Lowest and highest of the sensors" | "Niedrigster und höchster Wert der Sensoren";
 
-    // Lamps.
+    // Electric lighting.
     const INSTALLED = "installed" | "installiert";
     fn sunny_day(day, month, energy) = "{day} {month}, {energy} kWh/m² direct normal" | "{day}. {month}, {energy} kWh/m² direkt normal";
     const NO_LAMPS = "No lamps: give the scene some under Weather and year, and compute again." | "Keine Lampen: der Szene unter Wetter und Jahr welche geben und neu rechnen.";

@@ -1,10 +1,10 @@
-//! A closed surface round a point, one radius for every direction: painted far parts first, shaded by how they are turned.
+//! A closed surface round a point, one radius for every direction: painted back to front, shaded by orientation.
 
 use super::camera::View;
 use egui::{Color32, Mesh, Painter, Pos2, Shape};
 use glam::DVec3;
 
-/// A surface on a grid of rows (from pole to pole) and columns (all round).
+/// Closed surface on a grid of rows (from pole to pole) and columns (all round).
 #[derive(Debug, Clone, Default)]
 pub struct Body {
     columns: usize,
@@ -13,14 +13,14 @@ pub struct Body {
 }
 
 impl Body {
-    /// From the point and colour of every node; rows run from 0 to `rows`, columns close round.
+    /// Creates the surface from the point and colour of every node; rows run from 0 to `rows`, columns close round.
     pub fn new(rows: usize, columns: usize, mut node: impl FnMut(usize, usize) -> (DVec3, Color32)) -> Self {
         let nodes = (0..=rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
         let (points, colours) = nodes.map(|(row, column)| node(row, column)).unzip();
         Self { columns, points, colours }
     }
 
-    /// The four nodes of every piece, in order round it.
+    /// Returns the four nodes of every piece, in order round it.
     fn pieces(&self) -> impl Iterator<Item = [usize; 4]> + '_ {
         let n = self.columns.max(1);
         let rows = (self.points.len() / n).saturating_sub(1);
@@ -31,17 +31,17 @@ impl Body {
         })
     }
 
-    /// Paints it round a centre, so many times as large.
+    /// Paints the surface round a centre, scaled by `size`.
     pub fn paint(&self, painter: &Painter, view: &View, centre: DVec3, size: f64) {
         painter.add(Shape::mesh(self.mesh(view, centre, size)));
     }
 
-    /// A node's point, of size 1 round the origin.
+    /// Returns a node's point, of the surface of size 1 round the origin.
     pub fn point(&self, node: usize) -> Option<DVec3> {
         self.points.get(node).copied()
     }
 
-    /// The foremost node within a reach \[points\] of a place on the screen.
+    /// Returns the foremost node within a reach \[points\] of a place on the screen.
     pub fn nearest(&self, view: &View, centre: DVec3, size: f64, at: Pos2, reach: f32) -> Option<usize> {
         let near = |(node, point): (usize, &DVec3)| {
             let (place, depth) = view.screen(centre + size * *point)?;
@@ -87,7 +87,7 @@ impl Body {
     }
 }
 
-/// A colour on a piece that is turned to the eye by a cosine.
+/// Returns a colour shaded by the cosine between a piece's normal and the viewing direction.
 fn shaded(colour: Color32, cosine: f64) -> Color32 {
     let share = 0.6 + 0.4 * cosine;
     let [r, g, b, a] = colour.to_array();

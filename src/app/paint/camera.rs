@@ -1,35 +1,36 @@
-//! A thing in space that is turned by hand: where its points are on the screen.
+//! A camera that is rotated round an object with pointer and keys, and the projection of points to the screen.
 
 use crate::compute::polygon::cut;
 use egui::{Align2, Color32, EventFilter, FontId, Key, Painter, Pos2, Rect, Response, Ui, Vec2, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Turning by one point of a drag. \[rad\]
+/// Rotation per point of a drag. \[rad\]
 const PER_POINT: f64 = 0.008;
-/// Turning by one arrow key. \[rad\]
+/// Rotation per press of an arrow key. \[rad\]
 const PER_KEY: f64 = 0.087;
-/// Nearest that anything is drawn, relative to the thing's radius.
+/// Minimum distance from the camera at which anything is drawn, relative to the object's radius.
 const NEAR: f64 = 0.02;
 
-/// From where a thing is looked at.
+/// Direction from which an object is looked at, and zoom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Of the eye round the upright axis z, from +x towards +y. \[rad\]
+    /// Angle of the viewpoint about the vertical axis z, from +x towards +y. \[rad\]
     pub turn: f64,
-    /// Of the eye above the level. \[rad\]
+    /// Angle of the viewpoint above the horizontal. \[rad\]
     pub tilt: f64,
-    /// 1: all of the thing is seen.
+    /// Magnification; at 1 the whole object is visible.
     pub zoom: f64,
 }
 
 impl Camera {
-    /// All of it from a direction. \[rad\]
+    /// Creates a camera that shows the whole object from a direction. \[rad\]
     pub const fn from(turn: f64, tilt: f64) -> Self {
         Self { turn, tilt, zoom: 1.0 }
     }
 
-    /// Turns by what was dragged, by the wheel, by arrow keys, + and −; Home goes back to `first`. True: it has moved.
+    /// Applies drag, wheel, arrow keys, + and − to the camera; Home returns to `first`. Returns whether the camera has
+    /// moved.
     pub fn obey(&mut self, ui: &Ui, response: &Response, first: Self) -> bool {
         let before = *self;
         let drag = if response.dragged() { response.drag_delta() } else { Vec2::ZERO };
@@ -56,13 +57,14 @@ impl Camera {
         *self != before
     }
 
-    /// The view of a ball into a rectangle.
+    /// Returns the view of a sphere into a rectangle.
     pub fn view(&self, centre: DVec3, radius: f64, rect: Rect) -> View {
         let (sin, cos) = self.turn.sin_cos();
         let (up, level) = self.tilt.sin_cos();
         let outward = DVec3::new(level * cos, level * sin, up);
         let right = DVec3::new(-sin, cos, 0.0);
-        // At zoom 1 the ball is seen whole; nearer the eye goes into it before it goes on magnifying.
+        // At zoom 1 the sphere is seen whole; at a higher zoom the viewpoint moves into it before magnification
+        // increases further.
         let distance = 3.0 * radius / self.zoom.min(6.0);
         let focal = 0.5 * f64::from(rect.width().min(rect.height())) * 2.8 * (self.zoom / 6.0).max(1.0);
         View {
@@ -77,7 +79,7 @@ impl Camera {
     }
 }
 
-/// Words over a point, on a ground, kept inside an area.
+/// Draws text over a point, on a ground, kept inside an area.
 pub fn words(painter: &Painter, area: Rect, at: Pos2, text: &str, [colour, ground]: [Color32; 2]) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), colour);
     let size = galley.size();
@@ -90,12 +92,12 @@ pub fn words(painter: &Painter, area: Rect, at: Pos2, text: &str, [colour, groun
     painter.galley(place, galley, colour);
 }
 
-/// A camera that stands.
+/// Projection of space to the screen for one position of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Where the eye is.
+    /// Position of the viewpoint.
     pub eye: DVec3,
-    /// To the right on the screen, unit.
+    /// Unit vector to the right on the screen.
     pub right: DVec3,
     up: DVec3,
     forward: DVec3,
@@ -105,7 +107,8 @@ pub struct View {
 }
 
 impl View {
-    /// A point on the screen, and how far before the eye it is; `None` behind the eye or too near to it.
+    /// Returns the screen point of a point and its distance in front of the camera; `None` behind the camera or too
+    /// near to it.
     pub fn screen(&self, point: DVec3) -> Option<(Pos2, f64)> {
         let from = point - self.eye;
         let depth = from.dot(self.forward);
@@ -117,7 +120,7 @@ impl View {
         Some((pos2(self.middle.x + x as f32, self.middle.y + y as f32), depth))
     }
 
-    /// Returns a convex polygon on the screen, as far as it is before the eye.
+    /// Returns a convex polygon on the screen, as far as it lies in front of the camera.
     pub fn polygon(&self, corners: &[DVec3]) -> Vec<Pos2> {
         let mut kept = Vec::new();
         // A little farther, so that no corner is lost by rounding.
@@ -125,14 +128,14 @@ impl View {
         kept.into_iter().filter_map(|p| Some(self.screen(p)?.0)).collect()
     }
 
-    /// The direction in which a point of the screen is seen.
+    /// Returns the direction in which a point of the screen is seen.
     pub fn ray(&self, at: Pos2) -> DVec3 {
         let [x, y] = [at.x - self.middle.x, self.middle.y - at.y].map(|v| f64::from(v) / self.focal);
         // The three stand on each other: the sum is at least as long as the first.
         (self.forward + x * self.right + y * self.up).normalize_or_zero()
     }
 
-    /// Does a plane through a point, with a normal, show this side to the eye?
+    /// Whether a plane, given by a point and a normal, shows its front side to the camera.
     pub fn faces(&self, point: DVec3, normal: DVec3) -> bool {
         (self.eye - point).dot(normal) > 0.0
     }

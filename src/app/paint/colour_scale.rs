@@ -1,4 +1,4 @@
-//! From a value to a colour and back to a legend that can be read: linear or logarithmic, with unit.
+//! Colours of values, and a readable legend for them: linear or logarithmic, with unit.
 
 use super::palette::{ColourMapExt as _, Palette};
 use crate::drawing::ticks;
@@ -12,7 +12,7 @@ pub use crate::drawing::colours::ColourScale;
 
 /// Colours and legend of a scale in the window.
 pub trait ColourScaleExt {
-    /// Colour of a value.
+    /// Returns the colour of a value.
     fn colour(&self, value: f64) -> Color32;
 
     /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): bar, ticks, unit, and a needle at `pointed`.

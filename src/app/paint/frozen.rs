@@ -4,15 +4,15 @@ use egui::epaint::Tessellator;
 use egui::{Mesh, Shape, Ui};
 use std::sync::Arc;
 
-/// What the triangles hang on beside the shapes: pixels a point, to the bit.
+/// Resolution that triangles depend on beside the shapes: bits of the pixels per point.
 pub type Grain = u32;
 
-/// How fine triangles are to be, for keys of what is kept.
+/// Returns the resolution of triangles, for keys of cached meshes.
 pub fn grain(ui: &Ui) -> Grain {
     ui.pixels_per_point().to_bits()
 }
 
-/// Shapes without text as triangles.
+/// Returns shapes without text as triangles.
 pub fn frozen(ui: &Ui, shapes: impl IntoIterator<Item = Shape>) -> Arc<Mesh> {
     let options = ui.ctx().tessellation_options(|options| *options);
     // Texts alone need the font's texture.

@@ -1,5 +1,5 @@
-//! A hemisphere as a disk in the window: meshes of its cells, its frame, and its cells by the arrow keys. How directions
-//! become points of the disk is [`crate::drawing::hemisphere`]'s.
+//! A hemisphere as a disk in the window: meshes of its cells, its frame, and its cells by the arrow keys. The
+//! projection of directions to points of the disk is that of [`crate::drawing::hemisphere`].
 
 use super::palette::Palette;
 use crate::compute::basis::{Cell, RingBasis};
@@ -10,39 +10,40 @@ use egui::epaint::TextShape;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How far a cell reaches under its neighbours: more than chords and rounding leave open, less than is seen. \[points\]
+/// Width by which a cell extends under its neighbours: larger than gaps by chords and rounding, too small to be seen.
+/// \[points\]
 const OVERLAP: f32 = 0.6;
 
-/// Where a disk lies on the screen.
+/// Position of a hemisphere's disk on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disk {
-    /// Centre.
+    /// Centre of the disk.
     pub centre: Pos2,
     /// Radius of the rim. \[points\]
     pub radius: f32,
 }
 
 impl Disk {
-    /// The largest disk within a rectangle that leaves room for the words at the rim.
+    /// Creates the largest disk within a rectangle that leaves room for the words at the rim.
     pub fn within(rect: Rect) -> Self {
         Self { centre: rect.center(), radius: (0.5 * rect.width().min(rect.height()) - 17.0).max(8.0) }
     }
 
-    /// Screen point of a disk point.
+    /// Returns the screen point of a disk point.
     pub fn screen(&self, [right, up]: [f64; 2]) -> Pos2 {
         self.centre + egui::vec2(right as f32, -up as f32) * self.radius
     }
 
-    /// Disk point of a screen point.
+    /// Returns the disk point of a screen point.
     pub fn disk(&self, at: Pos2) -> [f64; 2] {
         let d = (at - self.centre) / self.radius;
         [f64::from(d.x), f64::from(-d.y)]
     }
 
-    /// All cells of a basis in flat colours, without gaps.
+    /// Returns all cells of a basis in flat colours, without gaps.
     ///
-    /// Neighbouring rings have arcs of other chords, so that cells that end exactly at their borders leave slivers open.
-    /// Each cell therefore reaches a little under the next ring and the next cell, which are drawn after it.
+    /// Neighbouring rings have arcs of other chords, so that cells that end exactly at their borders leave slivers
+    /// open. Each cell therefore extends a little under the next ring and the next cell, which are drawn after it.
     pub fn cells(
         &self,
         projection: Projection,
@@ -75,7 +76,8 @@ impl Disk {
         mesh
     }
 
-    /// The borders between cells, each once: drawn twice, by the cells on both sides and with other chords, they would beat.
+    /// Returns the borders between cells, each once: drawn twice, by the cells on both sides and with other chords,
+    /// they would beat.
     pub fn borders(&self, projection: Projection, side: Side, basis: &RingBasis) -> Vec<Vec<Pos2>> {
         let place = |radius: f64, phi: f64| self.screen(side.polar(radius, phi));
         let mut lines = Vec::new();
@@ -90,7 +92,7 @@ impl Disk {
         lines
     }
 
-    /// A continuous function on the disk (given disk coordinates), evaluated at 30 × 72 points.
+    /// Returns a mesh of a continuous function on the disk (given disk coordinates), evaluated at 30 × 72 points.
     pub fn smooth(&self, value: impl Fn([f64; 2]) -> Color32) -> Mesh {
         const RINGS: u32 = 30;
         const SECTORS: u32 = 72;
@@ -113,7 +115,7 @@ impl Disk {
         mesh
     }
 
-    /// Rim, faint rings at θ 30° and 60° with their labels, and which way is up.
+    /// Draws the rim, faint rings at θ 30° and 60° with their labels, and the mark of "up".
     pub fn rim(&self, painter: &Painter, projection: Projection, palette: &Palette) {
         let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
         for deg in [30_f64, 60.0] {
@@ -129,7 +131,7 @@ impl Disk {
         painter.text(top, Align2::CENTER_BOTTOM, say::UP, FontId::proportional(13.0), palette.weak);
     }
 
-    /// [`Self::rim`], the words at the sides, and a caption under the disk.
+    /// Draws [`Self::rim`], the words at the sides, and a caption under the disk.
     pub fn frame(&self, painter: &Painter, projection: Projection, corner: &str, palette: &Palette) {
         self.rim(painter, projection, palette);
         let font = FontId::proportional(13.0);
@@ -145,7 +147,7 @@ impl Disk {
     }
 }
 
-/// Small text on data: a soft ground makes it readable on every colour.
+/// Draws small text on data: a soft ground makes it readable on every colour.
 pub fn on_halo(painter: &Painter, at: Pos2, text: &str, palette: &Palette) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), palette.ink);
     let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size());
@@ -154,8 +156,8 @@ pub fn on_halo(painter: &Painter, at: Pos2, text: &str, palette: &Palette) -> Re
     rect
 }
 
-/// The point of a set that lies next in a direction of the screen (right, up): nearest, with what lies aside counted
-/// double, within 60°. For choosing cells by the arrow keys on any basis.
+/// Returns the point of a set that lies next in a direction of the screen (right, up), within 60°: the nearest, with
+/// the distance aside counted double. It serves to choose cells of any basis by the arrow keys.
 pub fn neighbour(points: &[[f64; 2]], from: [f64; 2], [dx, dy]: [f64; 2]) -> Option<usize> {
     points
         .iter()
@@ -174,7 +176,7 @@ mod tests {
     use super::*;
     use crate::compute::basis::AzimuthMap;
 
-    /// Is a point inside some triangle, corners and edges included?
+    /// Whether a point is inside some triangle, corners and edges included.
     fn covered(mesh: &Mesh, at: Pos2) -> bool {
         mesh.indices.chunks_exact(3).any(|t| {
             let [a, b, c] = [t[0], t[1], t[2]].map(|k| mesh.vertices[k as usize].pos);

@@ -13,7 +13,7 @@ use egui::{
 };
 use egui_plot::{PlotImage, PlotPoint};
 
-/// A texture, kept as long as this.
+/// Texture that is kept as long as this value.
 #[derive(Clone)]
 struct Picture(TextureHandle);
 
@@ -23,34 +23,34 @@ impl std::fmt::Debug for Picture {
     }
 }
 
-/// What a map remembers from frame to frame.
+/// State of a map between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Of which map, in the dark or not.
+    /// Picture of the map, with the revision it was made for and whether the theme was dark.
     picture: Option<((u64, bool), Picture)>,
 }
 
-/// What is shown.
+/// Input of the map.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The map.
+    /// Map to draw.
     pub map: &'a HourMap,
-    /// Changes with it.
+    /// Number that changes with the map.
     pub revision: u64,
-    /// The cell that is marked.
+    /// Cell that is marked.
     pub mark: Option<usize>,
-    /// Part of a page: the wheel moves the page.
+    /// Whether the map is part of a page, whose scrolling keeps the wheel.
     pub on_page: bool,
 }
 
-/// What was done.
+/// Response to pointer and keys.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Answer {
-    /// The cell that was clicked.
+    /// Cell that was clicked.
     pub picked: Option<usize>,
-    /// The cell that arrow keys came to.
+    /// Cell that arrow keys moved to.
     pub walked: Option<usize>,
-    /// The cell under the pointer.
+    /// Cell under the pointer.
     pub pointed: Option<usize>,
 }
 
@@ -112,12 +112,12 @@ pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> An
     Answer { picked: clicked, walked, pointed }
 }
 
-/// `21 Jun, 12:00–13:00: 512 lx`.
+/// Returns a cell as text: `21 Jun, 12:00–13:00: 512 lx`.
 pub fn spoken(map: &HourMap, cell: usize) -> String {
     say::cell_is(map.when(cell), map.words(cell))
 }
 
-/// Arrow keys go an hour or a day on, with Shift three hours or thirty days.
+/// Moves the mark by arrow keys: by an hour or a day, with Shift by three hours or thirty days. Returns the new cell.
 fn keys(ui: &Ui, response: &Response, input: &Input<'_>, id: Id) -> Option<usize> {
     if !response.has_focus() {
         return None;
@@ -143,7 +143,7 @@ fn keys(ui: &Ui, response: &Response, input: &Input<'_>, id: Id) -> Option<usize
         })
     });
     let [days, rows] = step?;
-    // Without a mark the first key begins in the middle of the year; the next ones go on from there.
+    // Without a mark the first key begins in the middle of the year; the next ones continue from there.
     let kept = id.with("walked");
     let from = input.mark.or_else(|| ui.data(|data| data.get_temp(kept)));
     let next = match from {
@@ -154,7 +154,7 @@ fn keys(ui: &Ui, response: &Response, input: &Input<'_>, id: Id) -> Option<usize
     Some(next)
 }
 
-/// Which colour is which state; of many every so many.
+/// Draws the legend of states and their colours; where not all names fit, every n-th of them.
 fn names_legend(ui: &Ui, rect: Rect, names: &[String], palette: &Palette) {
     let font = FontId::proportional(13.0);
     let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), palette.ink).size().x;

@@ -7,7 +7,7 @@ pub use crate::drawing::colours::ColourMap;
 
 /// Colours of a map in the window.
 pub trait ColourMapExt {
-    /// Colour of a fraction in the window; values outside 0 … 1 get the end colours, NaN the lower one.
+    /// Returns the colour of a fraction in the window; values outside 0 … 1 get the end colours, NaN the lower one.
     fn at(self, fraction: f32) -> Color32;
 }
 
@@ -18,39 +18,39 @@ impl ColourMapExt for ColourMap {
     }
 }
 
-/// The greys and accents of one theme.
+/// Greys and accents of one theme.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Palette {
-    /// Text and main lines.
+    /// Colour of text and main lines.
     pub ink: Color32,
-    /// Secondary text.
+    /// Colour of secondary text.
     pub weak: Color32,
-    /// Grid lines.
+    /// Colour of grid lines.
     pub grid: Color32,
-    /// Borders of pictures.
+    /// Colour of borders of pictures.
     pub outline: Color32,
     /// Ground of a picture without data.
     pub face: Color32,
     /// Ground behind text that lies on data.
     pub halo: Color32,
-    /// First curve, selection.
+    /// Colour of the first curve and of the selection.
     pub first: Color32,
-    /// Second curve.
+    /// Colour of the second curve.
     pub second: Color32,
-    /// The sun.
+    /// Colour of the sun.
     pub sun: Color32,
-    /// Ground in the sun.
+    /// Colour of ground in the sun.
     pub sunlit: Color32,
-    /// Ground in the shade.
+    /// Colour of ground in the shade.
     pub shade: Color32,
-    /// Unscattered light.
+    /// Colour of unscattered light.
     pub beam: Color32,
-    /// Series of a plot with many.
+    /// Colours of the series of a plot with many.
     pub series: [Color32; 5],
 }
 
 impl Palette {
-    /// The colours that go with a theme.
+    /// Returns the colours of a theme.
     pub fn of(visuals: &Visuals) -> Self {
         let grey = Color32::from_gray;
         let rgb = |colours: [Rgb; 5]| colours.map(|[r, g, b]| Color32::from_rgb(r, g, b));
@@ -90,7 +90,7 @@ impl Palette {
     }
 }
 
-/// Black or white, whichever reads better on a ground.
+/// Returns black or white, whichever reads better on a ground.
 pub fn contrast(ground: Color32) -> Color32 {
     let [r, g, b] = colours::contrast([ground.r(), ground.g(), ground.b()]);
     Color32::from_rgb(r, g, b)

@@ -1,8 +1,8 @@
-//! Ordinary plots in the window, by egui_plot: a drag moves the view, the wheel zooms, a drag with the right button zooms
-//! to a box, a double click shows all again. Points near the pointer tell their values.
+//! Plots in the window, by egui_plot: a drag moves the view, the wheel zooms, a drag with the right button zooms to a
+//! box, a double click shows all again. Points near the pointer show their values.
 //!
 //! The legend stands above the plot instead of in it, since in a small tile it would cover the data; it works as
-//! egui_plot's does: a click hides a series, the pointer on a name brings it out.
+//! egui_plot's does: a click hides a series, the pointer on a name emphasises it.
 
 use super::palette::Palette;
 use crate::drawing::plot::{Axis, Form, Plot, Series};
@@ -19,39 +19,40 @@ use egui_plot::{
 pub const LEFT: f32 = 44.0;
 /// Space right of the plotting area, for the half of the last tick. \[points\]
 pub const RIGHT: f32 = 10.0;
-/// Space under the plotting area for ticks, and for a title under them. \[points\]
+/// Space under the plotting area: for ticks alone, and for ticks with a title. \[points\]
 const BELOW: [f32; 2] = [17.0, 36.0];
-/// Size of ticks and names. \[points\]
+/// Font size of ticks and names. \[points\]
 const TICKS: f32 = 13.0;
 
-/// Height of a line above it. \[points\]
+/// Height of a line above the plot. \[points\]
 const LINE: f32 = 18.0;
 
-/// How a plot looks and what the pointer does to it.
+/// Appearance of a plot, and its response to the pointer.
 #[derive(Debug, Clone, Copy)]
 pub struct Look<'a> {
-    /// Unique; also where the view is kept.
+    /// Unique id, under which the view is also kept.
     pub id: Id,
-    /// One for each series.
+    /// Colours of the series, one for each.
     pub colours: &'a [Color32],
-    /// Of the lines to compare with.
+    /// Colour of the guides, the lines to compare with.
     pub guide: Color32,
     /// Space for the numbers left of the plot. \[points\]
     pub left: f32,
-    /// Another plot's [`id`](Self::id), whose legend rules here too; `None`: a legend of its own.
+    /// Another plot's [`id`](Self::id), whose legend applies here too; `None`: the plot has its own legend.
     pub legend_of: Option<Id>,
-    /// Part of a page: the wheel moves the page, zooming takes Ctrl as well; values under the pointer stand in a corner.
+    /// Whether the plot is part of a page: the wheel moves the page, zooming takes Ctrl as well, and values under the
+    /// pointer stand in a corner.
     pub on_page: bool,
-    /// Takes the keyboard when clicked.
+    /// Whether the plot takes the keyboard when clicked.
     pub focusable: bool,
-    /// What is under the pointer is dragged and clicked by the caller: the view stays.
+    /// Whether the view stays because the caller handles drags and clicks on what is under the pointer.
     pub held: bool,
-    /// Series are told apart by dashes as well as by colour.
+    /// Whether series are distinguished by dashes as well as by colour.
     pub dashed: bool,
 }
 
 impl<'a> Look<'a> {
-    /// A plot in a tile.
+    /// Creates the look of a plot in a tile.
     pub fn tile(id: Id, colours: &'a [Color32], guide: Color32) -> Self {
         Self {
             id,
@@ -66,7 +67,7 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// Lengths of dashes, for egui_plot and for the legend; `None`: a line.
+    /// Returns the length of dashes, for egui_plot and for the legend; `None`: a solid line.
     fn dash(&self, series: usize) -> Option<f32> {
         const DASHES: [Option<f32>; 3] = [None, Some(10.0), Some(4.0)];
         DASHES[series % 3].filter(|_| self.dashed)
@@ -77,52 +78,52 @@ impl<'a> Look<'a> {
     }
 }
 
-/// A plot as it was drawn.
+/// Plot as it was drawn.
 #[derive(Debug, Clone)]
 pub struct Shown {
-    /// The plotting area.
+    /// Response of the plotting area.
     pub response: Response,
-    /// Between its coordinates and the screen.
+    /// Transform between the plot's coordinates and the screen.
     pub transform: PlotTransform,
     /// Names of the series that the legend hides.
     pub hidden: Vec<String>,
 }
 
 impl Shown {
-    /// As the plot was in the last frame.
+    /// Returns the transform of the plot in the last frame.
     pub fn transform_before(ui: &Ui, id: Id) -> Option<PlotTransform> {
         PlotMemory::load(ui.ctx(), id).map(|memory| memory.transform())
     }
 
-    /// The plotting area.
+    /// Returns the plotting area.
     pub fn area(&self) -> Rect {
         *self.transform.frame()
     }
 
-    /// Where a point lies on the screen, given in coordinates of the axes.
+    /// Returns the place on the screen of a point in coordinates of the axes.
     pub fn screen(&self, point: [f64; 2]) -> Pos2 {
         screen(&self.transform, point)
     }
 
-    /// Coordinates of the axes at a place on the screen.
+    /// Returns the coordinates of the axes at a place on the screen.
     pub fn coordinates(&self, at: Pos2) -> [f64; 2] {
         let point = self.transform.value_from_position(at);
         [point.x, point.y]
     }
 
-    /// Coordinates of a click.
+    /// Returns the coordinates of a click.
     pub fn clicked(&self) -> Option<[f64; 2]> {
         let at = self.response.interact_pointer_pos().filter(|_| self.response.clicked());
         at.map(|at| self.coordinates(at))
     }
 
-    /// Coordinates under the pointer.
+    /// Returns the coordinates under the pointer.
     pub fn pointed(&self) -> Option<[f64; 2]> {
         self.response.hover_pos().map(|at| self.coordinates(at))
     }
 }
 
-/// Where a point lies on the screen, given in coordinates of the axes.
+/// Returns the place on the screen of a point in coordinates of the axes.
 pub fn screen(transform: &PlotTransform, [x, y]: [f64; 2]) -> Pos2 {
     transform.position_from_point(&PlotPoint::new(x, y))
 }
@@ -212,8 +213,8 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
     shown
 }
 
-/// The title of y and, for more than one series, the legend, in as many lines as the width asks for. Returns where
-/// they end, and the series whose name is under the pointer.
+/// Draws the title of y and, for more than one series, the legend, on as many lines as the width requires. Returns
+/// their lower edge, and the series whose name is under the pointer.
 fn head(
     ui: &mut Ui,
     rect: Rect,
@@ -251,7 +252,7 @@ fn head(
     (head.min_rect().bottom(), lit)
 }
 
-/// A name of the legend with its colour.
+/// Draws a name of the legend with its colour.
 fn entry(ui: &mut Ui, name: &str, (colour, dash): (Color32, Option<f32>), palette: &Palette) -> Response {
     let swatch = if dash.is_some() { 28.0 } else { 16.0 };
     let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(TICKS), palette.ink);
@@ -269,7 +270,7 @@ fn entry(ui: &mut Ui, name: &str, (colour, dash): (Color32, Option<f32>), palett
     response
 }
 
-/// Type, colour and room of an axis.
+/// Returns the hints of an axis with its type, colour and room.
 fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32) -> AxisHints<'a> {
     // The spacers thin the ticks already.
     hints
@@ -280,7 +281,7 @@ fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32)
         .tick_label_font(FontId::proportional(TICKS))
 }
 
-/// Ticks at least about `apart` points from one another.
+/// Returns ticks at least about `apart` points from one another.
 fn marks(axis: &Axis, input: &GridInput, apart: f64) -> Vec<GridMark> {
     let (lo, hi) = input.bounds;
     // The base step is eight points.
@@ -291,7 +292,7 @@ fn marks(axis: &Axis, input: &GridInput, apart: f64) -> Vec<GridMark> {
     inside.map(|value| GridMark { value, step_size: step }).collect()
 }
 
-/// Hands a series to egui_plot, its gaps as gaps: what is not finite must not reach it.
+/// Adds a series to egui_plot, its gaps as gaps: values that are not finite must not reach egui_plot.
 fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, (colour, dash): (Color32, Option<f32>), lit: bool) {
     for band in plot.bands(series) {
         let column = |k: usize| -> Vec<f64> { band.iter().map(|point| point[k]).collect() };
@@ -312,7 +313,7 @@ fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, (colour, dash): (
     }
 }
 
-/// Names of the guides at their right ends, as far as no other guide runs through them.
+/// Draws the names of the guides at their right ends, as far as no other guide runs through them.
 fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
     let area = shown.area();
     let ends = || plot.guides.iter().filter_map(|guide| Some((guide, shown.screen(plot.place(guide.ends[1])?))));

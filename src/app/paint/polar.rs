@@ -5,13 +5,13 @@ use crate::drawing::ticks;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{PI, TAU};
 
-/// Room for the angles round the rim. \[points\]
+/// Space for the angles round the rim. \[points\]
 const RIM: f32 = 26.0;
 
-/// The axes of a polar diagram.
+/// Axes of a polar diagram.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PolarAxes {
-    /// The pole.
+    /// Pole of the diagram on the screen.
     pub centre: Pos2,
     /// Radius of the outermost ring. \[points\]
     pub radius: f32,
@@ -20,25 +20,25 @@ pub struct PolarAxes {
 }
 
 impl PolarAxes {
-    /// The largest diagram within a rectangle; `max` is rounded up.
+    /// Creates the largest diagram within a rectangle; `max` is rounded up.
     pub fn within(rect: Rect, max: f64) -> Self {
         let radius = (0.5 * rect.width().min(rect.height()) - RIM).max(10.0);
         Self { centre: rect.center(), radius, max: ticks::fine_ceil(max) }
     }
 
-    /// Screen point of an angle counted from straight down towards the right \[rad\] and a value.
+    /// Returns the screen point of an angle counted from straight down towards the right \[rad\] and a value.
     pub fn screen(&self, angle: f64, value: f64) -> Pos2 {
         let r = (value / self.max).clamp(0.0, 1.05) as f32 * self.radius;
         self.centre + egui::vec2(angle.sin() as f32, angle.cos() as f32) * r
     }
 
-    /// Angle from straight down towards the right, −π … π \[rad\], and value of a screen point.
+    /// Returns angle from straight down towards the right, −π … π \[rad\], and value of a screen point.
     pub fn value(&self, at: Pos2) -> (f64, f64) {
         let d = at - self.centre;
         (f64::from(d.x).atan2(f64::from(d.y)), f64::from(d.length() / self.radius) * self.max)
     }
 
-    /// Rings with values (on the side that `label_angle` names), spokes every 30°, angles by `label`.
+    /// Draws rings with values (on the side that `label_angle` gives), spokes every 30°, and angles by `label`.
     pub fn paint(&self, painter: &Painter, label: impl Fn(f64) -> String, label_angle: f64, palette: &Palette) {
         let grid = Stroke::new(1.0, palette.grid);
         let font = FontId::proportional(13.0);
@@ -62,7 +62,7 @@ impl PolarAxes {
         }
     }
 
-    /// The closed curve of equally spaced samples over a full turn, the first straight down.
+    /// Returns the closed curve of equally spaced samples over a full turn, the first straight down.
     pub fn curve(&self, samples: &[f64]) -> Vec<Pos2> {
         let n = samples.len() as f64;
         samples.iter().enumerate().map(|(k, v)| self.screen(TAU * k as f64 / n, v.max(0.0))).collect()

@@ -1,11 +1,11 @@
-//! Filled polygons of any shape: egui fills convex ones alone.
+//! Filled polygons of any shape; egui fills only convex ones.
 
 use egui::{Color32, Mesh, Pos2, pos2};
 
-/// Polygons with more corners are not filled: the work grows with the square.
+/// Maximum number of corners of a polygon that is filled: the work grows with the square.
 const MOST_CORNERS: usize = 400;
 
-/// The inside of a polygon that does not cross itself, as trapezoids between the heights of its corners.
+/// Returns the inside of a polygon that does not cross itself, as trapezoids between the heights of its corners.
 pub fn fill(corners: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     if corners.len() < 3 || corners.len() > MOST_CORNERS {

@@ -1,29 +1,29 @@
-//! What every tile has: title, unit, toggles, '?', the line with the value under the cursor, and its states of being
-//! (empty, coarse, stale, wrong).
+//! Parts that every tile has: title, unit, toggles, '?', the line with the value under the cursor, and its status
+//! (empty, preliminary, outdated, with an error).
 
 use super::palette::Palette;
 use crate::texts::{Language, Text, language, tiles as say};
 use egui::{Align, Align2, Color32, FontId, Id, Layout, Rect, RichText, Sense, Ui, UiBuilder, pos2};
 
-/// How far the content is to be trusted.
+/// Status of a tile's content.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Status<'a> {
-    /// A first, rough result; the exact one is on its way.
+    /// Whether the result is preliminary; the exact one is on its way.
     pub coarse: bool,
-    /// Belongs to an earlier scene; drawn faded until replaced.
+    /// Whether the result belongs to an earlier scene; it is drawn faded until replaced.
     pub stale: bool,
-    /// Nothing newer is under way: what is stale or coarse stays so.
+    /// Whether nothing newer is computed: an outdated or preliminary result stays so.
     pub idle: bool,
-    /// Something is being dragged: colour scales and axes stand still.
+    /// Whether something is being dragged: colour scales and axes stay as they are.
     pub hold_scale: bool,
-    /// What a newer picture waits for, in a few words; said while this one is stale.
+    /// Work that a newer picture waits for, in a few words; shown while this one is outdated.
     pub doing: Option<&'a str>,
-    /// Why there is nothing to show.
+    /// Reason why there is nothing to show.
     pub error: Option<&'a str>,
 }
 
 impl<'a> Status<'a> {
-    /// What a picture that is not the final one says of itself.
+    /// Returns the note on a picture that is not the final one; `None` for a final one.
     pub fn tag(&self) -> Option<&'a str> {
         match (self.stale, self.coarse, self.idle) {
             (true, _, false) => match self.doing {
@@ -38,28 +38,29 @@ impl<'a> Status<'a> {
     }
 }
 
-/// The line under a picture, from its fullest wording to its shortest: the first that fits is shown.
+/// Line under a picture, from its fullest wording to its shortest: the first that fits is shown.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Foot(Vec<String>);
 
 impl Foot {
-    /// The fullest wording.
+    /// Returns the fullest wording.
     pub fn full(&self) -> &str {
         self.0.first().map_or("", String::as_str)
     }
 
-    /// All wordings with a beginning.
+    /// Returns all wordings with a text before them.
     pub fn after(self, start: &str) -> Self {
         Self(self.0.into_iter().map(|text| format!("{start}{text}")).collect())
     }
 
-    /// A shorter wording, where none of the others fits.
+    /// Returns the line with a shorter wording added, for the case that none of the others fits.
     pub fn or(mut self, shortest: &str) -> Self {
         self.0.push(shortest.to_owned());
         self
     }
 
-    /// The first that is at most so wide; else the last, without its parts after " · " as far as needed.
+    /// Returns the first wording that is at most `room` wide; else the last, without its parts after " · " as far as
+    /// needed.
     fn fitting(&self, ui: &Ui, room: f32) -> String {
         let fits = |text: &str| width(ui, text, SMALL) <= room;
         if let Some(text) = self.0.iter().find(|text| fits(text)) {
@@ -97,28 +98,28 @@ impl<const N: usize> From<[String; N]> for Foot {
     }
 }
 
-/// The words of a tile.
+/// Texts of a tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Words<'a> {
     /// Title, sentence case.
     pub title: &'a str,
     /// Quantity and unit, or the product's name.
     pub subtitle: &'a str,
-    /// What '?' says: one sentence and its source.
+    /// Text of '?': one sentence and its source.
     pub help: &'a str,
-    /// Shown instead of the picture while there is nothing to draw.
+    /// Text shown instead of the picture while there is nothing to draw.
     pub empty: Option<&'a str>,
     /// Width that the toggles need side by side; below it they go into a menu. \[points\]
     pub controls_width: f32,
 }
 
-/// Size of all text but titles. \[points\]
+/// Font size of all text but titles. \[points\]
 const SMALL: f32 = 13.0;
-/// Size of a tile's title. \[points\]
+/// Font size of a tile's title. \[points\]
 const TITLE: f32 = 14.0;
-/// What the two buttons of a head take with the space round them. \[points\]
+/// Width of the two buttons of a head with the space round them. \[points\]
 const BUTTONS: f32 = 96.0;
-/// Below this width the second title would be a letter or two: then it is only in the title's tip. \[points\]
+/// Minimum width of the subtitle; narrower it would be a letter or two, and is only in the title's tooltip. \[points\]
 const LEAST_SUBTITLE: f32 = 54.0;
 /// Height of the head. \[points\]
 const HEAD: f32 = 26.0;
@@ -174,22 +175,22 @@ pub fn show<F: Into<Foot>>(
     ui.allocate_rect(full.expand2(egui::vec2(6.0, 2.0)), Sense::hover());
 }
 
-/// Where the line is kept of the tile that the pointer was on last.
+/// Returns the id under which the line of the tile that was last under the pointer is kept.
 fn pointed_id() -> Id {
     Id::unique("line of the tile under the pointer")
 }
 
-/// What the line says, in full, under the tile that the pointer was on last.
+/// Returns the full text of the line under the tile that was last under the pointer.
 pub fn pointed_foot(ctx: &egui::Context) -> Option<String> {
     ctx.data(|data| data.get_temp(pointed_id()))
 }
 
-/// Width of a line of text.
+/// Returns the width of a line of text. \[points\]
 fn width(ui: &Ui, text: &str, size: f32) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(size), Color32::PLACEHOLDER).size().x
 }
 
-/// Draws the head; true when it says all that the status has to say.
+/// Draws the head. Returns `true` if it shows all that the status has to say.
 fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, controls: impl FnOnce(&mut Ui)) -> bool {
     let palette = Palette::of(ui.visuals());
     let mut head = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
@@ -246,26 +247,26 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
     .inner
 }
 
-/// Words in the middle of a tile, instead of its picture.
+/// Draws text in the middle of a tile, instead of its picture.
 fn notice(ui: &mut Ui, rect: Rect, text: &str, colour: Color32) {
     let mut child =
         ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::centered_and_justified(egui::Direction::TopDown)));
     child.add(egui::Label::new(RichText::new(text).size(SMALL).color(colour)).wrap());
 }
 
-/// A whole tile that has nothing to draw yet: head and words.
+/// Draws a whole tile that has nothing to draw yet: head and text.
 pub fn waiting(ui: &mut Ui, title: &str, help: &str, text: &str, is_error: bool) {
     let status = Status { error: is_error.then_some(text), ..Status::default() };
     let words = Words { title, subtitle: "", help, empty: Some(text), controls_width: 0.0 };
     show(ui, &words, &status, |_| {}, |_, _| "");
 }
 
-/// A caption over a part of a picture.
+/// Draws a caption over a part of a picture.
 pub fn caption(ui: &Ui, at: egui::Pos2, align: Align2, text: &str) -> Rect {
     ui.painter().text(at, align, text, FontId::proportional(13.0), Palette::of(ui.visuals()).weak)
 }
 
-/// Gives a painted thing its name and value for screen readers, and for tests.
+/// Gives a painted object its name and value for screen readers, and for tests.
 pub fn name(ui: &Ui, response: &egui::Response, name: impl Into<String>, value: &str) {
     let name: String = name.into();
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name.as_str()));

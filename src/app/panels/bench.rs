@@ -1,8 +1,8 @@
-//! The bench: tiles where its layout has them, or one that fills it.
+//! The tile area: tiles where its layout has them, or one that fills it.
 //!
-//! A tile is taken by its head: dragged it docks elsewhere or becomes a tab, double clicked it fills the bench. With the
-//! keyboard on the head arrow keys go to the tile on that side, with Shift they change places with it, with Alt they make
-//! the tile wider, narrower, higher or lower; Enter fills the bench.
+//! A tile is grabbed by its head: dragged it docks elsewhere or becomes a tab, double clicked it fills the tile area.
+//! With the keyboard on the head arrow keys go to the tile on that side, with Shift they change places with it, with
+//! Alt they make the tile wider, narrower, higher or lower; Enter fills the tile area.
 
 use crate::app::arrange::{Arrange, Way};
 use crate::app::command::Command;
@@ -15,10 +15,10 @@ use crate::texts::tiles as say;
 use egui::{Color32, EventFilter, Key, Modifiers, Rect, Response, Sense, Stroke, Ui, UiBuilder, Visuals, vec2};
 use egui_tiles::{Behavior, EditAction, ResizeState, TabState, TileId, Tiles, Tree, UiResponse};
 
-/// No tile is dragged to less than this. \[points\]
+/// Minimum size to which a tile can be dragged. \[points\]
 const LEAST: f32 = 120.0;
 
-/// Draws the bench.
+/// Draws the tile area.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     if let Err(problem) = app.bench.follow(app.state.settings.layout.as_ref()) {
         app.state.settings.layout = None;
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         frame(ui, whole, tile, app, commands);
         return;
     }
-    // Its tiles are drawn by the bench that holds it.
+    // The tiles are drawn by the tile area that holds the tree.
     let mut tree = std::mem::replace(&mut app.bench.tree, Tree::empty(egui::Id::unique("bench")));
     app.bench.places.clear();
     let spacing = tab_spacing(ui, &tree);
@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Free room at both sides of a tab's name: less where all names of a bar would not fit. \[points\]
+/// Returns the free space at both sides of a tab's name: less where all names of a bar would not fit. \[points\]
 fn tab_spacing(ui: &Ui, tree: &Tree<Tile>) -> f32 {
     const SPACING: std::ops::RangeInclusive<f32> = 2.0..=10.0;
     let name = |id: &TileId| match tree.tiles.get(*id) {
@@ -67,12 +67,12 @@ fn tab_spacing(ui: &Ui, tree: &Tree<Tile>) -> f32 {
     room.fold(*SPACING.end(), f32::min).max(*SPACING.start())
 }
 
-/// Tiles that dock.
+/// Behaviour of the tiles that dock.
 struct Docking<'a> {
     app: &'a mut App,
     commands: &'a mut Vec<Command>,
     edited: bool,
-    /// Beside the names of tabs. \[points\]
+    /// Free space at both sides of a tab's name. \[points\]
     spacing: f32,
 }
 
@@ -136,7 +136,7 @@ impl Behavior<Tile> for Docking<'_> {
     }
 }
 
-/// A tile's ground and head; true when it begins to be dragged.
+/// Draws a tile with its ground and head. Returns `true` when it begins to be dragged.
 fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<Command>) -> bool {
     let palette = theme::palette(ui);
     let head = Rect::from_min_size(rect.min, vec2((rect.width() * 0.5).min(120.0), 26.0));
@@ -187,7 +187,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     response.drag_started() && app.state.maximised.is_none()
 }
 
-/// What a tile's own menu offers.
+/// Draws a tile's own menu.
 fn menu(ui: &mut Ui, tile: Tile, commands: &mut Vec<Command>) {
     let list = [Command::ExportTile(tile), Command::CopyTile(tile), Command::CopyPicture(tile), Command::CopyValue];
     for command in list {
@@ -207,7 +207,7 @@ fn menu(ui: &mut Ui, tile: Tile, commands: &mut Vec<Command>) {
     }
 }
 
-/// What keys do while a tile's head has the keyboard.
+/// Applies the keys while a tile's head has the keyboard.
 fn keys(ui: &Ui, head: &Response, fill: &Command, commands: &mut Vec<Command>) {
     if !head.has_focus() {
         return;

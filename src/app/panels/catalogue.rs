@@ -1,4 +1,4 @@
-//! What is there: search field, filters, list, and the states of what is chosen.
+//! The catalogue panel: search field, filters, list, and the states of the selected product.
 
 mod cards;
 mod entry;
@@ -87,7 +87,7 @@ pub fn show(
     states_strip(ui, state, strip, commands);
 }
 
-/// The field; was its text entered?
+/// Draws the search field. Returns whether its text was entered.
 fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mut Vec<Command>) -> bool {
     let field =
         ui.add(egui::TextEdit::singleline(&mut query.text).hint_text(text::SEARCH_HINT).desired_width(f32::INFINITY));
@@ -105,7 +105,7 @@ fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mu
     field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
 }
 
-/// Height of what stands under the list.
+/// Returns the height of what stands under the list. \[points\]
 fn below(ui: &Ui, state: &State) -> f32 {
     let line = ui.spacing().interact_size.y + 2.0 * ui.spacing().item_spacing.y;
     match title::selected(state).map_or(0, |product| product.states.len()) {
@@ -114,7 +114,7 @@ fn below(ui: &Ui, state: &State) -> f32 {
     }
 }
 
-/// Under the list: the states of the selected product.
+/// Draws the states of the selected product, under the list.
 fn states_strip(ui: &mut Ui, state: &State, strip: &mut states::State, commands: &mut Vec<Command>) {
     let Some(product) = title::selected(state) else { return };
     if product.states.len() < 2 {

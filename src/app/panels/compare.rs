@@ -1,4 +1,4 @@
-//! The tray, always in sight while something is in it, and the comparison in the bench's place.
+//! The line of the comparison, always visible while there are candidates, and the comparison in place of the tile area.
 
 mod beside;
 mod curves;
@@ -19,12 +19,12 @@ use places::{short, tile_words};
 
 /// Mean width of a letter in a chip. \[points\]
 const LETTER: f32 = 7.2;
-/// Height of the tray's line. \[points\]
+/// Height of the comparison's line. \[points\]
 const LINE: f32 = 28.0;
-/// Size of what tells which one is shown. \[points\]
+/// Font size of the name of the candidate that is shown. \[points\]
 const LARGE: f32 = 18.0;
 
-/// The tray, in one line.
+/// Draws the comparison's line with its candidates.
 pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let tray = &state.document.scene.compare;
     let view = &state.compare;
@@ -63,7 +63,7 @@ pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// One of the tray: a menu of what can be done with it, or its name while that is typed.
+/// Draws a candidate in the comparison's line: a menu of its commands, or its name while that is typed.
 fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnMut(Act)) {
     let tray = &state.document.scene.compare;
     let name = label(&tray[place]);
@@ -113,7 +113,7 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
     menu.response.on_hover_text(&full).accessible_name(texts::candidate(&full));
 }
 
-/// The comparison.
+/// Draws the comparison.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let whole = ui.available_rect_before_wrap();
@@ -130,7 +130,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     });
 }
 
-/// How, and which tile.
+/// Draws the choice of the form of comparison, and of the tile.
 fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let view = &app.state.compare;
     let mut act = |act: Act| commands.push(Command::Compare(act));

@@ -1,4 +1,4 @@
-//! Fields and buttons that panels share. What is typed and cannot be is told under its field and changes nothing.
+//! Fields and buttons that panels share. Invalid input is reported under its field and changes nothing.
 
 use crate::app::command::Command;
 use crate::app::offer::{Offer, key_words};
@@ -16,12 +16,12 @@ use egui::{
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-/// What is said under a field until it is used again.
+/// Text under a field until it is used again.
 #[derive(Debug, Clone, PartialEq)]
 enum Told {
-    /// What was typed cannot be.
+    /// Reason why the input was refused.
     Refused(String),
-    /// Something else was changed with it.
+    /// Note that another value was changed with it.
     Note(String),
 }
 
@@ -29,7 +29,7 @@ fn key(ui: &Ui, label: &str) -> egui::Id {
     ui.make_persistent_id((label, "told"))
 }
 
-/// Says under a field what its last change brought with it, until the next one.
+/// Shows under a field what its last change brought with it, until the next one.
 pub fn note(ui: &Ui, label: impl Into<&'static str>, text: String) {
     let key = key(ui, label.into());
     ui.data_mut(|data| data.insert_temp(key, Told::Note(text)));
@@ -46,7 +46,7 @@ fn told(ui: &mut Ui, label: &str) {
     ui.add(Label::new(RichText::new(text).color(colour)).wrap());
 }
 
-/// A label on the left, its field on the right.
+/// Draws a label on the left, its field on the right.
 pub fn row(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Response) -> Response {
     ui.horizontal(|ui| {
         let name = ui.label(label);
@@ -55,8 +55,8 @@ pub fn row(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Response) ->
     .inner
 }
 
-/// A labelled number with unit and range; true where it changed. A number beyond the range is told and not taken, and one
-/// that is there already is left as it is.
+/// Draws a labelled number with unit and range. Returns `true` where it changed. A number beyond the range is reported
+/// and not taken over, and one that is there already is left as it is.
 pub fn number(
     ui: &mut Ui,
     label: impl Into<&'static str>,
@@ -69,7 +69,7 @@ pub fn number(
     number_by(ui, (label.into(), unit.into()), value, range, decimals, speed)
 }
 
-/// The same, named with its unit, that changes by `speed` a point that it is dragged: for ranges that are wide.
+/// Draws a number, named with its unit, that changes by `speed` per point of a drag: for wide ranges.
 pub fn number_by(
     ui: &mut Ui,
     (label, unit): (&str, &str),
@@ -126,7 +126,7 @@ pub fn number_by(
     *value != before
 }
 
-/// The same of a number that the scene may lack: a button then sets it to `start`.
+/// Draws a number that the scene may lack: a button then sets it to `start`.
 pub fn optional(
     ui: &mut Ui,
     label: impl Into<&'static str>,
@@ -149,22 +149,22 @@ pub fn optional(
     }
 }
 
-/// A figure that is shown and not typed.
+/// Draws a figure that is shown and not typed.
 pub fn figure(ui: &mut Ui, label: impl Into<&'static str>, text: &str) {
     row(ui, label.into(), |ui| ui.label(text));
 }
 
-/// What somebody is typing, or has typed wrongly.
+/// Text that is being typed into a field, or was refused.
 #[derive(Debug, Clone)]
 struct Draft {
     text: String,
-    /// What the field showed before.
+    /// Text that the field showed before.
     of: String,
     wrong: Option<String>,
 }
 
-/// A labelled field for something that is read as a whole when it is left; what cannot be read is told under it and
-/// changes nothing. What was read comes back.
+/// Draws a labelled field whose text is read as a whole when it is left; text that cannot be read is reported under it
+/// and changes nothing. Returns what was read.
 pub fn typed<T>(
     ui: &mut Ui,
     label: impl Into<&'static str>,
@@ -216,8 +216,9 @@ pub fn typed<T>(
     taken
 }
 
-/// Gives the keyboard to the field that whoever opened the sheet wants to type in. It goes on asking until the field has
-/// it: another widget, or a key of the same frame, may take it away again. The palette goes first while it is open.
+/// Gives the keyboard to the field that the sheet was opened to type in. It keeps asking until the field has the
+/// keyboard: another widget, or a key of the same frame, may remove it again. The palette has priority while it is
+/// open.
 pub fn take_keyboard(field: &Response, state: &State, commands: &mut Vec<Command>) {
     if !state.wants_keyboard || state.palette.is_some() {
     } else if field.has_focus() {
@@ -234,7 +235,8 @@ pub fn select_all(ui: &Ui, id: egui::Id, text: &str) {
     state.store(ui.ctx(), id);
 }
 
-/// Text that takes the room of `rows` lines whatever it says, so that nothing below it moves; in full on hovering.
+/// Draws text that takes the height of `rows` lines whatever its length, so that nothing below it moves; in full on
+/// hovering.
 pub fn lines(ui: &mut Ui, text: &str, colour: Color32, rows: usize) {
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();
@@ -251,7 +253,7 @@ pub fn lines(ui: &mut Ui, text: &str, colour: Color32, rows: usize) {
     }
 }
 
-/// A button with the words and keys of what it does.
+/// Returns a button with the text and keys of its command.
 pub fn button(offer: &Offer) -> Button<'_> {
     let button = Button::new(&offer.text);
     match &offer.keys {

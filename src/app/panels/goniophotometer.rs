@@ -1,4 +1,4 @@
-//! The goniophotometer's sheet: what is described as text and drawing, what is asked, what came out.
+//! The goniophotometer's sheet: the description as text and drawing, the settings of the run, the result.
 
 use crate::app::command::{Command, SYSTEM_EDITOR};
 use crate::app::examples::EXAMPLES;
@@ -14,12 +14,12 @@ use crate::study::control::slat_angle;
 use crate::texts::{decimal, fixed, goniophotometer as texts};
 use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
 
-/// Least height of editor and drawing. \[points\]
+/// Minimum height of editor and drawing. \[points\]
 const LEAST_HEIGHT: f32 = 220.0;
-/// What stands above and below them. \[points\]
+/// Height of what stands above and below editor and drawing. \[points\]
 const REST: f32 = 250.0;
 
-/// Draws it.
+/// Draws the sheet.
 pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     examples(ui, commands);
     let height = (ui.ctx().content_rect().height() - REST - 150.0).max(LEAST_HEIGHT);

@@ -1,4 +1,4 @@
-//! The sheet of handing on: what, in which form, how it will look, and where to.
+//! The export sheet: content, format, preview and target of an export.
 
 use crate::app::command::Command;
 use crate::app::hand_on::{Choices, MOST_FILES, Preview, ReportKind, What};
@@ -182,12 +182,12 @@ fn series(ui: &mut Ui, choices: &mut Choices) {
     ui.checkbox(&mut series.all_states, texts::ALL_STATES.get()).on_hover_text(texts::all_states_tip(MOST_FILES));
 }
 
-/// Folder and name, and the buttons.
+/// Draws folder and name, and the buttons.
 fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let state = &app.state;
     let mut text = state.path.clone();
     let name = ui.label(texts::WRITE_TO);
-    // On as many lines as the name needs: its end, which says what it is, stays in sight.
+    // On as many lines as the name needs: its end, which says what it is, stays visible.
     let field = TextEdit::multiline(&mut text)
         .id(egui::Id::unique("path of what is handed on"))
         .desired_rows(1)
@@ -240,7 +240,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     });
 }
 
-/// A size in bytes for people.
+/// Returns a size in bytes as text for people.
 fn bytes(count: usize) -> String {
     match count {
         0..10_000 => texts::bytes(count),

@@ -1,4 +1,5 @@
-//! The import sheet: what was read, what it makes, what is asked, and what will be stored; drafts of earlier imports.
+//! The import sheet: the files that were read, the products they make, open questions, and what will be stored; drafts
+//! of earlier imports.
 
 mod detail;
 mod findings;
@@ -13,7 +14,7 @@ use crate::texts::take_in as text;
 use egui::{ScrollArea, Ui};
 pub(super) use findings::of_selection;
 
-/// Narrower sheets have the words about a product under the table. \[points\]
+/// Width of a sheet below which the texts about a product stand under the table. \[points\]
 const NARROW: f32 = 620.0;
 
 /// Draws the sheet.
@@ -49,7 +50,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// What can be done with what was read.
+/// Draws the commands for what was read.
 fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(import) = &state.import else { return };
     let ready = import.products.iter().filter(|product| product.ready()).count();
@@ -87,7 +88,7 @@ fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// How many there are, and how the files are taken as a whole.
+/// Draws the numbers of products and states, and the grouping of the files as a whole.
 fn grouping(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         let products = number(import.products.len(), text::ONE_PRODUCT, text::products);
@@ -115,7 +116,7 @@ fn grouping(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     });
 }
 
-/// What can be done with the rows that are chosen.
+/// Draws the commands for the selected rows.
 fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     if import.states() < 2 {
         return;
@@ -156,7 +157,7 @@ fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     });
 }
 
-/// Imports that were left for later.
+/// Draws the list of drafts.
 fn drafts(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if state.drafts.is_empty() {
         return;

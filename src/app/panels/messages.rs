@@ -1,4 +1,4 @@
-//! What the window says: beside the status line as long as it takes to read, and in a list for later.
+//! Messages of the window: beside the status line as long as it takes to read them, and in a list for later.
 
 use crate::app::command::Command;
 use crate::app::messages::{Message, Messages, Weight};
@@ -7,9 +7,9 @@ use crate::texts::shell;
 use egui::{Align2, Area, Color32, Id, Label, Order, Pos2, RichText, Sense, Ui};
 use std::time::Duration;
 
-/// Shown at the same time; the others are in the list.
+/// Maximum number of messages shown at the same time; the others are in the list.
 const MOST: usize = 4;
-/// Widest text. \[points\]
+/// Maximum width of a message's text. \[points\]
 const WIDTH: f32 = 420.0;
 
 const fn colour(palette: &Palette, weight: Weight) -> Color32 {
@@ -21,7 +21,7 @@ const fn colour(palette: &Palette, weight: Weight) -> Color32 {
     }
 }
 
-/// Draws those that are shown now, upwards from a corner: `corner` is the lower right one of the space there is.
+/// Draws the current messages, upwards from a corner: `corner` is the lower right one of the available space.
 pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mut Vec<Command>) {
     if messages.shown().next().is_none() {
         return;
@@ -42,7 +42,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
                 copy_report(ui, message, commands);
                 row.response.rect
             });
-            // What takes the message away must not lie over its button.
+            // A click on the message that removes it must not lie over its button.
             let place = if message.report.is_some() { frame.inner } else { frame.response.rect };
             let response = ui.interact(place, Id::unique(("message", message.id)), Sense::click());
             let label = shell::dismiss(&message.text);
@@ -59,7 +59,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
     ui.ctx().request_repaint_after(Duration::from_millis(250));
 }
 
-/// The button that copies the report of a message, if it has one.
+/// Draws the button that copies the report of a message, if it has one.
 fn copy_report(ui: &mut Ui, message: &Message, commands: &mut Vec<Command>) {
     if let Some(report) = &message.report
         && ui.button(shell::COPY_REPORT).on_hover_text(shell::COPY_REPORT_TIP).clicked()
@@ -68,7 +68,7 @@ fn copy_report(ui: &mut Ui, message: &Message, commands: &mut Vec<Command>) {
     }
 }
 
-/// The list of all, the newest first.
+/// Draws the list of all messages, newest at the top.
 pub(super) fn list(ui: &mut Ui, messages: &Messages, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     if messages.is_empty() {

@@ -22,13 +22,13 @@ use super::state::Sheet;
 use super::theme;
 use super::window::App;
 
-/// Narrower windows have no room for catalogue, bench and sheet. \[points\]
+/// Width of a window below which there is no room for catalogue, tile area and sheet. \[points\]
 const TIGHT: f32 = 1150.0;
-/// Least width that a panel beside it leaves to the bench. \[points\]
+/// Minimum width that a side panel leaves to the tile area. \[points\]
 const LEAST_BENCH: f32 = 360.0;
 
-/// Widths that a side panel may be given: as wide as one wants, as long as the bench keeps its least. Kept from one start
-/// to the next.
+/// Returns the range of widths of a side panel: any width that leaves the tile area its minimum. Kept from one start to
+/// the next.
 fn widths(ui: &egui::Ui, least: f32) -> std::ops::RangeInclusive<f32> {
     least..=(ui.available_width() - LEAST_BENCH).max(least)
 }
@@ -66,8 +66,8 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
             });
         places.catalogue = Some(catalogue.response.rect);
     }
-    // The goniophotometer needs the bench's room; the scene's sun goes on shining on its drawing.
-    // So does the table of what was read.
+    // The goniophotometer needs the room of the tile area; the scene's sun continues to light its drawing. So does the
+    // table of an import.
     let wide = app.state.sheet.filter(|sheet| matches!(sheet, Sheet::Goniophotometer | Sheet::Import));
     let room_for_scene =
         app.state.sheet.is_none() || (app.state.sheet == Some(Sheet::Goniophotometer) && ui.available_width() > 900.0);

@@ -6,10 +6,10 @@ use crate::app::window::App;
 use crate::texts::shell;
 use egui::{Align2, Area, Button, Id, Key, Modifiers, Order, Ui};
 
-/// Its width. \[points\]
+/// Width of the palette. \[points\]
 const WIDTH: f32 = 420.0;
 
-/// Draws it when it is open.
+/// Draws the palette when it is open.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let Some(words) = &app.state.palette else { return };
     let mut text = words.clone();
@@ -21,8 +21,8 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     if text != *words && !commands.contains(&Command::Palette) {
         commands.push(Command::EditPalette(text));
     }
-    // The command opens what is closed: sent twice in a frame, the palette would stay. A key or a click of the frame that
-    // opened it was meant for something else.
+    // The command opens what is closed: sent twice in a frame, the palette would stay. A key or a click of the frame
+    // that opened it was meant for something else.
     let before = app.opened.palette_before(ui.ctx().cumulative_frame_nr());
     let escaped = ui.input(|input| input.key_pressed(Key::Escape));
     if before && (escaped || inner.response.clicked_elsewhere()) && !commands.contains(&Command::Palette) {
@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
 }
 
-/// The field and what has its words.
+/// Draws the field and the list of commands that match its text.
 fn list(ui: &mut Ui, app: &App, text: &mut String, commands: &mut Vec<Command>) {
     ui.set_width(WIDTH);
     // Up and down belong to the list; the field would take them.
@@ -44,7 +44,8 @@ fn list(ui: &mut Ui, app: &App, text: &mut String, commands: &mut Vec<Command>) 
         info.current_text_value = Some(text.clone());
         info
     });
-    // The words go on wherever the pointer is; but where Enter has just given the focus up, that must be seen below.
+    // The keyboard stays in the field wherever the pointer is; but where Enter has just given it up, that must be seen
+    // below.
     if !field.has_focus() && !field.lost_focus() {
         field.request_focus();
     }

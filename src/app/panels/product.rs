@@ -1,4 +1,4 @@
-//! Sheets about products that are stored: their words, and those out of sight.
+//! Sheets about products that are stored: their texts, and those that were deleted.
 
 use crate::app::changes::Editing;
 use crate::app::clock;
@@ -9,8 +9,8 @@ use crate::app::theme;
 use crate::texts::catalogue as text;
 use egui::{TextEdit, Ui};
 
-/// Fields for the words about a product; the new ones when something was typed.
-/// `author`: also who measured or computed, which is not changed afterwards.
+/// Draws fields for the texts about a product. Returns the new texts when something was typed.
+/// `author`: whether the field of who measured or computed is shown too, which is not changed afterwards.
 pub(super) fn words(ui: &mut Ui, fields: &ImportFields, author: bool) -> Option<ImportFields> {
     let mut typed = fields.clone();
     egui::Grid::new("about").num_columns(2).show(ui, |ui| {
@@ -69,7 +69,7 @@ pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     history(ui, editing);
 }
 
-/// Names and angles of its states, each with a file to take its place.
+/// Draws names and angles of a product's states, each with a file to take its place.
 fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     ui.add_space(8.0);
     ui.strong(text::STATES.get());
@@ -106,7 +106,7 @@ fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     });
 }
 
-/// The files that it was read from, to be read again.
+/// Draws the files that a product was read from, to be read again.
 fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     if editing.looked.paths.is_empty() {
         return;
@@ -136,7 +136,7 @@ fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     }
 }
 
-/// What happened to it.
+/// Draws the history of a product.
 fn history(ui: &mut Ui, editing: &Editing) {
     ui.add_space(8.0);
     ui.strong(text::HISTORY.get());
@@ -149,7 +149,7 @@ fn history(ui: &mut Ui, editing: &Editing) {
     }
 }
 
-/// Draws the list of products out of sight.
+/// Draws the list of deleted products.
 pub(super) fn deleted(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.add(egui::Label::new(text::DELETED_HELP).wrap());
     if state.deleted.is_empty() {

@@ -1,4 +1,4 @@
-//! Where and when: sections that fold and then show their essence. What is wrong is said where it is typed.
+//! The scene panel: sections that fold and then show a summary. Errors are shown where the value is typed.
 
 mod apertures;
 mod outside;
@@ -42,7 +42,7 @@ pub fn show(
     }
 }
 
-/// The sections in the order in which a study is thought of: where, when, what sky, what stands before it, then the room.
+/// Draws the sections in the order in which a study is planned: place, time, sky, obstructions, then the room.
 fn sections(
     ui: &mut Ui,
     state: &State,
@@ -62,7 +62,7 @@ fn sections(
     section(ui, texts::DATE_AND_TIME, &title::time(scene), wrong(texts::DATE_AND_TIME), true, |ui| {
         when::show(ui, scene, &state.base());
     });
-    // What is wrong because of where the sun stands is told on lines that are always there.
+    // Errors that depend on the sun's position are shown on lines that are always there.
     let low_sun = sky::low_sun(scene);
     let wrong_sky = wrong(texts::SKY).filter(|_| low_sun.is_none());
     section(ui, texts::SKY, &title::sky(scene), wrong_sky, true, |ui| sky::show(ui, scene, low_sun));
@@ -106,7 +106,7 @@ fn sections(
     section(ui, texts::SENSORS, &plane, wrong(texts::SENSORS).or(above), false, |ui| sensors(ui, scene));
 }
 
-/// The section in which a key of the scene file is edited.
+/// Returns the section in which a key of the scene file is edited.
 fn section_of(key: &str, perez: bool) -> Text {
     match key {
         "site.azimuth" => texts::FACADE,
@@ -122,7 +122,7 @@ fn section_of(key: &str, perez: bool) -> Text {
     }
 }
 
-/// A section that folds; folded it shows its essence. What is wrong in it is said in either case.
+/// Draws a section that folds; folded it shows its summary. Its error is shown in either case.
 fn section(ui: &mut Ui, title: Text, essence: &str, wrong: Option<String>, open: bool, body: impl FnOnce(&mut Ui)) {
     let header = CollapsingHeader::new(RichText::new(title.get()).strong())
         .id_salt(title.english())
@@ -151,7 +151,7 @@ fn facade(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     });
 }
 
-/// A compass to drag; the needle is the façade's outward normal, the dot the sun.
+/// Draws a compass to drag; the needle is the façade's outward normal, the dot the sun.
 fn dial(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     let palette = theme::palette(ui);
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(76.0), Sense::click_and_drag());

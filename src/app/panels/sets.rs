@@ -9,7 +9,7 @@ use crate::texts::{Text, catalogue as text};
 use egui::accesskit::Role;
 use egui::{Key, Label, TextEdit, Ui, WidgetInfo};
 
-/// A button about something that has a name; was it clicked?
+/// Draws a button about something that has a name. Returns whether it was clicked.
 fn button(ui: &mut Ui, what: Text, tip: Text, name: &str) -> bool {
     let button = ui.button(what).on_hover_text(tip);
     let label = text::about(what, name);

@@ -1,4 +1,4 @@
-//! Sheets at the side: imports, findings, keys, paths. None of them stops the rest of the window.
+//! Sheets at the side: imports, findings, keys, paths. None of them blocks the rest of the window.
 
 use super::fields::take_keyboard;
 use super::{import, messages, product, sets};

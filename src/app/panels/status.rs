@@ -1,4 +1,4 @@
-//! The bottom line: what runs, how exact what is shown is, what the dataset's checks say.
+//! The status line: running jobs, uncertainty of the results shown, findings on the dataset.
 
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
@@ -10,23 +10,23 @@ use crate::compute::btdf::Severity;
 use crate::texts::{Text, fixed, shell, stages};
 use egui::{Color32, FontId, ProgressBar, RichText, Ui};
 
-/// A duration in words.
+/// Returns a duration \[s\] as text.
 fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{} ms", fixed(1000.0 * seconds, 1)) } else { format!("{} s", fixed(seconds, 1)) }
 }
 
-/// An error in percent, honest about what two decimals cannot say.
+/// Returns an error \[%\] as text; below 0.005 as "< 0.01 %", since two decimals cannot show it.
 fn percent(error: f64) -> String {
     if error < 0.005 { format!("< {} %", fixed(0.01, 2)) } else { format!("±{} %", fixed(error, 2)) }
 }
 
-/// A result in words, from the fullest to the shortest, and what they mean.
+/// A result as text, from the fullest to the shortest wording, with its tooltip.
 struct Figure {
     words: [String; 2],
     tip: Text,
 }
 
-/// What is said of a result that the scene has left behind.
+/// Returns the note on a result that is outdated; empty for a current one.
 fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'static str {
     match (shown.stale, app.jobs.busy(lane)) {
         (false, _) => "",
@@ -35,7 +35,7 @@ fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'stati
     }
 }
 
-/// How exact room and LID are, as far as tiles in sight show them.
+/// Returns the uncertainties of room and LID, as far as visible tiles show them.
 fn figures(app: &App) -> Vec<Figure> {
     let mut list = Vec::new();
     let in_sight = |lane| app.bench.shows(lane, app.state.maximised);
@@ -62,8 +62,8 @@ fn figures(app: &App) -> Vec<Figure> {
     list
 }
 
-/// What the checks said of the dataset that is shown, as the doctor found on import: examining anew takes too long for
-/// every frame.
+/// Returns the summary of the findings on the dataset that is shown, made on import: checking it again takes too long
+/// for every frame.
 fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
     // While data of another product or state are still to come, those that are shown are the last ones'.
     let awaited = app.state.computing.is_some() || app.state.dataset.error.is_some();
@@ -88,19 +88,19 @@ fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
     }
 }
 
-/// Width of a text in the line.
+/// Returns the width of a text in the line. \[points\]
 fn width(ui: &Ui, text: &str) -> f32 {
     let font = egui::TextStyle::Body.resolve(ui.style());
     ui.painter().layout_no_wrap(text.to_owned(), FontId { size: font.size, ..font }, Color32::PLACEHOLDER).size().x
 }
 
-/// Space that a separator takes. \[points\]
+/// Width of a separator. \[points\]
 const GAP: f32 = 20.0;
-/// Space of a progress bar, and of the button that stops a job. \[points\]
+/// Width of a progress bar, and of the button that stops a job. \[points\]
 const BAR: f32 = 78.0;
 const STOP: f32 = 30.0;
 
-/// Draws the line: what fits, the figures before the jobs, and how many jobs more there are.
+/// Draws the line: as much as fits, the figures before the jobs, and the number of further jobs.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -133,7 +133,7 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let figures = figures(app);
     let all = |k: usize| figures.iter().map(|figure| width(ui, &figure.words[k]) + GAP).sum::<f32>();
     let mut jobs = app.jobs.views();
-    // What the others wait for is told first.
+    // The job that the others wait for is shown first.
     jobs.sort_by_key(|job| job.lane != Lane::Product);
     // Durations are left out first, where something else wants the room.
     let short = usize::from(all(0) + if jobs.is_empty() { 0.0 } else { 200.0 } > left);

@@ -1,4 +1,4 @@
-//! The tour: a line under the menus that says what to do, and a ring round where. It is never in the way.
+//! The tour: a line under the menus with the next step, and a ring round its place. It never covers anything.
 
 use crate::app::command::Command;
 use crate::app::state::{State, Tile};
@@ -10,16 +10,16 @@ use crate::texts::commands::{COMPARE, FILE};
 use crate::texts::{Text, shell};
 use egui::{Id, Key, LayerId, Order, Rect, Stroke, StrokeKind, Ui};
 
-/// Where things stand in this frame.
+/// Places of the parts of the window in this frame.
 #[derive(Default)]
 pub struct Places {
-    /// The catalogue.
+    /// Place of the catalogue.
     pub catalogue: Option<Rect>,
-    /// The menus' words in the bar.
+    /// Places of the menus' words in the bar.
     pub menus: Vec<(Text, Rect)>,
 }
 
-/// Is there anything to say?
+/// Whether there is anything to show.
 pub const fn speaks(state: &State) -> bool {
     state.tour.is_some() || state.tour_offered
 }
@@ -56,7 +56,7 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Where a tile stands, if it is in sight.
+/// Returns the place of a tile, if it is visible.
 fn place_of(app: &App, tile: Tile) -> Option<Rect> {
     app.bench.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
 }

@@ -1,4 +1,4 @@
-//! The BTDF tile: one incidence of the selected dataset, the sun's or a chosen one.
+//! The BTDF tile: one incident direction of the selected dataset, the sun's or a chosen one.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -14,10 +14,10 @@ use crate::study::data_form::DataForm;
 use crate::texts::tiles as say;
 use egui::Ui;
 
-/// The tile.
+/// The BTDF tile.
 pub const TILE: Tile = Tile { title: say::BTDF.english(), name: say::BTDF, help: say::BTDF_HELP };
 
-/// Its drawing.
+/// Drawing of the BTDF tile.
 #[derive(Default)]
 pub struct Drawing {
     view: btdf::State,

@@ -1,4 +1,4 @@
-//! The tile that chooses: products through a year in this room, ranked when it is asked for.
+//! The ranking tile: annual figures of products in this room, ranked on request.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::choose::{ChooseAct, Figures, objectives_of};
@@ -17,27 +17,27 @@ use crate::texts::{Language, choose as say, language};
 use egui::Ui;
 use std::sync::Arc;
 
-/// The tile.
+/// The ranking tile.
 pub const TILE: Tile = Tile { title: say::CHOOSE.english(), name: say::CHOOSE, help: say::CHOOSE_HELP };
 
 type Ordered = Result<Arc<Shortlist>, String>;
 
-/// What a reason hangs on: the figures, what counts, whom it compares, and its language.
+/// Key of a reason: the figures, the objectives, the two products compared, and the language.
 type ReasonKey = (u64, Vec<ObjectiveKeys>, [Option<String>; 2], Language);
 
-/// Its drawing.
+/// Drawing of the ranking tile.
 #[derive(Default)]
 pub struct Drawing {
     list: Cache<(u64, Vec<ObjectiveKeys>, String), Ordered>,
     reason: Cache<ReasonKey, Option<Reason>>,
 }
 
-/// The name of the scene as tables have it.
+/// Returns the name of the scene as tables have it.
 pub fn scene_name(state: &State) -> String {
     state.scene_path.as_ref().map(|path| path.display().to_string()).unwrap_or_default()
 }
 
-/// What there is to compute.
+/// Returns the reason to compute something.
 fn due(figures: &Figures, stale: bool, objectives: &[ObjectiveKeys]) -> view::Due {
     let unknown = objectives.iter().any(|one| !figures.knows(&one.figure));
     match (stale, figures.unfinished()) {
@@ -48,7 +48,7 @@ fn due(figures: &Figures, stale: bool, objectives: &[ObjectiveKeys]) -> view::Du
     }
 }
 
-/// What may become an objective and is none.
+/// Returns the figures that may become objectives and are not objectives yet.
 fn offers(state: &State, figures: Option<&Figures>, objectives: &[ObjectiveKeys]) -> Vec<view::Offer> {
     let scene = &state.document.scene;
     let list = offered(scene.year.as_ref().unwrap_or(&usual_year(scene)));

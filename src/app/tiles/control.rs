@@ -1,4 +1,4 @@
-//! The control tile of the bench: the picture, and under it the rule with what belongs to it.
+//! The control tile: the picture, and under it the control mode with its settings.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -16,16 +16,16 @@ use crate::texts::{Text, tiles as say};
 use egui::{ComboBox, DragValue, Ui, UiBuilder};
 use std::path::PathBuf;
 
-/// The tile.
+/// The control tile.
 pub const TILE: Tile = Tile { title: say::CONTROL.english(), name: say::CONTROL, help: say::CONTROL_HELP };
 
-/// Height of the strip of rules. \[points\]
+/// Height of the strip of control modes. \[points\]
 const RULES_HEIGHT: f32 = 26.0;
 
-/// Today's sun against the façade, and the state that each half hour of it asks for.
+/// Returns today's sun against the façade, and the state that the control chooses for each half hour of it.
 fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
     let Some(product) = state.product.as_ref() else { return Vec::new() };
-    // A rule that cannot be followed is told where the state is picked; here its trace is missing.
+    // A rule that cannot be followed is reported where the state is picked; here its trace is missing.
     let points = rules::today(product, key, &state.document.scene).unwrap_or_default();
     let mut last = 0;
     points
@@ -37,7 +37,7 @@ fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
         .collect()
 }
 
-/// Why nothing moves: the product has one state. What is waited for before there is a product, the bench says.
+/// Returns the reason why nothing moves: the product has one state, or is not there yet.
 fn still(product: Option<&crate::catalogue::Product>) -> Text {
     let Some(product) = product else { return say::PRODUCT_COMING };
     match product.kind.as_str() {
@@ -52,7 +52,7 @@ fn still(product: Option<&crate::catalogue::Product>) -> Text {
     }
 }
 
-/// A small number with unit that is 0 where the scene says nothing.
+/// Draws a small number with unit that is 0 where the scene does not specify it.
 fn setting(ui: &mut Ui, name: Text, tip: Text, unit: &str, value: &mut Option<f64>, most: f64) {
     let mut number = value.unwrap_or(0.0);
     let drag = DragValue::new(&mut number).range(0.0..=most).speed(most / 400.0).max_decimals(1).suffix(unit);
@@ -63,7 +63,7 @@ fn setting(ui: &mut Ui, name: Text, tip: Text, unit: &str, value: &mut Option<f6
     }
 }
 
-/// The rule by which the state is picked, under the tile.
+/// Draws the control mode by which the state is picked, under the tile.
 fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let mode = state.control_mode();
     ui.horizontal_centered(|ui| {
@@ -107,7 +107,7 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// What belongs to the rule: side by side while there is room, else in a menu.
+/// Draws the settings of the control mode: side by side while there is room, else in a menu.
 fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
     let fields = |ui: &mut Ui, keys: &mut ControlKeys| {
         if keys.mode == ControlMode::Redirect {
@@ -151,16 +151,16 @@ fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
     }
 }
 
-/// Product, rule and how its curve is drawn.
+/// Key of a control curve: product, control settings, and the scene's base folder.
 type CurveKey = (Option<String>, ControlKeys, PathBuf);
 
-/// Its drawing.
+/// Drawing of the control tile.
 #[derive(Default)]
 pub struct Drawing {
     view: control::State,
     today: Cache<Option<(rules::YearKey, i16)>, Vec<control::TracePoint>>,
     curve: Cache<CurveKey, Vec<[f64; 2]>>,
-    /// Are the slats of this description vertical?
+    /// Cache: whether the slats of a description are vertical.
     upright: Cache<String, bool>,
 }
 

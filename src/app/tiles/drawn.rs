@@ -1,4 +1,4 @@
-//! What a tile of the bench is to the bench: something that is drawn from what the window knows, and asks for commands.
+//! Interface of a tile to the tile area: a tile is drawn from what the window knows, and returns commands.
 
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
@@ -8,40 +8,40 @@ use crate::app::title;
 use crate::texts::tiles as say;
 use egui::Ui;
 
-/// What a tile reads.
+/// Input of a tile.
 pub struct TileInput<'a> {
-    /// What the window knows.
+    /// State of the window.
     pub state: &'a State,
-    /// What was computed.
+    /// Results of the computations.
     pub results: &'a Results,
-    /// Is something being computed in a lane?
+    /// Function that returns whether something is being computed in a lane.
     pub busy: &'a dyn Fn(Lane) -> bool,
-    /// Share done of what is being computed in a lane; `None` before it says so.
+    /// Function that returns the share done of what is being computed in a lane; `None` before it is known.
     pub done: &'a dyn Fn(Lane) -> Option<f32>,
-    /// Something is being dragged: scales stand still.
+    /// Whether something is being dragged: scales stay as they are.
     pub held: bool,
-    /// Are the tile's numbers asked for?
+    /// Whether the tile's numbers are requested.
     pub numbers: bool,
     /// Lowest and highest value of the tile's scale where it is shared with others, in the tile's unit.
     pub scale: Option<[f64; 2]>,
 }
 
 impl<'a> TileInput<'a> {
-    /// How far a picture is to be trusted that is made as it is drawn.
+    /// Returns the status of a picture that is made as it is drawn.
     pub fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
         let doing = self.state.computing.as_deref();
         Status { coarse: false, stale, idle: false, hold_scale: self.held, doing, error }
     }
 
-    /// The same of a result that a lane computes: an error counts when nothing newer is under way.
+    /// Returns the status of a result that a lane computes: an error counts when nothing newer is being computed.
     pub fn status_of<T>(&self, shown: &'a Shown<T>, lane: Lane) -> Status<'a> {
         let busy = (self.busy)(lane);
         let error = shown.error.as_deref().filter(|_| shown.value.is_none() || !busy);
         Status { idle: !busy && self.state.computing.is_none(), ..self.status(shown.stale, error) }
     }
 
-    /// What is waited for before a tile has anything to draw, and whether that is an error; `None` once the product is
-    /// there.
+    /// Returns what the window waits for before a tile has anything to draw, and whether that is an error; `None` once
+    /// the product is there.
     pub fn awaited(&self) -> Option<(String, bool)> {
         let state = self.state;
         match &state.catalogue {
@@ -61,24 +61,24 @@ impl<'a> TileInput<'a> {
         }
     }
 
-    /// What lights the room and the moment, in words.
+    /// Returns the system that lights the room and the moment, as text.
     pub fn caption(&self) -> String {
         format!("{} · {}", title::in_room(self.state), title::time(&self.state.document.scene))
     }
 }
 
-/// The drawing of a tile, with what it remembers from frame to frame.
+/// Drawing of a tile, with its state between frames.
 pub trait Drawn {
-    /// The lanes whose results it draws, beside that of the scene: they run only while it is in sight.
+    /// Returns the lanes whose results it draws, beside that of the scene: they run only while the tile is visible.
     fn lanes(&self) -> &'static [Lane] {
         &[]
     }
-    /// Its choice of a logarithmic scale, where it has one.
+    /// Returns the tile's choice of a logarithmic scale; `None` if it has none.
     fn log(&mut self) -> Option<&mut bool> {
         None
     }
-    /// Is there anything that the tile could draw? Until then the bench says what is waited for.
+    /// Whether there is anything that the tile could draw. Until then the tile area shows what it waits for.
     fn ready(&self, seen: &TileInput<'_>) -> bool;
-    /// Draws the tile over all the space there is; its numbers as CSV where they are asked for.
+    /// Draws the tile over the available space. Returns its numbers as CSV if they are requested.
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String>;
 }

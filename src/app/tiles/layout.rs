@@ -1,13 +1,13 @@
-//! Where tiles stand on the bench, as a value: read, written, rearranged; and the tree that draws it.
+//! The arrangement of tiles as a value: read, written, rearranged; and the tree that draws it.
 
 use crate::app::state::Tile;
 use crate::texts::tiles as say;
 use egui_tiles::{Container, Linear, LinearDir, Tabs, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
-/// Number of the form in which layouts are kept. A newer one is left alone.
+/// Version of the form in which layouts are stored. A newer one is not read.
 const VERSION: u32 = 1;
-/// What a step wider or higher does to a share of a row or column.
+/// Factor on the share of a row or column when a tile gets one step wider or higher.
 const STEP: f32 = 1.2;
 
 /// A tile, or tiles with their places. `T`: a tile, or its title in a file.
@@ -16,26 +16,26 @@ const STEP: f32 = 1.2;
 pub enum Place<T> {
     /// One tile.
     Tile(T),
-    /// One in front of the others.
+    /// Tabs: one of several places is in front of the others.
     Tabs {
-        /// Number of the one in front.
+        /// Index of the tab in front.
         front: usize,
-        /// All of them.
+        /// All tabs.
         tabs: Vec<Place<T>>,
     },
-    /// From left to right, with shares of the width.
+    /// Row from left to right, with shares of the width.
     Row(Vec<(f32, Place<T>)>),
-    /// From top to bottom, with shares of the height.
+    /// Column from top to bottom, with shares of the height.
     Column(Vec<(f32, Place<T>)>),
 }
 
 /// Places with their shares of a length.
 type Shares<T> = Vec<(f32, Place<T>)>;
 
-/// The bench's arrangement.
+/// Arrangement of the tile area.
 pub type Layout = Place<Tile>;
 
-/// A layout as it is kept.
+/// Layout as it is stored.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     version: u32,
@@ -43,7 +43,8 @@ struct Kept {
 }
 
 impl<T> Place<T> {
-    /// The same of other tiles; those that become nothing leave, and so does what then holds nothing or one thing.
+    /// Returns the place with each tile replaced; tiles that become nothing are removed, and so is what then holds
+    /// nothing or one tile.
     fn filter_map<U>(self, of: &mut impl FnMut(T) -> Option<U>) -> Option<Place<U>> {
         let mut list = |children: Vec<(f32, Self)>| -> Vec<(f32, Place<U>)> {
             children.into_iter().filter_map(|(share, child)| Some((share, child.filter_map(of)?))).collect()
@@ -70,7 +71,7 @@ impl<T> Place<T> {
         }
     }
 
-    /// Are all shares numbers that a length can be shared by?
+    /// Whether all shares are numbers by which a length can be divided.
     fn sound(&self) -> bool {
         match self {
             Self::Tile(_) => true,
@@ -91,19 +92,19 @@ impl<T> Place<T> {
 }
 
 impl Layout {
-    /// Two rows of equal tiles.
+    /// Returns two rows of equal tiles.
     pub fn even(tiles: &[Tile]) -> Self {
         let columns = tiles.len().div_ceil(2).max(1);
         let row = |tiles: &[Tile]| (1.0, Self::Row(tiles.iter().map(|tile| (1.0, Self::Tile(*tile))).collect()));
         Self::Column(tiles.chunks(columns).map(row).collect())
     }
 
-    /// Tabs, the first in front.
+    /// Returns tabs, the first in front.
     pub fn tabs(tiles: &[Tile]) -> Self {
         Self::Tabs { front: 0, tabs: tiles.iter().copied().map(Self::Tile).collect() }
     }
 
-    /// As it is kept.
+    /// Returns the layout as the text that is stored.
     pub fn text(&self) -> String {
         let title = |tile: Tile| Some(tile.title.to_owned());
         let tree = self.clone().filter_map(&mut { title });
@@ -111,10 +112,12 @@ impl Layout {
         tree.and_then(|tree| serde_json::to_string(&Kept { version: VERSION, tree }).ok()).unwrap_or_default()
     }
 
-    /// Reads what was kept. Tiles that are not known, or there twice, leave; tiles that are missing become tabs.
+    /// Reads a stored layout. Tiles that are not known, or there twice, are removed; tiles that are missing become
+    /// tabs.
     ///
     /// # Errors
-    /// One clause on what is wrong.
+    /// Returns an error, in one clause, if the text is not a layout of this version, has an invalid share, or has no
+    /// known tile.
     pub fn read(text: &str, known: &[Tile]) -> Result<Self, String> {
         let kept: Kept = serde_json::from_str(text).map_err(|error| error.to_string())?;
         if kept.version != VERSION {
@@ -132,12 +135,12 @@ impl Layout {
         Ok(if left.is_empty() { layout } else { layout.with(&left) })
     }
 
-    /// Tiles that are not there yet become tabs behind another.
+    /// Returns the layout with `tiles`, which are not there yet, as tabs behind `front`.
     pub fn behind(self, front: Tile, tiles: &[Tile]) -> Self {
         self.replaced(front, &mut |own| Self::tabs(&[&[own], tiles].concat()))
     }
 
-    /// With more tiles, as tabs of the last one.
+    /// Returns the layout with more tiles, as tabs of the last one.
     fn with(self, more: &[Tile]) -> Self {
         let last = self.tiles().last().copied();
         match last {
@@ -149,7 +152,7 @@ impl Layout {
         }
     }
 
-    /// All tiles, in order.
+    /// Returns all tiles, in order.
     pub fn tiles(&self) -> Vec<Tile> {
         match self {
             Self::Tile(tile) => vec![*tile],
@@ -158,7 +161,7 @@ impl Layout {
         }
     }
 
-    /// Those in sight, in order.
+    /// Returns the visible tiles, in order.
     pub fn in_sight(&self) -> Vec<Tile> {
         match self {
             Self::Tile(tile) => vec![*tile],
@@ -186,7 +189,7 @@ impl Layout {
         self.filter_map(&mut |own| (own != tile).then_some(own))
     }
 
-    /// Two tiles change places.
+    /// Returns the layout with two tiles in exchanged places.
     pub fn swapped(self, a: Tile, b: Tile) -> Self {
         let other = |own: Tile| {
             Some(if own == a {
@@ -200,7 +203,7 @@ impl Layout {
         self.clone().filter_map(&mut { other }).unwrap_or(self)
     }
 
-    /// A tile becomes a tab of another, in front.
+    /// Returns the layout with a tile as a tab of another, in front.
     pub fn joined(self, tile: Tile, to: Tile) -> Self {
         if tile == to {
             return self;
@@ -212,7 +215,7 @@ impl Layout {
         rest
     }
 
-    /// Into the tabs that hold `to`, if there are such.
+    /// Inserts a tile into the tabs that hold `to`. Returns whether there are such tabs.
     fn join(&mut self, tile: Tile, to: Tile) -> bool {
         if let Self::Tabs { front, tabs } = self
             && let Some(number) = tabs.iter().position(|tab| *tab == Self::Tile(to))
@@ -224,7 +227,7 @@ impl Layout {
         self.children_mut().into_iter().any(|child| child.join(tile, to))
     }
 
-    /// A tile leaves its tabs and stands to the right of them; nothing where it is no tab.
+    /// Returns the layout with a tile moved from its tabs to the right of them; unchanged where it is not a tab.
     pub fn split(mut self, tile: Tile) -> Self {
         self.split_off(tile);
         self
@@ -242,7 +245,7 @@ impl Layout {
         self.children_mut().into_iter().any(|child| child.split_off(tile))
     }
 
-    /// A tile comes before the others of its tabs; true where it was not in sight.
+    /// Brings a tile in front of the others of its tabs. Returns `true` if it was hidden.
     pub fn reveal(&mut self, tile: Tile) -> bool {
         if let Self::Tabs { front, tabs } = self
             && let Some(number) = tabs.iter().position(|tab| tab.tiles().contains(&tile))
@@ -254,7 +257,8 @@ impl Layout {
         self.children_mut().into_iter().any(|child| child.reveal(tile))
     }
 
-    /// The tab after (+1) or before (−1) the one in front, among the tabs that hold a tile; their tile.
+    /// Brings the tab after (+1) or before (−1) the one in front to the front, among the tabs that hold a tile. Returns
+    /// its tile.
     pub fn next_tab(&mut self, tile: Tile, step: i32) -> Option<Tile> {
         if let Some(inner) = self.children_mut().into_iter().find_map(|child| child.next_tab(tile, step)) {
             return Some(inner);
@@ -279,7 +283,7 @@ impl Layout {
         true
     }
 
-    /// As a tree to be drawn.
+    /// Returns the layout as a tree to be drawn.
     pub fn tree(&self) -> Tree<Tile> {
         let mut tiles = Tiles::default();
         let root = self.plant(&mut tiles);
@@ -308,7 +312,7 @@ impl Layout {
         tiles.insert_container(line)
     }
 
-    /// As a tree stands.
+    /// Creates the layout from a tree that is drawn.
     pub fn of(tree: &Tree<Tile>) -> Option<Self> {
         Self::harvest(tree, tree.root()?)
     }

@@ -8,10 +8,10 @@ use crate::app::views::lid;
 use crate::texts::tiles as say;
 use egui::Ui;
 
-/// The tile.
+/// The LID tile.
 pub const TILE: Tile = Tile { title: say::LID.english(), name: say::LID, help: say::LID_HELP };
 
-/// Its drawing.
+/// Drawing of the LID tile.
 #[derive(Default)]
 pub struct Drawing {
     view: lid::State,

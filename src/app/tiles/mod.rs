@@ -1,5 +1,5 @@
-//! The tiles of the bench. Each is a file that feeds its view (in [`crate::app::views`]) from what the window knows and
-//! turns what the view was asked for into commands; a new one is such a file and its entry in [`TILES`]. Keys, menus,
+//! The tiles of the tile area. Each is a file that feeds its view (in [`crate::app::views`]) from what the window knows
+//! and turns the view's actions into commands; a new one is such a file and its entry in [`TILES`]. Keys, menus,
 //! palette, layout and exports read that list.
 
 mod btdf;
@@ -32,9 +32,9 @@ use egui::{Rect, Ui};
 use egui_tiles::Tree;
 use std::time::{Duration, Instant};
 
-/// A tile, and how its drawing begins.
+/// Entry of the list of tiles: a tile, and the function that creates its drawing.
 pub struct Entry {
-    /// The tile.
+    /// Tile of this entry.
     pub tile: Tile,
     begin: fn() -> Box<dyn Drawn>,
 }
@@ -43,7 +43,7 @@ const fn entry<D: Drawn + Default + 'static>(tile: Tile) -> Entry {
     Entry { tile, begin: || Box::<D>::default() }
 }
 
-/// All tiles, in the order of bench and keys.
+/// All tiles, in the order of tile area and keys.
 pub const TILES: &[Entry] = &[
     entry::<btdf::Drawing>(btdf::TILE),
     entry::<transmittance::Drawing>(transmittance::TILE),
@@ -55,34 +55,34 @@ pub const TILES: &[Entry] = &[
     entry::<choose::Drawing>(choose::TILE),
 ];
 
-/// The tiles of one window, and where they stand.
+/// Tiles of one window, and their arrangement.
 pub struct Bench {
-    /// The arrangement as it is drawn.
+    /// Arrangement as it is drawn.
     pub tree: Tree<Tile>,
-    /// As text, what `tree` was made of or left; `None`: a first start's.
+    /// Text from which `tree` was made, or that `tree` was written to; `None`: the arrangement of a first start.
     pub text: Option<String>,
-    /// Where tiles stood in the last frame, in order.
+    /// Places of the tiles in the last frame, in order.
     pub places: Vec<(Tile, Rect)>,
-    /// The tile in hand: pointed at, or walked to by keys.
+    /// Active tile: pointed at, or reached by keys.
     pub in_hand: Tile,
-    /// The tile in hand is to get the keyboard in the next frame.
+    /// Whether the active tile is to get the keyboard in the next frame.
     pub to_focus: bool,
-    /// How long each tile in sight took to be drawn in the last frame.
+    /// Time that each visible tile took to be drawn in the last frame.
     pub times: Vec<(Tile, Duration)>,
     drawn: Vec<(Tile, Box<dyn Drawn>)>,
 }
 
-/// All tiles, in the order of bench and keys.
+/// Returns all tiles, in the order of tile area and keys.
 pub fn all() -> Vec<Tile> {
     TILES.iter().map(|entry| entry.tile).collect()
 }
 
-/// Where tiles stand at a first start: six side by side, the year and the choice behind the control.
+/// Returns the arrangement of a first start: six tiles side by side, with year and ranking as tabs behind the control.
 fn first() -> Layout {
     presets::layout(super::arrange::Preset::All, &all())
 }
 
-/// Tiles that can be drawn of what is compared: a year is computed of the scene alone, and so is a ranking.
+/// Returns the tiles that can be drawn for a comparison: a year is computed for the scene alone, and so is a ranking.
 pub fn compared() -> impl Iterator<Item = Tile> + Clone {
     TILES.iter().map(|entry| entry.tile).filter(|tile| ![year::TILE, choose::TILE].contains(tile))
 }
@@ -102,15 +102,15 @@ impl Default for Bench {
 }
 
 impl Bench {
-    /// The arrangement as it stands.
+    /// Returns the current arrangement.
     pub fn layout(&self) -> Layout {
         Layout::of(&self.tree).unwrap_or_else(first)
     }
 
-    /// Arranges the tiles as a text says, where it is another than that of the present arrangement.
+    /// Arranges the tiles as a text describes, if it differs from that of the current arrangement.
     ///
     /// # Errors
-    /// One clause on what is wrong with the text; the tiles then stand as at a first start.
+    /// Returns an error, in one clause, if the text cannot be read; the tiles then stand as at a first start.
     pub fn follow(&mut self, text: Option<&String>) -> Result<(), String> {
         if self.text.as_ref() == text {
             return Ok(());
@@ -121,18 +121,18 @@ impl Bench {
         read.map(drop)
     }
 
-    /// The tiles in sight: one that fills the bench hides the others.
+    /// Returns the visible tiles: one that fills the tile area hides the others.
     pub fn in_sight(&self, maximised: Option<Tile>) -> Vec<Tile> {
         maximised.map_or_else(|| self.layout().in_sight(), |tile| vec![tile])
     }
 
-    /// Does a tile in sight draw what a lane computes?
+    /// Whether a visible tile draws what a lane computes.
     pub fn shows(&self, lane: Lane, maximised: Option<Tile>) -> bool {
         let in_sight = self.in_sight(maximised);
         self.drawn.iter().any(|(tile, drawn)| in_sight.contains(tile) && drawn.lanes().contains(&lane))
     }
 
-    /// Is what a tile shows of before the last change?
+    /// Whether the content of a tile belongs to the scene before the last change.
     pub fn is_old(&self, tile: Tile, state: &State, results: &Results) -> bool {
         let lanes = self.drawn.iter().find(|(one, _)| *one == tile).map_or(&[][..], |(_, drawn)| drawn.lanes());
         let old = |lane: &Lane| match lane {
@@ -148,12 +148,12 @@ impl Bench {
         state.dataset.stale || state.daylight.stale || lanes.iter().any(old)
     }
 
-    /// A tile's choice of a logarithmic scale, where it has one.
+    /// Returns a tile's choice of a logarithmic scale; `None` if it has none.
     pub fn log(&mut self, tile: Tile) -> Option<&mut bool> {
         self.drawn.iter_mut().find(|(one, _)| *one == tile)?.1.log()
     }
 
-    /// Draws a tile; its numbers where they are asked for.
+    /// Draws a tile. Returns its numbers if they are requested.
     pub fn show(
         &mut self,
         ui: &mut Ui,

@@ -5,7 +5,7 @@ use super::{btdf, choose, control, lid, room, sky, transmittance, year};
 use crate::app::arrange::Preset;
 use crate::app::state::Tile;
 
-/// A ready arrangement of all tiles; `all`: every tile there is, in order.
+/// Returns a ready arrangement of all tiles; `all`: every tile there is, in order.
 pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
     let one = |share: f32, tile: Tile| (share, Layout::Tile(tile));
     match preset {

@@ -1,4 +1,5 @@
-//! The room tile: light on the sensors and, where that is looked at, on the surfaces; windows and sensors can be moved.
+//! The room tile: light at the sensor points and, where that is shown, on the surfaces; apertures and sensor points can
+//! be moved.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -16,21 +17,22 @@ use crate::study::scene_file::{SceneFile, SkyModelKey, SurfaceKey};
 use crate::texts::{Text, tiles as say};
 use egui::Ui;
 
-/// The tile.
+/// The room tile.
 pub const TILE: Tile = Tile { title: say::ROOM.english(), name: say::ROOM, help: say::ROOM_HELP };
 
-/// Its drawing.
+/// Drawing of the room tile.
 #[derive(Default)]
 pub struct Drawing {
     view: room::State,
     shown: RoomView,
-    /// Horizontal illuminance outside under the sky that a result (by its revision) is of. \[lx\]
+    /// Horizontal illuminance outside under the sky of a result, with the revision of that result. \[lx\]
     open_sky: Option<(u64, f64)>,
     cells: Cache<(u64, u64), Vec<room::CellValue>>,
     ground: Ground,
 }
 
-/// The ground outside with the sun's shade, of a scene under a daylight by its revision; found again when one of them changes.
+/// Cached ground outside with the sun's shade, for a scene and the revision of its daylight; computed again when one of
+/// them changes.
 #[derive(Default)]
 struct Ground(Option<(u64, SceneFile, Option<GroundShade>)>);
 
@@ -48,7 +50,7 @@ impl Ground {
     }
 }
 
-/// The CIE's overcast skies: its standard and its traditional one (ISO 15469).
+/// CIE types of the overcast skies: the standard and the traditional one (ISO 15469).
 const OVERCAST: [u8; 2] = [1, 16];
 
 fn openings(scene: &SceneFile) -> Vec<room::Opening> {
@@ -63,7 +65,7 @@ fn openings(scene: &SceneFile) -> Vec<room::Opening> {
         .collect()
 }
 
-/// Sensors' light, times a factor.
+/// Returns the results at the sensor points, multiplied by a factor.
 fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
     let cell = |i: usize| {
         let total = figures.total(i) * factor;
@@ -79,8 +81,10 @@ fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
     (0..figures.positions.len()).map(cell).collect()
 }
 
-/// What a daylight factor is a share of, the horizontal illuminance of the open overcast sky \[lx\]; or why there is
-/// none.
+/// Returns the reference of a daylight factor, the horizontal illuminance of the unobstructed overcast sky \[lx\].
+///
+/// # Errors
+/// Returns the reason why there is no daylight factor.
 fn open_sky(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
     let sky = &state.document.scene.sky;
     let daylight = daylight.ok_or(say::NO_FACTOR_SKY)?;
@@ -94,7 +98,7 @@ fn open_sky(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
     if horizontal > 0.0 { Ok(horizontal) } else { Err(say::NO_FACTOR_DARK) }
 }
 
-/// The scene with what was moved.
+/// Returns the scene with what was moved.
 fn moved(scene: &SceneFile, action: room::Action) -> SceneFile {
     let mut scene = scene.clone();
     match action {
@@ -141,7 +145,7 @@ impl Drawn for Drawing {
         let scene = &state.document.scene;
         let look = state.settings.room;
         if self.shown != look.view {
-            // The bench knows with the next frame what is to be computed for it.
+            // The tile area knows with the next frame what is to be computed for it.
             self.shown = look.view;
             ui.ctx().request_repaint();
         }

@@ -13,10 +13,10 @@ use crate::study::scene_file::SkyModelKey;
 use crate::texts::tiles as say;
 use egui::Ui;
 
-/// The tile.
+/// The sky tile.
 pub const TILE: Tile = Tile { title: say::SKY.english(), name: say::SKY, help: say::SKY_HELP };
 
-/// Its drawing.
+/// Drawing of the sky tile.
 #[derive(Default)]
 pub struct Drawing {
     view: sky::State,

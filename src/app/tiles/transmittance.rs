@@ -1,4 +1,5 @@
-//! The transmittance tile: τ over the incident hemisphere, the sun's paths, and where the transmitted light goes.
+//! The transmittance tile: τ over the incident hemisphere, the sun's paths, and the split of the transmitted light by
+//! direction.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -16,16 +17,16 @@ use crate::texts::tiles as say;
 use egui::Ui;
 use std::path::PathBuf;
 
-/// The tile.
+/// The transmittance tile.
 pub const TILE: Tile =
     Tile { title: say::TRANSMITTANCE.english(), name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
 
-/// Place, bearing and weather that sun paths hang on.
+/// Key of the sun's paths: place, bearing and weather.
 type PathKey = (i16, [u64; 4], Option<PathBuf>);
-/// Dataset, direction and surface that the flux split hangs on.
+/// Key of the flux split: dataset, incident direction and surface.
 type SplitKey = (u64, Incident, bool);
 
-/// Its drawing.
+/// Drawing of the transmittance tile.
 #[derive(Default)]
 pub struct Drawing {
     view: transmittance::State,

@@ -1,4 +1,4 @@
-//! The year tile: a year of weather in the room, computed when it is asked for.
+//! The year tile: an annual simulation of the room, computed on request.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -14,10 +14,10 @@ use crate::study::year::{Annual, Day, Look, Row, day, map, months, sunniest, tab
 use crate::texts::{Language, language, year as say};
 use egui::Ui;
 
-/// The tile.
+/// The year tile.
 pub const TILE: Tile = Tile { title: say::YEAR.english(), name: say::YEAR, help: say::YEAR_HELP };
 
-/// Its drawing.
+/// Drawing of the year tile.
 #[derive(Default)]
 pub struct Drawing {
     view: view::State,
@@ -27,14 +27,14 @@ pub struct Drawing {
     months: Cache<u64, Option<[(f64, f64); 12]>>,
 }
 
-/// What stands beside the year's figures: faults of its weather file, and a state that is another than the year's.
+/// Returns the remarks beside the year's figures: faults of its weather file, and a state that differs from the year's.
 fn remarks(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
     let warnings = annual.year.steps.weather_warnings.iter().map(|code| warning_words(code).to_owned());
     let all = warnings.chain(Some(other_state(seen, annual, now)).filter(|words| !words.is_empty()));
     all.collect::<Vec<_>>().join(". ")
 }
 
-/// Is the state of the scene's moment another than the year has at that step? In words, or nothing.
+/// Returns a note if the state of the scene's moment differs from the year's state at that step; else an empty text.
 fn other_state(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
     let state = seen.state;
     let aperture = state.control_aperture() + 1;
@@ -114,7 +114,7 @@ impl Drawn for Drawing {
     }
 }
 
-/// Another number for every map.
+/// Returns a number that is different for every map.
 fn hash(revision: u64, look: &Look) -> u64 {
     use std::hash::{DefaultHasher, Hash, Hasher};
     let mut hasher = DefaultHasher::new();

@@ -1,5 +1,5 @@
-//! Error against run time of the present scene: runs the ladder on demand, shows its picture and what the stated errors
-//! are worth.
+//! Error against run time of the current scene: runs the refinement series on demand, and shows its plot and how
+//! reliable the stated uncertainties are.
 
 use super::Cache;
 use crate::app::paint::palette::Palette;
@@ -12,39 +12,39 @@ use crate::study::accuracy_plot::{name, plots};
 use crate::texts::{Language, fixed, language, tiles as say};
 use egui::{Button, Label, ProgressBar, Sense, Ui, vec2};
 
-/// What only this view knows.
+/// State of this view between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     plots: Cache<(u64, Language), [Plot; 2]>,
 }
 
-/// What is shown.
+/// Input of the view.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The last ladder.
+    /// Result of the last refinement series.
     pub accuracy: Option<&'a Accuracy>,
-    /// Counts the ladders.
+    /// Number of refinement series run so far.
     pub revision: u64,
-    /// The scene has changed since.
+    /// Whether the scene has changed since.
     pub stale: bool,
-    /// Why there is none.
+    /// Error because of which there is no result.
     pub error: Option<&'a str>,
-    /// Share done of a ladder under way.
+    /// Share done of a refinement series that runs, 0–1; `None` while none runs.
     pub running: Option<f32>,
-    /// How the apertures of the room that is shown see what stands outside.
+    /// Views of the obstructions from the apertures of the room that is shown.
     pub outside: &'a [OutsideSeen],
 }
 
-/// What the user asked for.
+/// Action of the user.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Action {
-    /// Run the ladder on the present scene.
+    /// Request to run the refinement series on the current scene.
     Run,
-    /// Stop it.
+    /// Request to stop the refinement series.
     Cancel,
 }
 
-/// Draws the view into the width that there is; the two panels lie one above the other.
+/// Draws the view over the available width; the two plots lie one above the other.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = Vec::new();
     ui.horizontal(|ui| {
@@ -107,7 +107,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
-/// What the ladder says, in words.
+/// Returns the results of the refinement series in sentences.
 pub fn sentence(accuracy: &Accuracy) -> String {
     let coverage = accuracy.ordinary_coverage();
     let mut said =

@@ -1,4 +1,4 @@
-//! The BTDF: left where light comes from, right where it goes, both seen from inside the room.
+//! The BTDF tile: on the left the incident directions, on the right the emergent ones, both seen from inside the room.
 
 mod cut;
 mod form;
@@ -30,24 +30,25 @@ use words::{drawn, leaving_text, pointed_text, selection_text};
 
 type Bits = [u64; 3];
 
-/// What the picture of the emergent side depends on.
+/// Key of the picture of the emergent side: all that it depends on.
 type EmergentKey = (u64, Bits, Disk, Projection, bool, ColourScale);
 
 fn bits(incident: Incident) -> Bits {
     incident.0.vector().to_array().map(f64::to_bits)
 }
 
-/// What the incident side shows: cells in grey, and the incidences that can be chosen.
+/// Incident side: cells in grey, and the incident directions that can be chosen.
 #[derive(Debug, Clone)]
 struct Incidences {
     basis: RingBasis,
     /// τ of every cell of `basis`.
     tau: Vec<f64>,
-    /// The centres of the cells, or the directions of a list that is no lattice.
+    /// Incident directions that can be chosen: centres of the cells, or the data's list if that does not form a
+    /// lattice.
     choices: Vec<Incident>,
-    /// Where the choices lie on the disk.
+    /// Disk points of `choices`.
     points: Vec<[f64; 2]>,
-    /// The choices are a list; every place of the disk belongs to the nearest of them.
+    /// Whether `choices` is a list of directions; each place of the disk then belongs to the nearest of them.
     listed: bool,
 }
 
@@ -64,7 +65,7 @@ impl Incidences {
         Self { basis, tau, choices, points, listed: list.is_some() }
     }
 
-    /// The choice that a direction belongs to.
+    /// Returns the index of the choice that a direction belongs to.
     fn choice(&self, btdf: &Btdf, d: Dir<Facade>) -> Option<usize> {
         match super::listed(btdf) {
             Some(data) => data.standing_for(d),
@@ -73,15 +74,15 @@ impl Incidences {
     }
 }
 
-/// How the side is drawn on which light leaves.
+/// Form in which the emergent side is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Leaving {
-    /// As a disk in false colours.
+    /// Disk in false colours.
     #[default]
     Disk,
-    /// As a body, its radius the value; turned by hand.
+    /// 3D polar surface whose radius is the value; rotated with the pointer.
     Body,
-    /// As curves over the angle, in the plane of incidence and across it.
+    /// Section curves over the angle, in the plane of incidence and across it.
     Cuts,
 }
 
@@ -93,20 +94,20 @@ impl Leaving {
     ];
 }
 
-/// The tile's own settings and pictures.
+/// Settings and cached pictures of the tile.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// How the side is drawn on which light leaves.
+    /// Form in which the emergent side is drawn.
     pub leaving: Leaving,
-    /// How θ becomes a radius.
+    /// Projection of the hemisphere: how θ becomes a radius.
     pub projection: Projection,
-    /// Logarithmic colours.
+    /// Whether colours are logarithmic.
     pub log: bool,
-    /// q·cosθ instead of q.
+    /// Whether q·cosθ is drawn instead of q.
     pub weighted: bool,
-    /// Grey by τ on the incident side.
+    /// Whether cells of the incident side are shaded in grey by τ.
     pub shade_tau: bool,
-    /// The scale stays as it is.
+    /// Whether the scale is locked.
     pub hold: bool,
     incidences: Cache<(u64, Projection), Incidences>,
     indicatrix: Cache<(u64, Bits), Option<Indicatrix>>,
@@ -114,7 +115,7 @@ pub struct State {
     triangles: Cache<(u64, Disk, Projection), Arc<Mesh>>,
     outlines: Cache<(u64, Disk, Projection, bool, Grain), Arc<Mesh>>,
     right: Cache<EmergentKey, Arc<Mesh>>,
-    /// The largest value that leaves.
+    /// Largest value of the emergent side.
     most: Cache<(u64, Bits, bool), f64>,
     scale: Option<ColourScale>,
     lobe: lobe::State,
@@ -319,14 +320,14 @@ fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<
     cell_outline(projection, side, cell).into_iter().map(|p| disk.screen(p)).collect()
 }
 
-/// Hair lines between cells, while they are large enough to be told apart.
+/// Returns hair lines between cells, as long as there are at most 400 of them; more would not be distinguishable.
 fn outlines(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, palette: &Palette) -> Arc<Mesh> {
     let stroke = Stroke::new(0.6, palette.outline.gamma_multiply(0.6));
     let lines = if basis.len() > 400 { vec![] } else { disk.borders(projection, Side::Incident, basis) };
     frozen(ui, lines.into_iter().map(|line| Shape::line(line, stroke)))
 }
 
-/// The scale of what leaves; while something is dragged it holds still.
+/// Returns the scale of the emergent side; it does not change while something is dragged.
 fn scale_of(max: f64, input: &Input<'_>, state: &State) -> ColourScale {
     let hold = input.status.hold_scale || state.hold;
     let held = state.scale.clone().filter(|s| hold && s.log == state.log);
@@ -405,7 +406,7 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     text
 }
 
-/// The hemisphere in false colours: words and value of what is under the cursor.
+/// Draws the emergent hemisphere in false colours. Returns text and value for the patch under the cursor.
 fn emergent_disk_ui(
     ui: &mut Ui,
     place: &Place,
@@ -436,7 +437,7 @@ fn emergent_disk_ui(
     (Some(leaving_text(cell.centre(), value, weighted)), Some(value), response)
 }
 
-/// What goes straight on, where it goes.
+/// Draws a dot in the emergent direction of regular transmission, with its τ.
 fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Incident, f64), palette: &Palette) {
     let rect = place.rect;
     let at = place.disk.screen(emergent_disk(projection, Emergent::from_through_name(from.0)));
@@ -455,7 +456,7 @@ fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Inc
     ui.painter().galley(place.min, galley, palette.ink);
 }
 
-/// The indicatrix of the chosen incidence: direction in which light leaves (façade frame), q and solid angle.
+/// Returns the indicatrix of the chosen incident direction as CSV: emergent direction (façade frame), q, solid angle.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::new();

@@ -1,4 +1,4 @@
-//! A weather file as a calendar of hours: where it is from, its light as a map, an hour to pick.
+//! A weather file as a calendar of hours: its station, its light as a map, and the choice of an hour.
 
 use crate::app::paint::hour_map;
 use crate::app::paint::palette::Palette;
@@ -9,25 +9,26 @@ use egui::{Label, RichText, Sense, Ui, vec2};
 /// Height of the map with its legend. \[points\]
 const HIGH: f32 = 168.0;
 
-/// What is drawn.
+/// Input of the calendar.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Direct normal, and diffuse horizontal light.
+    /// Maps of direct normal and of diffuse horizontal light.
     pub maps: &'a [HourMap; 2],
-    /// The hour that is the scene's, by month, day and minute of the day.
+    /// The scene's hour: month, day and minute of the day.
     pub moment: Option<(u8, u8, u16)>,
-    /// Changes with the maps.
+    /// Number that changes with the maps.
     pub revision: u64,
 }
 
-/// What it remembers from frame to frame.
+/// State of the calendar between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     map: hour_map::State,
     diffuse: bool,
 }
 
-/// Draws it as wide as there is room; the number of the record that was picked, and whether on a walk by keys.
+/// Draws the calendar over the available width. Returns the number of the record that was chosen, and whether by arrow
+/// keys.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<(usize, bool)> {
     ui.horizontal(|ui| {
         for (diffuse, word) in [(false, say::DIRECT_NORMAL), (true, say::DIFFUSE_HORIZONTAL)] {

@@ -1,7 +1,7 @@
-//! Which system for this façade: products with their objectives and what they are worth, as a table with bars and as a plot
-//! of two objectives against each other; what counts and how much; in parts that add up why one is before another.
+//! Ranking of systems for this façade: products with their objectives and scores, as a table with bars and as a plot of
+//! two objectives against each other; objectives and weights; the reason for a rank, in parts that add up.
 //!
-//! A view of figures that others find: it ranks nothing itself.
+//! A view of figures that are computed elsewhere: it ranks nothing itself.
 
 mod empty;
 mod input;
@@ -18,11 +18,11 @@ use crate::study::rank::{Look, Page, Shortlist, figure_words};
 use crate::texts::choose as say;
 use egui::{Checkbox, ComboBox, Rect, RichText, TextEdit, Ui, UiBuilder};
 
-/// Width of a tile that shows the products and what counts side by side. \[points\]
+/// Width of a tile that shows products and objectives side by side. \[points\]
 const BOTH: f32 = 980.0;
-/// Width of what counts there. \[points\]
+/// Width of the objectives beside the products. \[points\]
 const SIDE: f32 = 360.0;
-/// Height of what is told of the chosen product; less in a low tile. \[points\]
+/// Height of the reasons for the rank of the selected product; less in a low tile. \[points\]
 const WHY: f32 = 132.0;
 
 /// Width of the name of an axis. \[points\]
@@ -144,13 +144,14 @@ fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut 
     said
 }
 
-/// How many of them are shown, of which weather.
+/// Returns the number of products that are shown, out of how many, and their weather.
 fn summary(input: &Input<'_>, list: &Shortlist) -> String {
     let shown = list.shown(input.look).len();
     format!("{} · {}", say::shown(shown, list.entries.len()), input.weather.display())
 }
 
-/// A bar at the upper edge, where no message lies over it, while products are computed; what is left below it.
+/// Draws a bar at the upper edge, where no message lies over it, while products are computed. Returns the area left
+/// below it.
 fn below_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
     if input.running.is_none() {
         return rect;
@@ -160,7 +161,7 @@ fn below_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Acti
     below
 }
 
-/// Why there is nothing newer; what is left below.
+/// Draws the error because of which there is no newer ranking. Returns the area left below it.
 fn below_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     let Some(error) = input.error else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.top() + 20.0);

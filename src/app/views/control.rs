@@ -1,4 +1,4 @@
-//! Control: which state for which profile angle, today's way of the sun over that curve, and the year.
+//! The control tile: states over the profile angle, today's sun along that curve, and the year.
 
 mod edit;
 mod input;
@@ -19,23 +19,23 @@ use egui::{
 use egui_plot::{HLine, PlotImage, PlotPoint};
 use input::{curve_at, extent};
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// A state was clicked: set it.
+    /// Choice of a state, by its index.
     ChooseState(usize),
-    /// The curve was changed.
+    /// New control curve: value over profile angle \[°\].
     EditCurve(Vec<[f64; 2]>),
-    /// An hour of the year was clicked: day from 0, hour.
+    /// Choice of an hour of the year.
     ChooseMoment {
-        /// Day of the year, from 0.
+        /// Day of the year, counted from 0.
         day: usize,
         /// Hour of the day.
         hour: f64,
     },
 }
 
-/// A texture, kept as long as this.
+/// Texture that is kept as long as this value.
 #[derive(Clone)]
 struct Picture(TextureHandle);
 
@@ -45,7 +45,7 @@ impl std::fmt::Debug for Picture {
     }
 }
 
-/// The tile's own settings and pictures.
+/// Settings and cached pictures of the tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     year: Cache<(u64, bool), Picture>,
@@ -53,7 +53,7 @@ pub struct State {
 }
 
 const DAYS: usize = 365;
-/// Height that a curve with its axes needs at least.
+/// Minimum height of a curve with its axes. \[points\]
 const LEAST_CURVE: f32 = 120.0;
 
 /// Draws the tile into all the space of `ui`.
@@ -89,8 +89,8 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     })
 }
 
-/// Says what is to be said of the year, as high as it is, or in a small tile that there is something, with all of it under
-/// the pointer; what is left above it.
+/// Draws the remark on the year over its full height, or in a small tile a hint with the remark as tooltip. Returns the
+/// area left above it.
 fn remark(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     if input.remark.is_empty() {
         return rect;
@@ -185,7 +185,7 @@ fn curve_ui(
     Some(say::nearest_state(format!("{psi:.0}"), rule, state_text(input, nearest(v)?)))
 }
 
-/// What lies on the curve: its points to be dragged, the hours of today, the states, the sun.
+/// Draws the marks on the curve: its points, today's hours, the states, the sun.
 fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing: &edit::Editing, palette: &Palette) {
     let area = shown.area();
     let painter = &ui.painter().with_clip_rect(area.expand(7.0).intersect(ui.clip_rect()));
@@ -223,7 +223,7 @@ fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing
     }
 }
 
-/// A column a day, noon in the middle, the colour of its state for every hour.
+/// Returns the year as a picture: one column per day, noon in the middle, one colour per state for every hour.
 fn year_picture(ui: &Ui, input: &Input<'_>, days: usize, night: Color32) -> Picture {
     let hours = (0..24).rev().flat_map(|hour| (0..days).map(move |day| day * 24 + hour));
     let state = |k: usize| input.year.get(k).copied().flatten();
@@ -287,7 +287,7 @@ fn states_legend(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     }
 }
 
-/// The states of every hour of the year.
+/// Returns the states of every hour of the year as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("day,hour,state,value\n");

@@ -1,4 +1,4 @@
-//! A difference with sign: over the sensors of a room, or over a hemisphere; zero in the middle of the colours.
+//! Signed differences over the sensor points of a room, or over a hemisphere, with zero in the middle of the colours.
 
 use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
@@ -12,26 +12,26 @@ use crate::texts::tiles as say;
 use egui::{Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// `None` while it is not known.
+    /// Differences to draw; `None` while they are not known.
     pub picture: Option<&'a Picture>,
-    /// Said instead of a picture.
+    /// Text shown instead of a picture.
     pub missing: &'a str,
-    /// Title: the candidate.
+    /// Title: name of the candidate.
     pub title: &'a str,
-    /// What it is less.
+    /// Name of the reference that is subtracted.
     pub less: &'a str,
-    /// The scale of all.
+    /// Colour scale shared by all candidates.
     pub scale: &'a ColourScale,
-    /// Changes with the picture.
+    /// Number that changes with the picture.
     pub revision: u64,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// The tile's pictures.
+/// Cached pictures of the tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
@@ -137,7 +137,7 @@ fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &m
     }
 }
 
-/// The difference as a whole.
+/// Returns the differences in summary.
 fn summary(picture: &Picture) -> Foot {
     let [name, unit] = picture.quantity();
     match picture {

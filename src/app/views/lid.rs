@@ -1,4 +1,4 @@
-//! The luminous-intensity distribution of the aperture, drawn as lighting designers draw a luminaire's: nadir down.
+//! The luminous intensity distribution of the aperture, drawn as lighting designers draw a luminaire's: nadir down.
 
 mod body;
 mod scaling;
@@ -18,41 +18,41 @@ use scaling::{Scaling, towards};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The distribution; `None` before the first result.
+    /// Luminous intensity distribution; `None` before the first result.
     pub lid: Option<&'a Lid>,
-    /// Product, state and moment in words.
+    /// Product, state and moment as text.
     pub name: &'a str,
-    /// Its largest intensities, as a luminaire file holds them; `None` until they are computed.
+    /// Largest intensities of the distribution, as a luminaire file holds them; `None` until they are computed.
     pub peaks: Option<&'a Peaks>,
-    /// Luminous flux into the room, the unscattered sun left out. \[lm\]
+    /// Luminous flux into the room, without the unscattered sun. \[lm\]
     pub flux: Option<f64>,
-    /// Outermost ring forced from outside (comparison). \[cd\]
+    /// Value of the outermost ring forced from outside (comparison). \[cd\]
     pub max: Option<f64>,
-    /// Changes with `lid`.
+    /// Number that changes with `lid`.
     pub revision: u64,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// The tile asks for nothing.
+/// Action of the user: the tile has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {}
 
-/// The tile's own settings and curves.
+/// Settings and cached curves of the tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Intensity per m² of aperture instead of the whole aperture's.
+    /// Whether intensities are per m² of aperture instead of the whole aperture's.
     pub per_area: bool,
-    /// As a body instead of curves.
+    /// Whether a 3D body is drawn instead of curves.
     pub solid: bool,
-    /// The outermost ring stays as it is.
+    /// Whether the scale of the outermost ring is locked.
     pub hold: bool,
     body: body::State,
     curves: Cache<(u64, Vec<LidPlane>, usize), Arc<Curves>>,
-    /// The outermost ring, and whether per area.
+    /// Whether the outermost ring is per area, and its value.
     ring: Option<(bool, f64)>,
 }
 
@@ -89,7 +89,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     vec![]
 }
 
-/// Colours of the vertical planes, in their order.
+/// Returns the colours of the vertical planes, in their order.
 fn colours(palette: &Palette) -> [Color32; 3] {
     [palette.first, palette.second, palette.series[2]]
 }
@@ -174,7 +174,7 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     text.unwrap_or(rest)
 }
 
-/// The strongest scattered light and where it goes; the beam has its words in the legend.
+/// Returns the strongest scattered light and its direction as text. The beam is described in the legend.
 fn summary(lid: &Lid, input: &Input<'_>, scaling: Scaling) -> Foot {
     let flux = input.flux.map_or_else(String::new, |flux| say::scattered_flux(si(flux, "lm")));
     let Some(peaks) = input.peaks else {
@@ -203,10 +203,10 @@ fn dashed(ui: &Ui, axes: &PolarAxes, surface: Surface, flux: f64, section: LidPl
     ui.painter().extend(Shape::dashed_line(&points, Stroke::new(1.3, palette.weak), 5.0, 4.0));
 }
 
-/// Beams weaker than this share of the strongest are not drawn.
+/// Share of the strongest beam's flux below which beams are not drawn.
 const FAINT_BEAM: f64 = 0.02;
 
-/// The beams as rays in the C 0° plane.
+/// Draws the beams as rays in the C 0° plane.
 fn beams(ui: &Ui, axes: &PolarAxes, lid: &Lid, palette: &Palette) {
     // The fan of a curved mirror is drawn by its stronger rays.
     let strongest = lid.beams.iter().map(|beam| beam.flux).fold(0.0, f64::max);
@@ -221,10 +221,10 @@ fn beams(ui: &Ui, axes: &PolarAxes, lid: &Lid, palette: &Palette) {
 
 /// Height of a line of the legend. \[points\]
 const LINE: f32 = 18.0;
-/// Narrower legends have one entry a line, and short ones. \[points\]
+/// Width below which a legend has one entry per line, and short ones. \[points\]
 const NARROW: f32 = 300.0;
 
-/// What the sun's beam is, from the fullest words to the shortest.
+/// Returns descriptions of the sun's beam, from the fullest to the shortest.
 fn beam_words(lid: &Lid, peaks: Option<&Peaks>, scaling: Scaling) -> Vec<String> {
     let Some(strongest) = lid.beams.iter().max_by(|a, b| a.flux.total_cmp(&b.flux)).filter(|beam| beam.flux > 0.0)
     else {
@@ -301,7 +301,7 @@ fn legend_ui(
     }
 }
 
-/// Intensities every 5° of C and γ, as the curves show them. \[cd\]
+/// Returns intensities every 5° of C and γ as CSV, as the curves show them. \[cd\]
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("c_deg,gamma_deg,intensity_cd\n");

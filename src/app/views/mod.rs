@@ -1,6 +1,6 @@
-//! The tiles. Each view is a file with its own [`State`](btdf::State) (what only the tile knows), `Input` (borrowed
-//! data), `Action` (what the user asked for), `show` and `csv`. Views change nothing but their own state; pictures are
-//! rebuilt only when the input's `revision` or the tile's own settings change.
+//! The views of the tiles. Each view is a file with its own [`State`](btdf::State) (what only the tile knows), `Input`
+//! (borrowed data), `Action` (request of the user), `show` and `csv`. Views change nothing but their own state;
+//! pictures are rebuilt only when the input's `revision` or the tile's own settings change.
 
 pub mod accuracy;
 pub mod btdf;
@@ -18,7 +18,7 @@ pub mod year;
 
 use crate::drawing::hemisphere::{incident_cells, listed};
 
-/// A value kept until its key changes.
+/// Cached value that is kept until its key changes.
 #[derive(Debug, Clone)]
 pub struct Cache<K, V>(Option<(K, V)>);
 
@@ -29,12 +29,12 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K: PartialEq, V> Cache<K, V> {
-    /// What is kept, of whatever key.
+    /// Returns the cached value, whatever its key.
     pub fn last(&self) -> Option<&V> {
         self.0.as_ref().map(|(_, value)| value)
     }
 
-    /// The kept value, or a new one when the key is another.
+    /// Returns the cached value, or makes it if the key has changed.
     pub fn get(&mut self, key: K, make: impl FnOnce() -> V) -> &V {
         if self.0.as_ref().is_none_or(|(old, _)| *old != key) {
             self.0 = None;

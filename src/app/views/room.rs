@@ -1,6 +1,6 @@
-//! Light in the room: plan in false colour with iso-lux lines, section, or its surfaces in perspective.
+//! Light in the room: floor plan in false colour with iso-lux lines, section, or its surfaces in perspective.
 //!
-//! Plan and section have the façade at the left, so that their depth axis is that of the profile under them.
+//! Floor plan and section have the façade at the left, so that their depth axis is that of the profile under them.
 
 mod boxes;
 mod elevation;
@@ -29,14 +29,14 @@ use egui::{Rect, Sense, Ui, pos2, vec2};
 use input::{Frame, Span};
 use words::{summary, value_text};
 
-/// The tile's own settings and pictures.
+/// Settings and cached pictures of the tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Logarithmic colours and section.
+    /// Whether colours and section are logarithmic.
     pub log: bool,
-    /// The scale stays as it is.
+    /// Whether the scale is locked.
     pub hold: bool,
-    /// Row of sensors in the section, counted along x; the middle one while `None`.
+    /// Row of sensor points in the section, counted along x; `None`: the middle one.
     pub row: Option<usize>,
     scale: Option<(Quantity, ColourScale)>,
     pictures: plan::Pictures,
@@ -45,12 +45,12 @@ pub struct State {
     perspective: perspective::State,
 }
 
-/// What of the surroundings a picture shows.
+/// Part of the surroundings that a picture shows.
 #[derive(Debug, Clone, Copy)]
 struct Shown {
     side: bool,
     span: Span,
-    /// A line tells what lies beyond it.
+    /// Whether a line states what lies beyond the picture.
     told: bool,
 }
 
@@ -92,7 +92,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     asked
 }
 
-/// The toggles of the head.
+/// Draws the toggles of the head.
 fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLook), actions: &mut Vec<Action>) {
     for view in RoomView::ALL {
         if ui.selectable_label(look.view == view, view.word()).on_hover_text(view.tip()).clicked() {
@@ -124,7 +124,7 @@ fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLo
     }
 }
 
-/// The scale of this frame: while something is dragged equal colours stay equal values.
+/// Returns the scale of this frame. While something is dragged equal colours stay equal values.
 fn scale_of(input: &Input<'_>, state: &State) -> ColourScale {
     // A dark room still needs a scale with an extent.
     let least = if input.quantity == Quantity::Illuminance { 1.0 } else { 0.01 };
@@ -144,7 +144,7 @@ fn scale_of(input: &Input<'_>, state: &State) -> ColourScale {
     }
 }
 
-/// Plan or section, with legend and profile.
+/// Draws floor plan or section, with legend and profile. Returns the line under the picture.
 fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, actions: &mut Vec<Action>) -> Foot {
     let palette = Palette::of(ui.visuals());
     let scale = scale_of(input, state);
@@ -156,7 +156,7 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
     // A scale that is shared stands above all tiles.
     let shared = input.range.is_some() && !input.look.daylight_factor;
     let legend_height = if shared { 0.0 } else { LEGEND_HEIGHT };
-    // While something is dragged the picture stands still; what was dragged may have been taken away under the hand.
+    // While something is dragged the picture stands still; what was dragged may have been removed during the drag.
     if !ui.input(|input| input.pointer.any_down()) {
         state.held = None;
     }

@@ -7,35 +7,35 @@ use crate::compute::system::{SystemDescription, SystemKind};
 use crate::texts::{Text, decimal, tiles as say};
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
-/// Periods drawn.
+/// Number of periods drawn.
 const PERIODS: usize = 3;
-/// Free room at either side, for the words and the ray. \[points\]
+/// Free space at either side, for text and ray. \[points\]
 const SIDE: f32 = 62.0;
-/// Free room above and below. \[points\]
+/// Free space above and below. \[points\]
 const EDGE: f32 = 26.0;
 /// Length of the sun's ray. \[points\]
 const RAY: f32 = 52.0;
 
-/// What only this view knows.
+/// State of this view between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     outlines: Cache<(u64, usize), Vec<Vec<[f64; 2]>>>,
 }
 
-/// What is drawn.
+/// Input of the view.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The system; `None`: nothing is described.
+    /// Described system; `None`: nothing is described.
     pub system: Option<&'a SystemDescription>,
-    /// Counts the descriptions.
+    /// Number of descriptions so far, which changes with each.
     pub revision: u64,
-    /// Number of the state.
+    /// Index of the state.
     pub state: usize,
     /// Angle of the sun in the section, > 0 above (to the right, in a section seen from above). \[rad\]
     pub sun: Option<f64>,
 }
 
-/// The polygons of all periods drawn. \[m\]
+/// Returns the polygons of all periods drawn. \[m\]
 fn stacked(system: &SystemDescription, state: usize) -> Vec<Vec<[f64; 2]>> {
     let states = system.states();
     let one = states.get(state).map(|state| system.family().drawing(state)).unwrap_or_default();
@@ -47,14 +47,14 @@ fn stacked(system: &SystemDescription, state: usize) -> Vec<Vec<[f64; 2]>> {
     (0..PERIODS).flat_map(|k| one.iter().map(move |polygon| lifted(k, polygon))).collect()
 }
 
-/// The longest of 1, 2, 5, 10 … mm that is at most `most` \[m\], in mm.
+/// Returns the longest of 1, 2, 5, 10 … mm that is at most `most` \[m\], in mm.
 fn scale_bar(most: f64) -> f64 {
     let millimetres = 1000.0 * most;
     let decade = 10_f64.powf(millimetres.log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|step| step * decade).find(|&length| length <= millimetres).unwrap_or(decade)
 }
 
-/// Words instead of a drawing.
+/// Returns the text shown instead of a drawing.
 fn nothing_drawn(system: Option<&SystemDescription>) -> Text {
     match system.map(|system| &system.kind) {
         None => say::SECTION_EMPTY,
@@ -63,7 +63,7 @@ fn nothing_drawn(system: Option<&SystemDescription>) -> Text {
     }
 }
 
-/// Draws into a rectangle of the given size.
+/// Draws the section into a rectangle of the given size.
 pub fn show(ui: &mut Ui, input: &Input<'_>, size: Vec2, state: &mut State) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let palette = theme::palette(ui);
@@ -89,7 +89,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, size: Vec2, state: &mut State) {
     });
 }
 
-/// Least and greatest (outward, upward).
+/// Returns the minimum and maximum of all points, each as (outward, upward). \[m\]
 fn bounds(outlines: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     outlines.iter().flatten().fold(None, |bounds: Option<[[f64; 2]; 2]>, point| {
         let [low, high] = bounds.unwrap_or([*point; 2]);
@@ -97,10 +97,10 @@ fn bounds(outlines: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     })
 }
 
-/// What is drawn: the system, its polygons and their bounds. \[m\]
+/// Input of the drawing: the system, its polygons and their bounds. \[m\]
 type Drawn<'a> = (&'a SystemDescription, &'a [Vec<[f64; 2]>], [[f64; 2]; 2]);
 
-/// Draws polygons with all that explains them; returns the same in words.
+/// Draws polygons with their labels, scale and ray. Returns the content of the drawing as text.
 fn draw(
     painter: &Painter,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! The sky from below, the sun that can be dragged, and the illuminances it gives.
+//! The sky from below, the sun that can be dragged, and the resulting illuminances.
 
 use super::Cache;
 use crate::app::moment::height_words;
@@ -20,29 +20,29 @@ use std::sync::Arc;
 /// Luminance of the sky by altitude and bearing. [rad → cd/m²]
 pub type Luminance<'a> = &'a dyn Fn(f64, f64) -> f64;
 
-/// A place in the sky. \[rad\]
+/// Place in the sky. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Above the horizon.
+    /// Altitude above the horizon. \[rad\]
     pub altitude: f64,
-    /// Clockwise from north.
+    /// Bearing, clockwise from north. \[rad\]
     pub bearing: f64,
 }
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
-    /// The sky without the sun's disc; cheap to evaluate.
+    /// Luminance of the sky without the sun's disc; cheap to evaluate.
     pub luminance: Option<Luminance<'a>>,
-    /// The model in words, e.g. "CIE type 12, clear".
+    /// Name of the model, e.g. "CIE type 12, clear".
     pub name: &'a str,
-    /// The sun, also under the horizon.
+    /// Position of the sun, also below the horizon.
     pub sun: Option<Place>,
     /// Bearing of the façade's outward normal. \[rad\]
     pub facade_bearing: f64,
-    /// Something with edges stands before the sky.
+    /// Whether obstructions with edges cover parts of the sky.
     pub behind_boxes: bool,
-    /// Altitude of a skyline all round, 0 = none. \[rad\]
+    /// Altitude of a uniform skyline, 0 = none. \[rad\]
     pub skyline: f64,
     /// Diffuse horizontal illuminance. \[lx\]
     pub diffuse_horizontal: Option<f64>,
@@ -50,13 +50,13 @@ pub struct Input<'a> {
     pub direct_horizontal: Option<f64>,
     /// Vertical illuminance on the façade from outside, all sources. \[lx\]
     pub facade_vertical: Option<f64>,
-    /// That is of before the last change.
+    /// Whether `facade_vertical` belongs to the scene before the last change.
     pub facade_stale: bool,
     /// Scale forced from outside (comparison). \[cd/m²\]
     pub range: Option<[f64; 2]>,
-    /// Changes with the sky.
+    /// Number that changes with the sky.
     pub revision: u64,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
@@ -66,32 +66,32 @@ impl fmt::Debug for Input<'_> {
     }
 }
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// The sun was dragged to a place; the time should follow, with `date` (Shift held) the date too, or with `free` (Alt
-    /// held) the angles alone.
+    /// Drag of the sun to a place: the time follows, with `date` (Shift held) the date too, or with `free` (Alt held)
+    /// the angles alone.
     SunDragged {
-        /// Where to.
+        /// Place to which the sun was dragged.
         place: Place,
-        /// Angles independent of date and time.
+        /// Whether the angles are independent of date and time.
         free: bool,
-        /// The date may change.
+        /// Whether the date may change.
         date: bool,
     },
-    /// The sun was let go: scales may move again.
+    /// Release of the sun, so that scales may change again.
     SunReleased,
 }
 
-/// What the dome hangs on: sky, place, scale, façade, and whether it is dark and fine.
+/// Key of the dome's picture: sky, disk, scale, façade, and whether it is dark and fine.
 type DomeKey = (u64, Disk, ColourScale, u64, (bool, bool));
 
-/// The tile's own settings and pictures.
+/// Settings and cached pictures of the tile.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Logarithmic colours.
+    /// Whether colours are logarithmic.
     pub log: bool,
-    /// The scale stays as it is.
+    /// Whether the scale is locked.
     pub hold: bool,
     scale: Option<ColourScale>,
     extent: Cache<u64, [f64; 2]>,
@@ -116,12 +116,12 @@ impl Default for State {
 
 /// Width from which the three illuminances stand in one line. \[points\]
 const WIDE_FIGURES: f32 = 460.0;
-/// Below it each has a line of its own. \[points\]
+/// Width below which each illuminance has a line of its own. \[points\]
 const NARROW_FIGURES: f32 = 190.0;
-/// Height of a line of them. \[points\]
+/// Height of a line of illuminances. \[points\]
 const FIGURE_LINE: f32 = 16.5;
 
-/// Lines that the illuminances take.
+/// Returns the number of lines that the illuminances take.
 fn figure_lines(width: f32) -> u8 {
     if width < NARROW_FIGURES {
         3
@@ -132,12 +132,12 @@ fn figure_lines(width: f32) -> u8 {
     }
 }
 
-/// Disk point (right, up) of a place: north up, east left.
+/// Returns the disk point (right, up) of a place: north up, east left.
 fn disk_point(place: Place) -> [f64; 2] {
     dome_point(place.altitude, place.bearing)
 }
 
-/// The place of a disk point; beyond the rim on the horizon.
+/// Returns the place of a disk point; beyond the rim a place on the horizon.
 fn place_of([right, up]: [f64; 2]) -> Place {
     let r = right.hypot(up).min(1.0);
     Place { altitude: (1.0 - r) * FRAC_PI_2, bearing: wrap_two_pi((-right).atan2(up)) }
@@ -211,7 +211,7 @@ fn picture(
     section.and_then(|place| section_ui(ui, place, luminance, input, state, &scale)).unwrap_or(text)
 }
 
-/// Lowest and highest luminance, the dark left out. \[cd/m²\]
+/// Returns the lowest and highest luminance, leaving out dark parts. \[cd/m²\]
 pub fn extent(luminance: Luminance<'_>) -> [f64; 2] {
     let mut range = [f64::INFINITY, 0.0_f64];
     for ring in 0..18 {
@@ -301,7 +301,7 @@ fn dome(
         let (free, date) = ui.input(|i| (i.modifiers.alt, i.modifiers.shift));
         out.push(Action::SunDragged { place: place_of(disk.disk(at)), free, date });
     }
-    // The end of a drag is not always told, as when the tile goes out of sight: the scale would be held for good.
+    // The end of a drag is not always reported, as when the tile is hidden: the scale would stay locked.
     if state.dragging && (response.drag_stopped() || !response.dragged() && !response.drag_started()) {
         state.dragging = false;
         out.push(Action::SunReleased);
@@ -327,7 +327,7 @@ fn dome(
     }
 }
 
-/// "sun 41.0° high, bearing 171°", and shorter; "15.0° below the horizon".
+/// Returns "sun 41.0° high, bearing 171°", and shorter wordings; "15.0° below the horizon".
 fn place_text(what: Text, place: Place) -> [String; 3] {
     let degrees = place.altitude.to_degrees();
     let height = height_words(degrees, 1);
@@ -338,7 +338,7 @@ fn place_text(what: Text, place: Place) -> [String; 3] {
     [say::with_bearing(&place, format!("{bearing:.0}")), place, short]
 }
 
-/// The dome in colours, of so many rings and sectors a half.
+/// Returns the dome in colours, each half divided into `rings` and `sectors`.
 fn dome_mesh(
     disk: &Disk,
     luminance: Luminance<'_>,
@@ -446,7 +446,7 @@ fn section_ui(
     Some(Foot::from([say::from_zenith(format!("{x:.0}"), &luminance), luminance]))
 }
 
-/// The dome every 5° of altitude and 10° of bearing.
+/// Returns the luminance of the dome every 5° of altitude and 10° of bearing, as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("altitude_deg,bearing_deg,luminance_cd_m2\n");

@@ -7,57 +7,57 @@ use crate::compute::system::SystemDescription;
 use crate::texts::{fixed, tiles as say};
 use egui::{FontId, Painter, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
-/// Periods in a picture: one slat alone does not show how they overlap.
+/// Number of periods in a picture: one slat alone does not show how they overlap.
 const PERIODS: usize = 2;
 /// Size of a state with its name. \[points\]
 const CELL: Vec2 = vec2(48.0, 54.0);
-/// Height of the picture in it. \[points\]
+/// Height of the picture of a state. \[points\]
 const PICTURE: f32 = 34.0;
-/// Between two states. \[points\]
+/// Gap between two states. \[points\]
 const GAP: f32 = 3.0;
-/// Rows in sight at once; others are scrolled to.
+/// Maximum number of visible rows; others are scrolled to.
 const MOST_ROWS: usize = 2;
 
-/// A state as the strip shows it.
+/// State as the strip shows it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
     /// Key in the description.
     pub key: String,
     /// Name for people, e.g. `-35°`.
     pub words: String,
-    /// Slat angle, where it is known. \[°\]
+    /// Slat angle; `None` if it is not known. \[°\]
     pub angle: Option<f64>,
     /// Visible transmittance under uniform luminance.
     pub tau: Option<f64>,
 }
 
-/// What is drawn.
+/// Input of the strip.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Product and its description as text: pictures are made anew when these change.
+    /// Product and its description as text: pictures are made again when these change.
     pub product: [&'a str; 2],
-    /// Reads the description of what has these states.
+    /// Function that reads the description of the product.
     pub describe: fn(&str) -> Option<SystemDescription>,
-    /// The states in order.
+    /// States in order.
     pub marks: &'a [Mark],
-    /// Place of the one that is set.
+    /// Index of the state that is set.
     pub shown: Option<usize>,
 }
 
-/// A picture of a state.
+/// Picture of a state.
 #[derive(Debug, Clone, PartialEq)]
 enum Picture {
     /// Polygons of the section, (outward, upward), within the unit square about 0.
     Section(Vec<Vec<[f64; 2]>>),
     /// Slats at this angle. \[rad\]
     Slats(f64),
-    /// A pane that lets so much light through.
+    /// Pane of this visible transmittance.
     Pane(f64),
-    /// Nothing is known.
+    /// No picture: nothing is known of the state.
     Nothing,
 }
 
-/// What only this view knows.
+/// State of this view between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     pictures: Cache<[String; 2], Vec<Picture>>,
@@ -65,7 +65,7 @@ pub struct State {
     seen: Option<(String, Option<usize>)>,
 }
 
-/// Sections of all states in one scale, so that they can be compared; `None` where one of them has none.
+/// Returns the sections of all states in one scale, so that they can be compared; `None` where one of them has none.
 fn sections(system: &SystemDescription, marks: &[Mark]) -> Option<Vec<Picture>> {
     let family = system.family();
     let period = family.drawing_period().unwrap_or(0.0);
@@ -115,13 +115,13 @@ fn in_a_row(width: f32) -> usize {
     (((width + GAP) / (CELL.x + GAP)).floor() as usize).max(1)
 }
 
-/// Height that the strip takes in a panel of this width. \[points\]
+/// Returns the height that the strip takes in a panel of this width. \[points\]
 pub fn height(width: f32, states: usize) -> f32 {
     let rows = states.div_ceil(in_a_row(width)).clamp(1, MOST_ROWS);
     rows as f32 * (CELL.y + GAP)
 }
 
-/// Draws the strip; the place of a state that was clicked.
+/// Draws the strip. Returns the index of a state that was clicked.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<usize> {
     let pictures = state.pictures.get(input.product.map(str::to_owned), || pictures(input));
     let seen = Some((input.product[0].to_owned(), input.shown));

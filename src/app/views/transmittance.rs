@@ -1,4 +1,5 @@
-//! Transmittance over the incident hemisphere with the sun's paths, and where the transmitted light goes.
+//! Transmittance over the incident hemisphere with the sun's paths, and the split of the transmitted light by
+//! direction.
 
 use super::Cache;
 use crate::app::incidence::{Incidence, Source, direction_text};
@@ -19,48 +20,48 @@ use std::f64::consts::PI;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Transmission of light from outside.
+    /// BTDF for light from outside.
     pub btdf: Option<&'a Btdf>,
-    /// Product and state in words.
+    /// Product and state as text.
     pub name: &'a str,
-    /// The sun's path on the 21st of January … December: hour and direction. Directions behind the façade are left out
-    /// by the tile.
+    /// Sun's path on the 21st of January … December: hour and direction. Directions behind the façade are left out by
+    /// the tile.
     pub sun_paths: &'a [Vec<(f64, Incident)>],
-    /// The sun now.
+    /// Direction of the sun now.
     pub moment: Option<Incident>,
-    /// The direction of incidence that is spoken of: the BTDF's.
+    /// Incident direction that the BTDF tile shows.
     pub incidence: Incidence,
-    /// Where its light goes; `None` without data.
+    /// Split of the transmitted light for `incidence`; `None` without data.
     pub split: Option<FluxSplit>,
     /// Scale forced from outside (comparison).
     pub range: Option<[f64; 2]>,
-    /// Changes with `btdf`.
+    /// Number that changes with `btdf`.
     pub revision: u64,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// A direction was clicked: show its indicatrix.
+    /// Choice of an incident direction, to show its indicatrix.
     ChooseIncidence(Incident),
 }
 
-/// The tile's own settings and pictures.
+/// Settings and cached pictures of the tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Leave the sun's paths out.
+    /// Whether the sun's paths are left out.
     pub hide_paths: bool,
-    /// Logarithmic colours.
+    /// Whether colours are logarithmic.
     pub log: bool,
-    /// The scale stays as it is.
+    /// Whether the scale is locked.
     pub hold: bool,
     scale: Option<ColourScale>,
-    /// The cells to draw by, and the largest τ of them.
+    /// Cells by which the map is drawn, and their largest τ.
     cells: Cache<u64, (RingBasis, f64)>,
     paths: Cache<PathsKey, Paths>,
     mesh: Cache<(u64, Disk, ColourScale), Arc<Mesh>>,
@@ -166,7 +167,7 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         scale.paint_legend(ui.painter(), legend, "τ", pointed.map(|d| btdf.tau(d)), &palette);
     }
     let tau = |d: Incident| format!("τ {}", number(btdf.tau(d), 3));
-    // The line under the picture is never empty: without a pointer it tells of the direction that the flux split is of.
+    // The line under the picture is never empty: without a pointer it describes the direction of the flux split.
     let [full, middle, short] = input.incidence.texts();
     let own = tau(input.incidence.direction);
     let rest = Foot::from([
@@ -184,23 +185,23 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
 
 /// Width of the flux split beside the map. \[points\]
 const BAR_WIDTH: f32 = 124.0;
-/// Height of the flux split under it: whose light it is, a bar, and the zones. \[points\]
+/// Height of the flux split under the map: its incident direction, a bar, and the zones. \[points\]
 const STRIP_HEIGHT: f32 = 50.0;
-/// The same without its first line. \[points\]
+/// Height of the flux split under the map without the line of its incident direction. \[points\]
 const LOW_STRIP_HEIGHT: f32 = 34.0;
-/// In a lower tile the line under the picture alone says whose light it is. \[points\]
+/// Height of a tile below which only the line under the picture names the incident direction of the split. \[points\]
 const LOW_TILE: f32 = 220.0;
 
 fn strip_height(rect: Rect) -> f32 {
     if rect.height() < LOW_TILE { LOW_STRIP_HEIGHT } else { STRIP_HEIGHT }
 }
 
-/// Has the flux split room beside the map, so that the map is no smaller than over it?
+/// Whether the flux split has room beside the map, so that the map is no smaller than above it.
 fn beside(rect: Rect) -> bool {
     rect.width() - BAR_WIDTH >= (rect.height() - strip_height(rect) - LEGEND_HEIGHT).min(rect.width())
 }
 
-/// τ in colours. Measured cells stay flat, so that the picture shows no resolution that the data do not have.
+/// Returns τ in colours. Patch-averaged data stay flat, so that the picture shows no resolution that they do not have.
 fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) -> Mesh {
     match &btdf.scattered {
         Some(Scattered::Cells(_) | Scattered::Directions(_) | Scattered::Tree(_)) => {
@@ -214,17 +215,17 @@ fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) ->
     }
 }
 
-/// The sun's paths as triangles, and where names may stand beside them.
+/// Sun's paths as triangles, and the places for names beside them.
 #[derive(Debug, Clone)]
 struct Paths {
     lines: Arc<Mesh>,
     names: Vec<(egui::Pos2, String)>,
 }
 
-/// What the paths hang on: which, where, how fine, and in which language.
+/// Key of the sun's paths: paths, disk, resolution and language.
 type PathsKey = (u64, Disk, Grain, Language);
 
-/// Tells paths of one place and façade from those of others: by the middle of each.
+/// Returns a number that distinguishes the paths of one place and façade from others, by the middle of each.
 fn fingerprint(paths: &[Vec<(f64, Incident)>]) -> u64 {
     let mut hasher = DefaultHasher::new();
     for path in paths {
@@ -237,7 +238,7 @@ fn fingerprint(paths: &[Vec<(f64, Incident)>]) -> u64 {
     hasher.finish()
 }
 
-/// Names are written over all lines, where neither another name nor the sun is.
+/// Writes names over all lines, where neither another name nor the sun is.
 fn name_paths(ui: &Ui, paths: &Paths, sun: Option<egui::Pos2>, palette: &Palette) {
     let mut used: Vec<Rect> = vec![];
     for (place, text) in &paths.names {
@@ -301,7 +302,7 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>]) -> Paths {
     Paths { lines: frozen(ui, shapes), names }
 }
 
-/// Whose light the split is of, in a line of at most `width`.
+/// Returns the name of the split's incident direction, in a line of at most `width`.
 fn split_title(ui: &Ui, incidence: &Incidence, width: f32) -> String {
     let [_, middle, short] = incidence.texts();
     let font = FontId::proportional(13.0);
@@ -310,7 +311,7 @@ fn split_title(ui: &Ui, incidence: &Incidence, width: f32) -> String {
     [format!("{middle}:"), short].into_iter().find(fits).unwrap_or_else(|| incidence.name().to_owned())
 }
 
-/// The zones' colours, from top to bottom.
+/// Returns the colour of a zone, counted from top to bottom.
 fn zone_colour(zone: usize) -> Color32 {
     ColourMap::Sequential.at(0.85 - 0.23 * zone as f32)
 }
@@ -321,7 +322,7 @@ fn name_split(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence)
     tile::name(ui, &response, say::FLUX_SPLIT, &format!("{full}: {}", split.sentence()));
 }
 
-/// The split as an upright bar with a name to each zone, beside the map.
+/// Draws the split as a vertical bar beside the map, with the name of each zone.
 fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, palette: &Palette) {
     let total = split.total();
     name_split(ui, rect, split, incidence);
@@ -354,7 +355,7 @@ fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, 
     ui.painter().rect_stroke(column, 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
 }
 
-/// The same lying under the map: whose light, a bar, and where most of it goes.
+/// Draws the split as a horizontal bar under the map, with its incident direction and the zone that gets most light.
 fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, palette: &Palette) {
     let total = split.total();
     name_split(ui, rect, split, incidence);
@@ -379,7 +380,7 @@ fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence
     ui.painter().galley(pos2(left, bar.bottom() + 3.0), fitting.clone(), palette.ink);
 }
 
-/// τ by incident cell.
+/// Returns τ per incident cell as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("theta_deg,phi_deg,projected_solid_angle_sr,tau\n");

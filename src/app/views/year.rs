@@ -1,5 +1,5 @@
-//! A year of weather in the room: its hours as a map, its figures, the lamps over a day and by month; before there is one,
-//! the way to it.
+//! Annual simulation of the room: its hours as a map, its figures, the electric lighting over a day and by month;
+//! before there is a result, the ways to one.
 
 mod empty;
 mod figures;
@@ -16,7 +16,7 @@ use crate::texts::{fixed, words::MONTHS, year as say};
 use egui::{ComboBox, Rect, Ui, UiBuilder};
 use parts::progress;
 
-/// The tile's own pictures.
+/// Cached pictures of the tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     map: hour_map::State,
@@ -135,7 +135,7 @@ fn body(
     }
 }
 
-/// A bar at the lower edge while a newer year is computed; what is left above it.
+/// Draws a bar at the lower edge while a newer year is computed. Returns the area left above it.
 fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
     let Some(share) = input.running else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - 26.0);
@@ -143,7 +143,7 @@ fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Acti
     above
 }
 
-/// Why there is no newer year; what is left below.
+/// Draws the error because of which there is no newer year. Returns the area left below it.
 fn above_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     let Some(error) = input.error else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.top() + 20.0);
@@ -191,7 +191,7 @@ fn map(
     }
 }
 
-/// Whose weather, how many steps, how long it took.
+/// Returns weather station, number of steps and computation time as text.
 fn summary(shown: &Shown<'_>) -> String {
     let year = shown.year;
     let lit = year.chosen.len() - year.light.dark;
@@ -199,7 +199,7 @@ fn summary(shown: &Shown<'_>) -> String {
     say::summary(&year.steps.station.name, lit, year.light.sets, fixed(seconds, 1))
 }
 
-/// The numbers of what is in sight.
+/// Returns the numbers of the page that is shown, as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     let Some(shown) = &input.shown else { return String::new() };
     match input.look.page {

@@ -1,17 +1,17 @@
-//! Which cells of a division touch each other.
+//! Neighbouring cells of a division of the hemisphere.
 
 use super::rings::RingBasis;
 use std::f64::consts::PI;
 
-/// Borders nearer than this are the same. \[rad\]
+/// Distance below which two borders count as the same. \[rad\]
 const SLACK: f64 = 1e-6;
 
-/// For every cell those that share a border with it.
+/// Lists of the cells that share a border, one list per cell.
 #[derive(Debug, Clone)]
 pub struct Neighbours(Vec<Vec<usize>>);
 
 impl Neighbours {
-    /// Of the cells of a division.
+    /// Finds the neighbours of all cells of a division.
     pub fn new(basis: &RingBasis) -> Self {
         let cells: Vec<_> = basis.cells().collect();
         let of_ring = |ring: usize| basis.first_cell(ring)..basis.first_cell(ring) + basis.rings()[ring].sectors;
@@ -23,7 +23,7 @@ impl Neighbours {
                     let (p, q) = (&cells[a], &cells[*b]);
                     let apart = (p.phi - q.phi).rem_euclid(2.0 * PI);
                     let apart = apart.min(2.0 * PI - apart);
-                    // Of the next ring a corner in common is not enough.
+                    // In the next ring a corner in common is not enough.
                     let slack = if of_ring(ring).contains(b) { SLACK } else { -SLACK };
                     a != *b && apart < 0.5 * (p.width + q.width) + slack
                 };
@@ -33,12 +33,12 @@ impl Neighbours {
         Self(list)
     }
 
-    /// Of one cell.
+    /// Returns the neighbours of one cell.
     pub fn of(&self, cell: usize) -> &[usize] {
         &self.0[cell]
     }
 
-    /// Those of some cells, `but` and themselves left out; each once, in order.
+    /// Returns the neighbours of `cells` without these cells and without `but`; each once, in order.
     pub fn about(&self, cells: &[usize], but: &[usize]) -> Vec<usize> {
         let mut near: Vec<usize> = cells.iter().flat_map(|&cell| self.of(cell).iter().copied()).collect();
         near.retain(|cell| !cells.contains(cell) && !but.contains(cell));
@@ -47,7 +47,7 @@ impl Neighbours {
         near
     }
 
-    /// What surrounds some cells: the median of the values about them, `but` left out; 0 where nothing does.
+    /// Returns the median of the values of the neighbours of `cells`, `but` left out; 0 where there are none.
     pub fn level(&self, values: &[f64], cells: &[usize], but: &[usize]) -> f64 {
         let mut near: Vec<f64> = self.about(cells, but).into_iter().map(|cell| values[cell]).collect();
         near.sort_unstable_by(f64::total_cmp);

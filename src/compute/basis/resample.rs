@@ -1,8 +1,8 @@
-//! From the cells of one basis to those of another: the one place where values change their cells.
+//! Resampling from the cells of one basis to those of another: the one place where values change their cells.
 //!
-//! Both bases are products of θ-rings and equal azimuth sectors, so what two cells share is the product of an overlap
-//! in sin²θ and one in φ: exact, no sampling. Values are taken as constant on their cells; the result is their mean
-//! over every target cell, so the flux is kept to rounding wherever the source covers the hemisphere.
+//! Both bases are products of θ-rings and equal azimuth sectors, so the overlap of two cells is the product of an
+//! overlap in sin²θ and one in φ: exact, no sampling. Values are taken as constant on their cells; the result is their
+//! mean over every target cell, so the flux is conserved to rounding wherever the source covers the hemisphere.
 
 use super::rings::RingBasis;
 use std::f64::consts::PI;
@@ -10,12 +10,12 @@ use std::f64::consts::PI;
 /// Overlaps of the cells of two bases in projected solid angle, in the façade frame.
 #[derive(Debug, Clone)]
 pub struct Resampling {
-    /// For every target cell the source cells that it overlaps, each with overlap / area of the target.
+    /// Source cells that overlap each target cell, each with overlap / area of the target.
     shares: Vec<Vec<(usize, f64)>>,
 }
 
 impl Resampling {
-    /// From one basis to another.
+    /// Computes the overlaps of the cells of two bases.
     pub fn new(source: &RingBasis, target: &RingBasis) -> Self {
         let mut shares = vec![Vec::new(); target.len()];
         for (to, to_ring) in target.rings().iter().enumerate() {
@@ -48,29 +48,30 @@ impl Resampling {
         Self { shares }
     }
 
-    /// Means over the target cells of a function that is constant on the source cells.
+    /// Computes the means over the target cells of a function that is constant on the source cells.
     pub fn apply(&self, values: &[f64]) -> Vec<f64> {
         self.shares.iter().map(|list| list.iter().map(|&(cell, share)| share * values[cell]).sum()).collect()
     }
 
-    /// The source cells of one target cell, with the share of the target that each fills.
+    /// Returns the source cells of one target cell, with the share of the target that each fills.
     pub fn shares(&self, target: usize) -> &[(usize, f64)] {
         &self.shares[target]
     }
 }
 
-/// sin²b − sin²a without cancellation; not positive when b ≤ a.
+/// Returns sin²b − sin²a without cancellation; not positive when b ≤ a.
 fn span(a: f64, b: f64) -> f64 {
     (b - a).sin() * (b + a).sin()
 }
 
-/// Have two azimuth intervals surely nothing in common? Spares most pairs of fine cells the sum over the turns.
+/// Whether two azimuth intervals, given by centre and width, surely do not overlap. Spares most pairs of fine cells the
+/// sum over the turns.
 fn apart(a: (f64, f64), b: (f64, f64)) -> bool {
     let way = a.0 - b.0;
     (way - 2.0 * PI * (way / (2.0 * PI)).round()).abs() > 0.5 * (a.1 + b.1) + 1e-9
 }
 
-/// Common width of two azimuth intervals given by centre and width, both at most a full turn. \[rad\]
+/// Returns the common width of two azimuth intervals given by centre and width, both at most a full turn. \[rad\]
 fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
     let (a0, a1) = (a.0 - 0.5 * a.1, a.0 + 0.5 * a.1);
     [-4.0 * PI, -2.0 * PI, 0.0, 2.0 * PI, 4.0 * PI]
@@ -82,8 +83,8 @@ fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
         .sum()
 }
 
-/// For every target cell the source cell that is the same, when both bases have the same cells and only count them
-/// differently.
+/// Returns the index of the identical source cell for every target cell; `None` unless both bases have the same cells
+/// and only number them differently.
 pub fn same_cells(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
     if source.len() != target.len() {
         return None;

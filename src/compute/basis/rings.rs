@@ -7,37 +7,37 @@ use crate::compute::angle::wrap_two_pi;
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::PI;
 
-/// How a basis counts its own azimuths: φ_F = sign · φ_own + offset.
+/// Map from the azimuths of a basis to those of the façade frame: φ_F = sign · φ_own + offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AzimuthMap {
-    /// +1 or −1.
+    /// Sense of rotation, +1 or −1.
     pub sign: f64,
-    /// \[rad\]
+    /// Façade azimuth of the basis's azimuth 0. \[rad\]
     pub offset: f64,
 }
 
 impl AzimuthMap {
-    /// Own azimuth is the façade frame's: counter-clockwise seen from outside, 0 = right.
+    /// Azimuth of the façade frame: counter-clockwise seen from outside, 0 = right.
     pub const FACADE: Self = Self { sign: 1.0, offset: 0.0 };
-    /// Klems azimuth of the travelling light seen from the room (0 = right, 90 = up), for light from outside:
-    /// the through-name has φ_F = −φ_Klems.
+    /// Klems azimuth of the travelling light seen from the room (0 = right, 90 = up), for light from outside: the
+    /// through direction has φ_F = −φ_Klems.
     pub const KLEMS_FRONT: Self = Self { sign: -1.0, offset: 0.0 };
-    /// The same for light from inside: φ_F = 180° − φ_Klems.
+    /// Klems azimuth of the travelling light seen from the room, for light from inside: φ_F = 180° − φ_Klems.
     pub const KLEMS_BACK: Self = Self { sign: -1.0, offset: PI };
 
-    /// Façade azimuth of an own azimuth. \[rad\]
+    /// Returns the façade azimuth of an azimuth of the basis. \[rad\]
     pub fn facade_phi(self, own: f64) -> f64 {
         wrap_two_pi(self.sign * own + self.offset)
     }
 
-    /// Own azimuth of a façade azimuth. \[rad\]
+    /// Returns the azimuth of the basis for a façade azimuth. \[rad\]
     pub fn own_phi(self, facade: f64) -> f64 {
         wrap_two_pi(self.sign * (facade - self.offset))
     }
 }
 
-/// One ring: θ from `theta_min` to `theta_max` in `sectors` equal parts, the first centred on own azimuth
-/// `first_phi`. \[rad\]
+/// Ring from `theta_min` to `theta_max` in `sectors` equal parts, the first centred on the basis's azimuth `first_phi`.
+/// \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
     /// Inner polar angle. \[rad\]
@@ -46,18 +46,18 @@ pub struct Ring {
     pub theta_max: f64,
     /// Number of equal azimuth sectors, at least 1.
     pub sectors: usize,
-    /// Own azimuth of the first sector's centre. \[rad\]
+    /// Azimuth of the first sector's centre, as the basis counts it. \[rad\]
     pub first_phi: f64,
 }
 
-/// One cell of a basis, in the basis's own azimuth.
+/// Cell of a basis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
     /// Inner polar angle. \[rad\]
     pub theta_min: f64,
     /// Outer polar angle. \[rad\]
     pub theta_max: f64,
-    /// Azimuth of the centre, own counting. \[rad\]
+    /// Azimuth of the centre, as the basis counts it. \[rad\]
     pub phi_own: f64,
     /// Azimuth of the centre in the façade frame. \[rad\]
     pub phi: f64,
@@ -66,13 +66,13 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Projected solid angle ∫cosθ dω. \[sr\]
+    /// Returns the projected solid angle ∫cosθ dω. \[sr\]
     pub fn projected_solid_angle(&self) -> f64 {
         // sin²b − sin²a = sin(b−a)·sin(b+a), without cancellation for thin rings.
         0.5 * self.width * (self.theta_max - self.theta_min).sin() * (self.theta_max + self.theta_min).sin()
     }
 
-    /// Solid angle. \[sr\]
+    /// Returns the solid angle. \[sr\]
     pub fn solid_angle(&self) -> f64 {
         // cos a − cos b = 2 sin((a+b)/2) sin((b−a)/2)
         2.0 * self.width
@@ -80,29 +80,30 @@ impl Cell {
             * (0.5 * (self.theta_max - self.theta_min)).sin()
     }
 
-    /// Polar angle that stands for the cell: 0 for a cap around the normal, else the middle of the ring. \[rad\]
+    /// Returns the polar angle that represents the cell: 0 for a cap around the normal, else the middle of the ring.
+    /// \[rad\]
     pub fn theta(&self) -> f64 {
         if self.is_cap() { 0.0 } else { 0.5 * (self.theta_min + self.theta_max) }
     }
 
-    /// The direction that stands for the cell (through-name, façade frame).
+    /// Returns the direction that represents the cell (through direction, façade frame).
     pub fn centre(&self) -> Dir<Facade> {
         Dir::from_theta_phi(self.theta(), self.phi)
     }
 
-    /// A cap reaches the normal and goes all the way round.
+    /// Whether the cell is a cap: it reaches the normal and extends over the full azimuth.
     pub fn is_cap(&self) -> bool {
         self.theta_min == 0.0 && self.width > 1.99 * PI
     }
 }
 
-/// Why a list of rings is no division of the hemisphere.
+/// Reason why a list of rings does not divide the hemisphere.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BasisError {
-    /// No ring at all.
+    /// Empty list of rings.
     #[error("the basis has no rings")]
     Empty,
-    /// θ limits out of 0 … 90° or not rising, or rings that overlap.
+    /// Polar angles outside 0 … 90° or not rising, or rings that overlap.
     #[error("ring {ring}: polar angles {from}° to {to}° do not rise within 0…90° after the ring before")]
     Limits {
         /// Number of the ring, from 0.
@@ -112,29 +113,31 @@ pub enum BasisError {
         /// Outer limit in degrees.
         to: f64,
     },
-    /// No sectors, or more than any instrument resolves.
+    /// Number of sectors that is 0, or more than any instrument resolves.
     #[error("ring {ring}: {sectors} azimuth sectors (allowed: 1 to 7200)")]
     Sectors {
         /// Number of the ring, from 0.
         ring: usize,
-        /// Sectors asked for.
+        /// Number of sectors of the ring.
         sectors: usize,
     },
 }
 
-/// A hemisphere divided into rings of equal sectors; cells are numbered ring by ring, own azimuth rising.
+/// Hemisphere divided into rings of equal sectors; cells are numbered ring by ring, azimuth of the basis rising.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RingBasis {
     name: String,
     rings: Vec<Ring>,
     first_cell: Vec<usize>,
     azimuth: AzimuthMap,
-    /// Rings run from the normal outwards (θ rising); false: from the grazing ring inwards, as Tregenza rows do.
+    /// Whether rings run from the normal outwards (θ rising); otherwise from the grazing ring inwards, as Tregenza rows
+    /// do.
     outwards: bool,
 }
 
 impl RingBasis {
-    /// From rings in their own order, θ rising or falling throughout. Gaps are allowed (cells not covered are zero).
+    /// Creates a basis from rings in its own order, θ rising or falling throughout. Gaps are allowed (cells not covered
+    /// are zero).
     pub fn new(name: impl Into<String>, rings: Vec<Ring>, azimuth: AzimuthMap) -> Result<Self, BasisError> {
         let (Some(first), Some(last)) = (rings.first(), rings.last()) else {
             return Err(BasisError::Empty);
@@ -182,7 +185,7 @@ impl RingBasis {
         Self::new(name, rings, azimuth).expect("the tables of this file are divisions of the hemisphere")
     }
 
-    /// LBNL/Klems Full, 145 cells.
+    /// Creates the LBNL/Klems Full basis, 145 cells.
     pub fn klems_full(azimuth: AzimuthMap) -> Self {
         Self::from_limits(
             "LBNL/Klems Full",
@@ -192,7 +195,7 @@ impl RingBasis {
         )
     }
 
-    /// LBNL/Klems Half, 73 cells.
+    /// Creates the LBNL/Klems Half basis, 73 cells.
     pub fn klems_half(azimuth: AzimuthMap) -> Self {
         Self::from_limits(
             "LBNL/Klems Half",
@@ -202,13 +205,13 @@ impl RingBasis {
         )
     }
 
-    /// LBNL/Klems Quarter, 41 cells.
+    /// Creates the LBNL/Klems Quarter basis, 41 cells.
     pub fn klems_quarter(azimuth: AzimuthMap) -> Self {
         Self::from_limits("LBNL/Klems Quarter", &[0.0, 9.0, 27.0, 46.0, 66.0, 90.0], &[1, 8, 12, 12, 8], azimuth)
     }
 
-    /// Tregenza's 145 patches on the façade: rows at θ = 84, 72, …, 12, lowest (most grazing) first, then the normal;
-    /// bands of 12°, the cap 6° in radius.
+    /// Creates Tregenza's 145 patches on the façade: rows at θ = 84, 72, …, 12, lowest (most grazing) first, then the
+    /// normal; bands of 12°, the cap 6° in radius.
     pub fn tregenza() -> Self {
         Self::from_limits_falling(
             "Tregenza 145",
@@ -231,9 +234,9 @@ impl RingBasis {
         Self::new(name, rings, AzimuthMap::FACADE).expect("the tables of this file are divisions of the hemisphere")
     }
 
-    /// Rings of cells of equal projected solid angle: sinθ in steps of 1/`rings`, ring i (from 1) in 8i − 4 sectors.
-    /// These are the cells of a (2·rings)² grid on the square that Shirley–Chiu maps to the disk, with the skew of
-    /// its azimuth borders straightened.
+    /// Creates rings of cells of equal projected solid angle: sinθ in steps of 1/`rings`, ring i (from 1) in 8i − 4
+    /// sectors. These are the cells of a (2·rings)² grid on the square that Shirley–Chiu maps to the disk, with the
+    /// skew of its azimuth borders straightened.
     pub fn equal_area(rings: usize) -> Self {
         let list = (1..=rings)
             .map(|i| {
@@ -250,8 +253,8 @@ impl RingBasis {
             .expect("sines in equal steps rise from 0 to 1")
     }
 
-    /// Rings of about `step` \[rad\] (a whole number of them) in cells about as wide as high, the normal a cell of its
-    /// own. Sectors come in fours, so that the lattice is the same upside down and mirrored.
+    /// Creates rings of about `step` \[rad\] (a whole number of them) in cells about as wide as high, with a cap at the
+    /// normal. Sectors come in fours, so that the basis is the same upside down and mirrored.
     pub fn even(step: f64) -> Self {
         let rings = ((0.5 * PI / step).round() as usize).clamp(1, 900);
         let step = 0.5 * PI / rings as f64;
@@ -265,13 +268,13 @@ impl RingBasis {
         Self::new(format!("even {:.3}°", step.to_degrees()), list, AzimuthMap::FACADE).expect("rings in equal steps")
     }
 
-    /// A single cell: the whole hemisphere.
+    /// Creates a basis of a single cell, the whole hemisphere.
     pub fn hemisphere() -> Self {
         Self::from_limits("hemisphere", &[0.0, 90.0], &[1], AzimuthMap::FACADE)
     }
 
-    /// Every cell cut into `parts` × `parts`: rings in equal steps of θ, sectors in equal parts. A cap that is one
-    /// cell gets four sectors a part, so that its parts are about as wide as high.
+    /// Returns a finer basis with every cell cut into `parts` × `parts`: rings in equal steps of θ, sectors in equal
+    /// parts. A cap that is one cell gets four sectors per part, so that its parts are about as wide as high.
     pub fn refined(&self, parts: usize) -> Self {
         let cut = |ring: &Ring| {
             let step = (ring.theta_max - ring.theta_min) / parts as f64;
@@ -291,43 +294,43 @@ impl RingBasis {
         Self::new(format!("{} / {parts}²", self.name), rings, self.azimuth).expect("parts of rings rise as these do")
     }
 
-    /// The name given to it, as files write it.
+    /// Returns the name of the basis, as files write it.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The rings, in own order.
+    /// Returns the rings, in the order of the basis.
     pub fn rings(&self) -> &[Ring] {
         &self.rings
     }
 
-    /// How own azimuths map to the façade frame.
+    /// Returns the map from the azimuths of the basis to those of the façade frame.
     pub fn azimuth(&self) -> AzimuthMap {
         self.azimuth
     }
 
-    /// The same cells counted in another azimuth.
+    /// Returns a copy with the same cells and another azimuth map.
     pub fn with_azimuth(mut self, azimuth: AzimuthMap) -> Self {
         self.azimuth = azimuth;
         self
     }
 
-    /// Number of cells.
+    /// Returns the number of cells.
     pub fn len(&self) -> usize {
         self.first_cell[self.rings.len()]
     }
 
-    /// True without cells; never for a basis that was built.
+    /// Whether the basis has no cells; never for a basis that was built.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Index of a ring's first cell.
+    /// Returns the index of a ring's first cell.
     pub fn first_cell(&self, ring: usize) -> usize {
         self.first_cell[ring]
     }
 
-    /// The cell of an index. Panics beyond [`Self::len`].
+    /// Returns the cell of an index. Panics beyond [`Self::len`].
     pub fn cell(&self, index: usize) -> Cell {
         let ring_index = self.first_cell.partition_point(|&first| first <= index) - 1;
         let ring = &self.rings[ring_index];
@@ -342,12 +345,12 @@ impl RingBasis {
         }
     }
 
-    /// All cells in order.
+    /// Returns all cells in order.
     pub fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
         (0..self.len()).map(|index| self.cell(index))
     }
 
-    /// Projected solid angles of all cells, in order. \[sr\]
+    /// Returns the projected solid angles of all cells, in order. \[sr\]
     pub fn projected_solid_angles(&self) -> Vec<f64> {
         // The same for all cells of a ring.
         let rings = self.rings.iter().zip(&self.first_cell);
@@ -356,8 +359,9 @@ impl RingBasis {
             .collect()
     }
 
-    /// The cell that holds a direction (through-name, façade frame). Borders belong to the cell with the larger θ and
-    /// the larger own azimuth; `None` for directions with z < 0 and in gaps between rings.
+    /// Returns the index of the cell that holds a direction (through direction, façade frame). Borders belong to the
+    /// cell with the larger θ and the larger azimuth of the basis; `None` for directions with z < 0 and in gaps between
+    /// rings.
     pub fn index(&self, d: Dir<Facade>) -> Option<usize> {
         let theta = d.theta();
         if theta > PI / 2.0 + 1e-12 {

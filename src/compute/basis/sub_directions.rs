@@ -1,9 +1,9 @@
-//! Directions that stand for a cell.
+//! Directions that represent a cell.
 
 use super::rings::Cell;
 use crate::compute::direction::{Dir, Facade};
 
-/// `n` × `n` directions that share a cell's projected solid angle equally (midpoints in sin²θ and φ).
+/// Returns `n` × `n` directions that share a cell's projected solid angle equally (midpoints in sin²θ and φ).
 pub fn sub_directions(cell: &Cell, n: usize) -> impl Iterator<Item = Dir<Facade>> {
     let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     let (phi, width) = (cell.phi, cell.width);
@@ -14,7 +14,7 @@ pub fn sub_directions(cell: &Cell, n: usize) -> impl Iterator<Item = Dir<Facade>
     })
 }
 
-/// Mean of a function over a cell, weighted by projected solid angle, from `n` × `n` directions.
+/// Computes the mean of a function over a cell, weighted by projected solid angle, from `n` × `n` directions.
 pub fn cell_mean(cell: &Cell, n: usize, f: impl Fn(Dir<Facade>) -> f64) -> f64 {
     sub_directions(cell, n).map(f).sum::<f64>() / (n * n) as f64
 }

@@ -5,30 +5,30 @@ use std::f64::consts::PI;
 /// τ(θ) for rotationally symmetric systems: a constant, or a table over equal steps of θ from 0 to 90°.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AngularTransmittance {
-    /// The same for every incidence.
+    /// Constant transmittance for every incidence.
     Constant(f64),
     /// Values at θ = 0 … 90° in equal steps, at least two; between them piecewise cubic, never beyond the values
     /// at both sides.
     Table(Vec<f64>),
-    /// The same estimated from other data, such as means over patches; all at 0, 1 … 90°.
+    /// Values estimated from other data, such as means over patches; all at 0, 1 … 90°.
     Estimated {
-        /// Values as of a table.
+        /// Transmittances, interpolated like those of a table.
         tau: Vec<f64>,
-        /// Uncertainty of each value for itself.
+        /// Uncertainty of each value by itself.
         uncertainty: Vec<f64>,
-        /// Independent deviations of all values, signed, whose effects on a sum add up in quadrature: what is too much at one
-        /// angle is too little at another.
+        /// Independent deviations of all values, signed, whose effects on a sum add up in quadrature: what is too much
+        /// at one angle is too little at another.
         modes: Vec<Vec<f64>>,
     },
 }
 
 impl AngularTransmittance {
-    /// Samples a function of θ \[rad\] at `steps` + 1 angles. `steps` ≥ 1.
+    /// Creates a table of a function of θ \[rad\] at `steps` + 1 angles. `steps` ≥ 1.
     pub fn sample(steps: usize, tau: impl Fn(f64) -> f64) -> Self {
         Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
     }
 
-    /// All values times a factor.
+    /// Returns the transmittance with all values multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         let all = |values: &[f64]| values.iter().map(|value| factor * value).collect();
         match self {
@@ -41,17 +41,17 @@ impl AngularTransmittance {
         }
     }
 
-    /// τ where it is the same for every incidence.
+    /// Returns τ if it is the same for every incidence.
     pub const fn constant(&self) -> Option<f64> {
         if let Self::Constant(tau) = self { Some(*tau) } else { None }
     }
 
-    /// Uncertainty of τ at a polar angle of incidence \[rad\]; 0 unless it is estimated.
+    /// Returns the uncertainty of τ at a polar angle of incidence \[rad\]; 0 unless it is estimated.
     pub fn uncertainty(&self, theta: f64) -> f64 {
         if let Self::Estimated { uncertainty, .. } = self { table_at(uncertainty, theta) } else { 0.0 }
     }
 
-    /// Uncertainty of the transmitted light, given the incident light by degrees of θ, in its unit.
+    /// Returns the uncertainty of the transmitted light, given the incident light by degrees of θ, in its unit.
     pub fn uncertainty_of_light(&self, incident: &[f64; 90]) -> f64 {
         let Self::Estimated { modes, .. } = self else { return 0.0 };
         let of = |mode: &Vec<f64>| {
@@ -61,12 +61,12 @@ impl AngularTransmittance {
         modes.iter().map(|mode| of(mode).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Is it estimated from other data?
+    /// Whether the values are estimated from other data.
     pub const fn is_estimated(&self) -> bool {
         matches!(self, Self::Estimated { .. })
     }
 
-    /// Does nothing pass, whatever the incidence?
+    /// Whether τ is 0 for every incidence.
     pub fn is_dark(&self) -> bool {
         match self {
             Self::Constant(tau) => *tau == 0.0,
@@ -74,7 +74,7 @@ impl AngularTransmittance {
         }
     }
 
-    /// τ at a polar angle of incidence. \[rad\] Zero beyond 90°.
+    /// Returns τ at a polar angle of incidence \[rad\]; 0 beyond 90°.
     pub fn at(&self, theta: f64) -> f64 {
         match self {
             Self::Constant(tau) => {
@@ -88,14 +88,14 @@ impl AngularTransmittance {
         }
     }
 
-    /// Mean over the polar angles `from` … `to` \[rad\], weighted by projected solid angle. `rule`: nodes and weights on
-    /// 0 … 1, for sin²θ across the ring.
+    /// Returns the mean over the polar angles `from` … `to` \[rad\], weighted by projected solid angle. `rule`: nodes
+    /// and weights on 0 … 1, for sin²θ across the ring.
     pub fn ring_mean(&self, from: f64, to: f64, rule: &[(f64, f64)]) -> f64 {
         let (a, b) = (from.sin().powi(2), to.sin().powi(2));
         rule.iter().map(|(x, weight)| weight * self.at((a + (b - a) * x).sqrt().min(1.0).asin())).sum()
     }
 
-    /// 2 ∫ τ(θ) sinθ cosθ dθ: transmittance under uniform luminance.
+    /// Returns 2 ∫ τ(θ) sinθ cosθ dθ: transmittance under uniform luminance.
     pub fn hemispherical(&self) -> f64 {
         match self {
             Self::Constant(tau) => *tau,
@@ -108,7 +108,8 @@ impl AngularTransmittance {
     }
 }
 
-/// Monotone piecewise cubic (central slopes, limited after Fritsch and Carlson) through equally spaced values.
+/// Interpolates equally spaced values by a monotone piecewise cubic (central slopes, limited after Fritsch and
+/// Carlson).
 fn table_at(values: &[f64], theta: f64) -> f64 {
     let last = values.len() - 1;
     let x = theta / (0.5 * PI) * last as f64;

@@ -19,14 +19,14 @@ pub struct CellMatrix {
 }
 
 impl CellMatrix {
-    /// From values in 1/sr, `values[i · emergent.len() + o]`, incident cell i, emergent cell o (by through-name).
-    /// `None` when the count does not fit the bases.
+    /// Creates a matrix from values in 1/sr, `values[i · emergent.len() + o]`, incident cell i, emergent cell o (by
+    /// through direction). `None` when the count does not fit the bases.
     pub fn new(incident: RingBasis, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
     }
 
-    /// The same of values that were kept as f32.
+    /// Creates a matrix like [`Self::new`], from values that were kept as f32.
     pub fn of_single(incident: RingBasis, emergent: RingBasis, values: Vec<f32>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of_single(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
@@ -37,8 +37,8 @@ impl CellMatrix {
         Some(Self { incident, emergent, rows, tau })
     }
 
-    /// From indicatrices in compact form, one an incident cell; they stay compact, and τ is what they keep.
-    /// `None` when the count does not fit.
+    /// Creates a matrix from indicatrices in compact form, one per incident cell; they stay compact, and τ is what they
+    /// keep. `None` when the count does not fit.
     pub fn from_compact(incident: RingBasis, rows: Arc<CompactRows>) -> Option<Self> {
         (rows.len() == incident.len()).then(|| {
             let tau = (0..rows.len()).map(|row| rows.tau(row)).collect();
@@ -46,52 +46,53 @@ impl CellMatrix {
         })
     }
 
-    /// The same data in compact form: τ is kept, everything else as well as the criterion says.
+    /// Returns the data in compact form: τ is kept, everything else as well as the criterion says.
     ///
     /// # Errors
-    /// Values that have no compact form.
+    /// Returns an error if the values have no compact form.
     pub fn compacted(&self, criterion: Criterion) -> Result<Self, CompactError> {
         let row = |i| self.row(i).into_owned();
         let rows = CompactRows::compress(&self.emergent, self.incident.len(), row, criterion)?;
         Ok(Self::from_compact(self.incident.clone(), Arc::new(rows)).expect("a row was made for every incident cell"))
     }
 
-    /// The incident cells.
+    /// Returns the incident cells.
     pub fn incident(&self) -> &RingBasis {
         &self.incident
     }
 
-    /// The emergent cells, by through-name.
+    /// Returns the emergent cells, by through direction.
     pub fn emergent(&self) -> &RingBasis {
         &self.emergent
     }
 
-    /// All values, one indicatrix after the other. \[1/sr\]
+    /// Returns all values, one indicatrix after the other. \[1/sr\]
     pub fn values(&self) -> Cow<'_, [f64]> {
         self.rows.all()
     }
 
-    /// The indicatrix of one incident cell. \[1/sr\] Made when asked for where the data are held in compact form.
+    /// Returns the indicatrix of one incident cell. \[1/sr\] It is made on request where the data are held in compact
+    /// form.
     pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
         self.rows.row(incident, self.emergent.len())
     }
 
-    /// One value: incident cell, emergent cell. \[1/sr\]
+    /// Returns one value, by incident cell and emergent cell. \[1/sr\]
     pub fn value(&self, incident: usize, emergent: usize) -> f64 {
         self.rows.value(incident, emergent, self.emergent.len())
     }
 
-    /// The compact form, where the data are held in it.
+    /// Returns the compact form, where the data are held in it.
     pub fn compact_rows(&self) -> Option<&Arc<CompactRows>> {
         self.rows.compact()
     }
 
-    /// Directional-hemispherical transmittance of every incident cell, in the basis's order.
+    /// Returns the directional-hemispherical transmittance of every incident cell, in the basis's order.
     pub fn tau_by_cell(&self) -> &[f64] {
         &self.tau
     }
 
-    /// q of the cells that hold the two directions; 0 outside all cells. \[1/sr\]
+    /// Returns q of the cells that hold the two directions; 0 outside all cells. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.incident.index(incident.0), self.emergent.index(emergent.through_name())) {
             (Some(i), Some(o)) => self.value(i, o),
@@ -99,17 +100,18 @@ impl CellMatrix {
         }
     }
 
-    /// Directional-hemispherical transmittance of the cell that holds the direction.
+    /// Returns the directional-hemispherical transmittance of the cell that holds the direction.
     pub fn tau(&self, incident: Incident) -> f64 {
         self.incident.index(incident.0).map_or(0.0, |i| self.tau[i])
     }
 
-    /// Transmittance for uniform luminance.
+    /// Returns the transmittance for uniform luminance.
     pub fn tau_hemispherical(&self) -> f64 {
         self.incident.cells().zip(&self.tau).map(|(cell, tau)| cell.projected_solid_angle() * tau).sum::<f64>() / PI
     }
 
-    /// Luminance of every emergent cell from the illuminance that arrives through every incident cell (eq 12). \[cd/m²\]
+    /// Computes the luminance of every emergent cell from the illuminance that arrives through every incident cell (eq
+    /// 12). \[cd/m²\]
     pub fn luminance(&self, illuminance: &[f64]) -> Vec<f64> {
         assert_eq!(illuminance.len(), self.incident.len(), "one illuminance an incident cell");
         let mut luminance = vec![0.0; self.emergent.len()];
@@ -123,8 +125,8 @@ impl CellMatrix {
         luminance
     }
 
-    /// The same function for light going the other way: q_back(ω′, ω_e) = q_front(ω_e, ω′): in through-names a plain
-    /// transpose. The 180° turn that files need lies in the bases' azimuth maps.
+    /// Returns the function for light in the opposite direction: q_back(ω′, ω_e) = q_front(ω_e, ω′), in through
+    /// directions a plain transpose. The 180° rotation that files need lies in the bases' azimuth maps.
     pub fn reversed(&self) -> Self {
         let (n_in, n_out) = (self.incident.len(), self.emergent.len());
         let given = self.values();

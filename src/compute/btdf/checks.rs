@@ -1,11 +1,11 @@
-//! What physics demands of a dataset: energy and reciprocity.
+//! Checks of a dataset against physics: energy and reciprocity.
 
 use super::{Btdf, Scattered};
 use crate::compute::direction::{Dir, Incident};
 
-/// Mean relative difference between a front function and the back function turned round, weighted by the projected
-/// solid angles of both cells: Σ w|q_f − q_b| / Σ w(q_f + q_b)/2. `None` unless both are given on cells of the same
-/// directions, or as trees of the same rank.
+/// Returns the mean relative difference between a front function and the back function turned round, weighted by the
+/// projected solid angles of both cells: Σ w|q_f − q_b| / Σ w(q_f + q_b)/2. `None` unless both are given on cells of
+/// the same directions, or as trees of the same rank.
 pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
     if let (Some(Scattered::Tree(front)), Some(Scattered::Tree(back))) = (&front.scattered, &back.scattered) {
         return front.relative_difference(&back.reversed());
@@ -37,8 +37,8 @@ pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
     Some(if sum > 0.0 { difference / sum } else { 0.0 })
 }
 
-/// Largest directional-hemispherical transmittance of any incident cell, regular part included: more than 1 breaks
-/// the conservation of energy.
+/// Returns the largest directional-hemispherical transmittance of any incident cell, regular part included: more than 1
+/// breaks the conservation of energy.
 pub fn tau_max(btdf: &Btdf) -> f64 {
     let regular = |theta: f64| btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
     match &btdf.scattered {

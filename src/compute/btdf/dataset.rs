@@ -1,26 +1,26 @@
-//! Everything known photometrically about one state of one system.
+//! Photometric data of one state of one system.
 
 use super::{Btdf, DescribedState, Finding, Thermal};
 
-/// Which of the four functions of a band.
+/// One of the four functions of a band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Component {
-    /// Light from outside into the room.
+    /// Transmission of light from outside into the room.
     TransmissionFront,
-    /// Light from the room to outside.
+    /// Transmission of light from the room to outside.
     TransmissionBack,
-    /// Light from outside thrown back outside.
+    /// Reflection of light from outside back outside.
     ReflectionFront,
-    /// Light from the room thrown back into the room.
+    /// Reflection of light from the room back into the room.
     ReflectionBack,
 }
 
 impl Component {
-    /// All four, in the order of files and listings.
+    /// All four functions, in the order of files and listings.
     pub const ALL: [Self; 4] =
         [Self::TransmissionFront, Self::TransmissionBack, Self::ReflectionFront, Self::ReflectionBack];
 
-    /// The word used in JSON and in the catalogue.
+    /// Returns the key used in JSON and in the catalogue.
     pub const fn key(self) -> &'static str {
         match self {
             Self::TransmissionFront => "transmission_front",
@@ -30,7 +30,7 @@ impl Component {
         }
     }
 
-    /// The name as files and messages write it.
+    /// Returns the name as files and messages write it.
     pub const fn words(self) -> &'static str {
         match self {
             Self::TransmissionFront => "Transmission Front",
@@ -40,7 +40,7 @@ impl Component {
         }
     }
 
-    /// The same for light from the other side.
+    /// Returns the function of the same kind for light from the other side.
     pub const fn other_side(self) -> Self {
         match self {
             Self::TransmissionFront => Self::TransmissionBack,
@@ -50,32 +50,32 @@ impl Component {
         }
     }
 
-    /// Light that goes through, not back?
+    /// Whether the function is a transmission, not a reflection.
     pub const fn is_transmission(self) -> bool {
         matches!(self, Self::TransmissionFront | Self::TransmissionBack)
     }
 
-    /// Of light from outside?
+    /// Whether the function is that of light from outside.
     pub const fn is_front(self) -> bool {
         matches!(self, Self::TransmissionFront | Self::ReflectionFront)
     }
 }
 
-/// The functions of one spectral band.
+/// Functions of one spectral band.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Band {
-    /// Light from outside into the room.
+    /// Transmission of light from outside into the room.
     pub transmission_front: Option<Btdf>,
-    /// Light from the room to outside.
+    /// Transmission of light from the room to outside.
     pub transmission_back: Option<Btdf>,
-    /// Light from outside thrown back outside.
+    /// Reflection of light from outside back outside.
     pub reflection_front: Option<Btdf>,
-    /// Light from the room thrown back into the room.
+    /// Reflection of light from the room back into the room.
     pub reflection_back: Option<Btdf>,
 }
 
 impl Band {
-    /// One of the four.
+    /// Returns one of the four functions.
     pub const fn get(&self, component: Component) -> Option<&Btdf> {
         match component {
             Component::TransmissionFront => self.transmission_front.as_ref(),
@@ -85,7 +85,7 @@ impl Band {
         }
     }
 
-    /// The place of one of the four.
+    /// Returns the place of one of the four functions.
     pub const fn place(&mut self, component: Component) -> &mut Option<Btdf> {
         match component {
             Component::TransmissionFront => &mut self.transmission_front,
@@ -95,12 +95,12 @@ impl Band {
         }
     }
 
-    /// Stores one of the four.
+    /// Stores one of the four functions.
     pub fn set(&mut self, component: Component, btdf: Btdf) {
         *self.place(component) = Some(btdf);
     }
 
-    /// Which are there, in the order of [`Component::ALL`].
+    /// Returns the functions that are present, in the order of [`Component::ALL`].
     pub fn components(&self) -> Vec<Component> {
         Component::ALL.into_iter().filter(|&component| self.get(component).is_some()).collect()
     }
@@ -121,33 +121,33 @@ pub struct Dataset {
     pub thickness: Option<f64>,
     /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
     pub structure: Option<f64>,
-    /// Thermal data and extents as far as the source tells them.
+    /// Thermal data and extents as far as the source gives them.
     pub thermal: Thermal,
-    /// The format it was read from, e.g. `bsdf-xml klems`; empty for closed forms.
+    /// Format of the source file, e.g. `bsdf-xml klems`; empty for closed forms.
     pub format: String,
-    /// Names of the bases as the file gives them.
+    /// Name of the incident basis as the file gives it.
     pub incident_basis: String,
     /// Name of the emergent basis as the file gives it.
     pub emergent_basis: String,
     /// Visible band.
     pub visible: Band,
-    /// Solar band, kept when present.
+    /// Solar band, if the source has one.
     pub solar: Option<Band>,
     /// Components that were not in the file but derived (by reciprocity).
     pub derived: Vec<Component>,
-    /// What the reader and the checks have to say.
+    /// Findings of the reader and of the checks.
     pub findings: Vec<Finding>,
-    /// The description that it was computed from, where all of it is known; `None` for measured and mended data.
+    /// Description that the dataset was computed from, where all of it is known; `None` for measured and repaired data.
     pub described: Option<DescribedState>,
 }
 
 impl Dataset {
-    /// Visible transmission of light from outside, the function that the whole method starts from.
+    /// Returns the visible transmission of light from outside, the function that the whole method starts from.
     pub const fn transmission(&self) -> Option<&Btdf> {
         self.visible.transmission_front.as_ref()
     }
 
-    /// Diffuse reflectance of the room side under uniform light; `None` when the dataset does not say.
+    /// Returns the diffuse reflectance of the room side under uniform light; `None` if the dataset does not contain it.
     pub fn room_side_reflectance(&self) -> Option<f64> {
         self.visible.reflection_back.as_ref().map(|btdf| btdf.tau_hemispherical().clamp(0.0, 1.0))
     }

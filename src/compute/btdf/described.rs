@@ -1,9 +1,9 @@
-//! The description that a dataset was computed from.
+//! Description that a dataset was computed from.
 //!
-//! Cells say where light goes only as finely as they are; what a described system does to a beam is computed again from
+//! Cells resolve directions only as finely as they are; how a described system redirects a beam is computed again from
 //! its description, for any sun. Here it is text that goes with the data: nothing in `compute` reads it.
 
-/// A description and the state of it that a dataset holds.
+/// Description, and the state of it that a dataset holds.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct DescribedState {
     /// Text of a system file (`.system.toml`) that names no other files: a stack holds its layers itself.

@@ -1,7 +1,7 @@
-//! What a state of a system is found and sorted by, beside its transmittances: how much of the sky's light goes up to the
-//! ceiling, how much of a high sun is kept out, how much is seen straight through.
+//! Figures by which states of systems are found and sorted, beside transmittances: share of the sky's light that leaves
+//! up to the ceiling, share of a high sun that is blocked, share of light that is transmitted undeviated.
 //!
-//! All of it is said of a vertical façade and of light from outside.
+//! All of them hold for a vertical façade and for light from outside.
 
 use super::{Btdf, Indicatrix, Scattered};
 use crate::compute::basis::{Cell, RingBasis};
@@ -10,34 +10,37 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Rings and sectors of the incident directions that the upper quarter-sphere is summed on, even in projected solid angle.
+/// Numbers of rings and sectors of the incident directions, of equal projected solid angle, that the upper
+/// quarter-sphere is summed on.
 const SKY: [usize; 2] = [12, 24];
-/// Points across a cell that the horizon cuts.
+/// Number of points across a cell that the horizon cuts.
 const ACROSS: usize = 16;
-/// Less transmitted light than this share has no direction worth telling.
+/// Share of transmitted light below which no direction is stated.
 const DARK: f64 = 1e-6;
-/// Incidence of the high sun. \[rad\]
+/// Angle of incidence of the high sun. \[rad\]
 const HIGH_SUN: f64 = 0.25 * PI;
-/// A cell stands out when it holds this much of what surrounds it: as Radiance has it.
+/// Ratio to its surroundings above which the straight cell stands out, as in Radiance.
 const STANDS_OUT: f64 = 1.5;
-/// Least width of what surrounds the straight cell. \[rad\]
+/// Minimum width of the surroundings of the straight cell. \[rad\]
 const AROUND: f64 = 0.02;
 
-/// How a state distributes light.
+/// Figures of the light that a state transmits.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LightFigures {
-    /// Of the light that is transmitted from the upper quarter-sphere of a uniform sky (all directions above the
-    /// horizontal), the share that leaves upwards into the room, 0 … 1; `None` where nothing is transmitted.
+    /// Share of the transmitted light that leaves upwards into the room, 0 … 1, for light from the upper quarter-sphere
+    /// of a uniform sky (all directions above the horizontal); `None` where nothing is transmitted.
     pub to_ceiling: Option<f64>,
-    /// Share of the sun's light that is not transmitted, with the sun straight before the façade, 45° high: 1 − τ.
+    /// Share of direct sun that is not transmitted, for the sun at 45° altitude, perpendicular to the façade in plan: 1
+    /// − τ.
     pub sun_blocked: f64,
-    /// Share of light at normal incidence that goes straight on (direct-direct transmittance). Of data on cells: the
-    /// regular part where they keep one, and what stands out of the straight cell's surroundings.
+    /// Normal–normal (direct-direct) transmittance: share of light at normal incidence that is transmitted undeviated.
+    /// With patch-averaged data: the regular part where they keep one, and what stands out of the straight cell's
+    /// surroundings.
     pub view: f64,
 }
 
 impl LightFigures {
-    /// Of a transmission for light from outside.
+    /// Computes the figures of a transmission for light from outside.
     pub fn of(btdf: &Btdf) -> Self {
         let sun = Incident(Dir::from_theta_phi(HIGH_SUN, 0.5 * PI));
         Self {
@@ -48,7 +51,7 @@ impl LightFigures {
     }
 }
 
-/// See [`LightFigures::to_ceiling`].
+/// Computes [`LightFigures::to_ceiling`].
 fn to_ceiling(btdf: &Btdf) -> Option<f64> {
     let mut upward = Upward::default();
     let (mut up, mut all) = (0.0, 0.0);
@@ -57,7 +60,7 @@ fn to_ceiling(btdf: &Btdf) -> Option<f64> {
         for sector in 0..SKY[1] {
             let phi = PI * (sector as f64 + 0.5) / SKY[1] as f64;
             let incident = Incident(Dir::from_theta_phi(theta, phi));
-            // What goes straight on comes from above and goes down.
+            // Regular transmission comes from above and goes down.
             all += btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
             let [some, whole] = upward.flux(btdf, incident);
             up += some;
@@ -67,11 +70,11 @@ fn to_ceiling(btdf: &Btdf) -> Option<f64> {
     (all > DARK * (SKY[0] * SKY[1]) as f64).then(|| (up / all).clamp(0.0, 1.0))
 }
 
-/// What is kept from one incident direction to the next.
+/// Upward flux of the incident directions, with what can be reused from one direction to the next.
 #[derive(Default)]
 struct Upward {
     basis: Option<RingBasis>,
-    /// Projected solid angles: of the part of a cell that is light going up, and of the cell. \[sr\]
+    /// Projected solid angle of the part of a cell whose light goes up, and of the whole cell. \[sr\]
     weights: Vec<[f64; 2]>,
     /// Flux of the rows of tabulated data that have been summed.
     fluxes: HashMap<usize, [f64; 2]>,
@@ -120,7 +123,7 @@ fn weights(basis: &RingBasis) -> Vec<[f64; 2]> {
     basis.cells().map(of).collect()
 }
 
-/// See [`LightFigures::view`].
+/// Computes [`LightFigures::view`].
 fn view(btdf: &Btdf) -> f64 {
     let normal: Dir<Facade> = Dir::from_unit(DVec3::Z);
     let regular = btdf.regular.as_ref().map_or(0.0, |tau| tau.at(0.0));

@@ -1,18 +1,18 @@
-//! What a reader or a check has to say about a dataset: structured, so that the window, `info` and tests share it.
+//! Findings of a reader or a check on a dataset: structured, so that the window, `info` and tests share them.
 
-/// How much a finding matters.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Worth knowing; results are not affected.
+    /// Information; results are not affected.
     Info,
-    /// Results may be affected; read the message.
+    /// Possible effect on results; read the message.
     Warning,
-    /// Not fit for use.
+    /// Data not fit for use.
     Error,
 }
 
 impl Severity {
-    /// The word used in files and JSON.
+    /// Returns the key used in files and JSON.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Info => "info",
@@ -25,26 +25,26 @@ impl Severity {
 /// One finding about a dataset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// How much it matters.
+    /// Severity of the finding.
     pub severity: Severity,
     /// Stable identifier in kebab case, e.g. `energy-above-one`.
     pub code: &'static str,
-    /// What was found, where, and what it means. One sentence, units included.
+    /// Message on the finding, its place and its meaning. One sentence, units included.
     pub message: String,
 }
 
 impl Finding {
-    /// Worth knowing.
+    /// Creates a finding that is worth knowing and does not affect results.
     pub fn info(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Info, code, message: message.into() }
     }
 
-    /// May affect results.
+    /// Creates a finding that may affect results.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, code, message: message.into() }
     }
 
-    /// Not fit for use.
+    /// Creates a finding that makes the data unfit for use.
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Error, code, message: message.into() }
     }

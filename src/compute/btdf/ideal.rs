@@ -1,14 +1,15 @@
-//! Systems that are defined by a sentence: exact references, and the ends of every comparison.
+//! Ideal systems, defined by a sentence: exact references, and the ends of every comparison.
 
 use super::{AngularTransmittance, Btdf, Scattered};
 
 impl Btdf {
-    /// Light goes straight on, with the same transmittance for every incidence.
+    /// Creates an ideal clear system: regular transmission alone, with the same transmittance for every incidence.
     pub const fn ideal_transparent(tau: f64) -> Self {
         Self { regular: Some(AngularTransmittance::Constant(tau)), scattered: None }
     }
 
-    /// Same luminance in every emergent direction, with the same transmittance for every incidence.
+    /// Creates an ideal diffuser: same luminance in every emergent direction, with the same transmittance for every
+    /// incidence.
     pub const fn ideal_diffuse(tau: f64) -> Self {
         Self { regular: None, scattered: Some(Scattered::Lambert(AngularTransmittance::Constant(tau))) }
     }

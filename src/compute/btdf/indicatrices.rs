@@ -1,7 +1,7 @@
 //! Indicatrices measured (or computed) at single incident directions, as a goniophotometer gives them.
 //!
 //! Unlike a [`super::CellMatrix`], whose rows are means over incident cells, nothing is known here between the
-//! directions: what happens there is the business of [`crate::compute::incidence`].
+//! directions: [`crate::compute::incidence`] interpolates there.
 
 use super::CellMatrix;
 use super::rows::Rows;
@@ -20,22 +20,23 @@ pub struct Indicatrices {
     emergent: RingBasis,
     rows: Rows,
     tau: Vec<f64>,
-    /// Share of the projected hemisphere that each direction stands for; sums to 1.
+    /// Share of the projected hemisphere that each direction represents; sums to 1.
     share: Vec<f64>,
 }
 
-/// Directions of a lattice and of a file that are taken for the same. \[rad\]
+/// Distance up to which directions of a lattice and of a file are the same. \[rad\]
 const SAME_DIRECTION: f64 = 2e-3;
 
 impl Indicatrices {
-    /// From values in 1/sr, `values[i · emergent.len() + o]`: incident direction i, emergent cell o (by through-name).
-    /// `None` when the count does not fit, without directions, or when two directions coincide.
+    /// Creates indicatrices from values in 1/sr, `values[i · emergent.len() + o]`: incident direction i, emergent cell
+    /// o (by through direction). `None` when the count does not fit, without directions, or when two directions
+    /// coincide.
     pub fn new(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
     }
 
-    /// The same of values that were kept as f32.
+    /// Creates indicatrices like [`Self::new`], from values that were kept as f32.
     pub fn of_single(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f32>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of_single(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
@@ -46,8 +47,8 @@ impl Indicatrices {
         Self::with_rows(incident, emergent, rows, tau)
     }
 
-    /// From indicatrices in compact form, one an incident direction; they stay compact, and τ is what they keep.
-    /// `None` when the count does not fit, without directions, or when two directions coincide.
+    /// Creates indicatrices from those in compact form, one per incident direction; they stay compact, and τ is what
+    /// they keep. `None` when the count does not fit, without directions, or when two directions coincide.
     pub fn from_compact(incident: Vec<Incident>, rows: Arc<CompactRows>) -> Option<Self> {
         if rows.len() != incident.len() {
             return None;
@@ -56,10 +57,10 @@ impl Indicatrices {
         Self::with_rows(incident, rows.basis().clone(), Rows::Compact(rows), tau)
     }
 
-    /// The same data in compact form: τ is kept, everything else as well as the criterion says.
+    /// Returns the data in compact form: τ is kept, everything else as well as the criterion says.
     ///
     /// # Errors
-    /// Values that have no compact form.
+    /// Returns an error if the values have no compact form.
     pub fn compacted(&self, criterion: Criterion) -> Result<Self, CompactError> {
         let row = |i| self.row(i).into_owned();
         let rows = CompactRows::compress(&self.emergent, self.incident.len(), row, criterion)?;
@@ -88,50 +89,51 @@ impl Indicatrices {
         Some(Self { incident, lattice, emergent, rows, tau, share })
     }
 
-    /// The incident directions.
+    /// Returns the incident directions.
     pub fn incident(&self) -> &[Incident] {
         &self.incident
     }
 
-    /// The division of the hemisphere whose cell centres the incident directions are, in its order; `None` for other
-    /// lists of directions.
+    /// Returns the division of the hemisphere whose cell centres the incident directions are, in its order; `None` for
+    /// other lists of directions.
     pub fn lattice(&self) -> Option<&RingBasis> {
         self.lattice.as_ref()
     }
 
-    /// The emergent cells, by through-name.
+    /// Returns the emergent cells, by through direction.
     pub fn emergent(&self) -> &RingBasis {
         &self.emergent
     }
 
-    /// The indicatrix of one incident direction. \[1/sr\] Made when asked for where the data are held in compact form.
+    /// Returns the indicatrix of one incident direction. \[1/sr\] It is made on request where the data are held in
+    /// compact form.
     pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
         self.rows.row(incident, self.emergent.len())
     }
 
-    /// The compact form, where the data are held in it.
+    /// Returns the compact form, where the data are held in it.
     pub fn compact_rows(&self) -> Option<&Arc<CompactRows>> {
         self.rows.compact()
     }
 
-    /// Directional-hemispherical transmittance at every incident direction.
+    /// Returns the directional-hemispherical transmittance at every incident direction.
     pub fn tau_by_direction(&self) -> &[f64] {
         &self.tau
     }
 
-    /// Share of the projected hemisphere that each direction stands for: of its lattice's cell, or nearest to it. Sums
-    /// to 1.
+    /// Returns the share of the projected hemisphere that each direction represents: of its lattice's cell, or nearest
+    /// to it. Sums to 1.
     pub fn shares(&self) -> &[f64] {
         &self.share
     }
 
-    /// Number of the incident direction nearest to another.
+    /// Returns the index of the incident direction nearest to another.
     pub fn nearest(&self, d: Dir<Facade>) -> usize {
         nearest(&self.incident, d)
     }
 
-    /// Number of the incident direction that stands for `d`: of the lattice's cell that holds it, else the nearest.
-    /// `None` outside the hemisphere.
+    /// Returns the index of the incident direction that represents `d`: of the lattice's cell that holds it, else the
+    /// nearest. `None` outside the hemisphere.
     pub fn standing_for(&self, d: Dir<Facade>) -> Option<usize> {
         match &self.lattice {
             Some(basis) => basis.index(d),
@@ -139,7 +141,7 @@ impl Indicatrices {
         }
     }
 
-    /// The same data as means over incident cells: of the lattice, or of cells of about 9° that take their nearest
+    /// Returns the data as means over incident cells: of the lattice, or of cells of about 9° that take their nearest
     /// direction.
     pub fn to_cells(&self) -> CellMatrix {
         let incident = self.lattice.clone().unwrap_or_else(|| RingBasis::equal_area(10));
@@ -151,7 +153,7 @@ impl Indicatrices {
         CellMatrix::new(incident, self.emergent.clone(), values).expect("a row was made for every cell")
     }
 
-    /// q without interpolation, of the direction that stands for `incident`. \[1/sr\]
+    /// Returns q without interpolation, of the direction that represents `incident`. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.standing_for(incident.0), self.emergent.index(emergent.through_name())) {
             (Some(i), Some(o)) => self.rows.value(i, o, self.emergent.len()),
@@ -159,18 +161,18 @@ impl Indicatrices {
         }
     }
 
-    /// τ without interpolation, of the direction that stands for `incident`.
+    /// Returns τ without interpolation, of the direction that represents `incident`.
     pub fn tau(&self, incident: Incident) -> f64 {
         self.standing_for(incident.0).map_or(0.0, |i| self.tau[i])
     }
 
-    /// Transmittance for uniform luminance, each direction standing for its cell.
+    /// Returns the transmittance for uniform luminance, each direction representing its cell.
     pub fn tau_hemispherical(&self) -> f64 {
         self.share.iter().zip(&self.tau).map(|(share, tau)| share * tau).sum()
     }
 }
 
-/// Chord between two directions, which is their angle while it is small. \[rad\]
+/// Returns the chord between two directions, which is their angle while it is small. \[rad\]
 fn chord(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
     (a.vector() - b.vector()).length()
 }
@@ -180,7 +182,7 @@ fn nearest(incident: &[Incident], d: Dir<Facade>) -> usize {
     (1..incident.len()).fold(0, |best, i| if cosine(i) > cosine(best) { i } else { best })
 }
 
-/// Shares of the projected hemisphere nearest to each direction, counted on cells of about 2°.
+/// Returns the share of the projected hemisphere nearest to each direction, counted on cells of about 2°.
 fn nearest_shares(incident: &[Incident]) -> Vec<f64> {
     let basis = RingBasis::equal_area(40);
     let mut share = vec![0.0; incident.len()];

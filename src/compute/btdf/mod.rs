@@ -1,8 +1,8 @@
 //! Bidirectional transmittance (and reflectance) distribution functions in memory.
 //!
-//! A [`Btdf`] has two parts that never mix: light that goes straight on ([`Btdf::regular`], a δ in direction, no
-//! value in 1/sr) and light that is scattered ([`Btdf::scattered`], q in 1/sr). Emergent directions are stored by
-//! through-name (see [`crate::compute::direction`]).
+//! A [`Btdf`] has two parts that never mix: regular transmission ([`Btdf::regular`], a δ in direction, no value in
+//! 1/sr) and scattered light ([`Btdf::scattered`], q in 1/sr). Emergent directions are stored by through direction (see
+//! [`crate::compute::direction`]).
 
 mod angular;
 mod cell_matrix;
@@ -47,20 +47,20 @@ use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};
 use std::sync::Arc;
 
-/// The scattered part of a BTDF or BRDF.
+/// Scattered part of a BTDF or BRDF.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scattered {
     /// Same luminance in every emergent direction, q = τ(θ_e)/π.
     Lambert(AngularTransmittance),
-    /// A value for every pair of an incident and an emergent cell.
+    /// Value for every pair of an incident and an emergent cell.
     Cells(Box<CellMatrix>),
-    /// An indicatrix for every one of a list of incident directions.
+    /// Indicatrix for every one of a list of incident directions.
     Directions(Arc<Indicatrices>),
-    /// A tensor tree of rank 3 or 4 on Shirley–Chiu squares.
+    /// Tensor tree of rank 3 or 4 on Shirley–Chiu squares.
     Tree(Box<TensorTree>),
 }
 
-/// A bidirectional transmittance (or reflectance) distribution function for light from one side.
+/// Bidirectional transmittance (or reflectance) distribution function for light from one side.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Btdf {
     /// Unscattered part: the share of the light that keeps its direction.
@@ -69,22 +69,22 @@ pub struct Btdf {
     pub scattered: Option<Scattered>,
 }
 
-/// The emergent distribution of one incident direction ("indicatrix of diffusion"): a value of q for every cell.
+/// Emergent distribution of one incident direction ("indicatrix of diffusion"): a value of q for every cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indicatrix {
-    /// Emergent cells, by through-name.
+    /// Emergent cells, by through direction.
     pub basis: RingBasis,
     /// Luminance coefficient of each cell. \[1/sr\]
     pub q: Vec<f64>,
 }
 
 impl Btdf {
-    /// A purely scattering function on cells.
+    /// Creates a purely scattering function on cells.
     pub fn from_cells(matrix: CellMatrix) -> Self {
         Self { regular: None, scattered: Some(Scattered::Cells(Box::new(matrix))) }
     }
 
-    /// Luminance coefficient q = L/E of the scattered part. \[1/sr\]
+    /// Returns the luminance coefficient q = L/E of the scattered part. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match &self.scattered {
             None => 0.0,
@@ -95,7 +95,7 @@ impl Btdf {
         }
     }
 
-    /// Directional-hemispherical transmittance τ(ω_e), eq 1, regular part included.
+    /// Returns the directional-hemispherical transmittance τ(ω_e), eq 1, regular part included.
     pub fn tau(&self, incident: Incident) -> f64 {
         let theta = incident.0.theta();
         let regular = self.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
@@ -109,12 +109,12 @@ impl Btdf {
         regular + scattered
     }
 
-    /// Transmittance at normal incidence.
+    /// Returns the transmittance at normal incidence.
     pub fn tau_normal(&self) -> f64 {
         self.tau(Incident(crate::compute::direction::Dir::from_unit(glam::DVec3::Z)))
     }
 
-    /// Transmittance for uniform luminance of the whole hemisphere.
+    /// Returns the transmittance for uniform luminance of the whole hemisphere.
     pub fn tau_hemispherical(&self) -> f64 {
         let regular = self.regular.as_ref().map_or(0.0, AngularTransmittance::hemispherical);
         let scattered = match &self.scattered {
@@ -127,7 +127,7 @@ impl Btdf {
         regular + scattered
     }
 
-    /// The cells in which the data resolve incidence; for continuous functions a Klems basis to list them by.
+    /// Returns the cells in which the data resolve incidence; for continuous functions a Klems basis to list them by.
     pub fn incident_basis(&self) -> RingBasis {
         match &self.scattered {
             Some(Scattered::Cells(matrix)) => matrix.incident().clone(),
@@ -137,7 +137,7 @@ impl Btdf {
         }
     }
 
-    /// The scattered emergent distribution for one incident direction; `None` when nothing is scattered.
+    /// Returns the scattered emergent distribution for one incident direction; `None` when nothing is scattered.
     pub fn indicatrix(&self, incident: Incident) -> Option<Indicatrix> {
         Some(match self.scattered.as_ref()? {
             Scattered::Lambert(tau) => Indicatrix {

@@ -1,5 +1,5 @@
-//! Any function as a matrix between the cells of two bases: what writers of cell formats make of functions that are
-//! not on their cells.
+//! Conversion of any function to a matrix between the cells of two bases, for writers of cell formats and functions
+//! that are not on their cells.
 
 use super::resample::resample_matrix;
 use super::{Btdf, CellMatrix, Scattered, TensorTree};
@@ -7,13 +7,14 @@ use crate::compute::basis::{Resampling, RingBasis, SquareGrid};
 use crate::compute::quadrature::midpoints;
 use std::f64::consts::PI;
 
-/// Means over incident and emergent cells; flux is kept. Light that goes straight on fills the emergent cells that its
-/// incident cell covers. Single incident directions stand for the cells around them.
+/// Computes means over incident and emergent cells; flux is kept. Regular transmission fills the emergent cells that
+/// its incident cell covers. Single incident directions represent the cells around them.
 pub fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     sampled_on(btdf, incident, emergent, 1024)
 }
 
-/// The same with tensor trees sampled at a sixteenth of the directions: for comparisons, not for files.
+/// Computes means like [`matrix_on`], with tensor trees sampled at a sixteenth of the directions: for comparisons, not
+/// for files.
 pub fn matrix_roughly_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     sampled_on(btdf, incident, emergent, 256)
 }
@@ -50,11 +51,12 @@ fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usi
     CellMatrix::new(incident.clone(), emergent.clone(), values).expect("a row was made for every incident cell")
 }
 
-/// Angles across a ring over which τ is averaged.
+/// Number of angles across a ring over which τ is averaged.
 const ACROSS: usize = 512;
 
-/// Mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of tree cells in
-/// ring cells are counted on `side`² directions of equal weight; every distribution is then scaled to its exact flux.
+/// Computes the mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of
+/// tree cells in ring cells are counted on `side`² directions of equal weight; every distribution is then scaled to its
+/// exact flux.
 fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis, side: usize) -> Vec<f64> {
     let grid = tree.incident_grid();
     let inward = grid_shares(grid, incident, side);
@@ -84,7 +86,7 @@ fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis, side: 
     values
 }
 
-/// For every cell of the basis the grid cells that fill it, with their shares (sum 1).
+/// Returns for every cell of the basis the grid cells that fill it, with their shares (sum 1).
 fn grid_shares(grid: SquareGrid, basis: &RingBasis, side: usize) -> Vec<Vec<(usize, f64)>> {
     let per_side = (side / grid.resolution()).max(1);
     let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); basis.len()];

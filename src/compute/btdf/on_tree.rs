@@ -1,4 +1,5 @@
-//! Any function as a tensor tree: what writers of trees make of functions on other cells, and what pruning costs.
+//! Conversion of any function to a tensor tree: what writers of trees make of functions on other cells, and what
+//! pruning costs.
 //!
 //! The function is averaged over a full grid of 2^level steps a coordinate, each incident cell scaled to its exact
 //! flux; then boxes whose values hardly differ become one leaf with their mean. Which boxes, one number decides: the
@@ -23,7 +24,7 @@ use codes::{Codes, matrix_of, spread_leaves, to_flux};
 pub use shape::{OnTree, OnTreeError, TreeShape};
 
 impl TensorTree {
-    /// The same function with its squares in other axes, exact: front and back axes differ by a half turn, which
+    /// Returns the function with its squares in other axes, exact: front and back axes differ by a half turn, which
     /// leaves the relative azimuths of rank 3 as they are.
     pub fn with_axes(&self, axes: TreeAxes) -> Self {
         if axes == self.axes() {
@@ -46,12 +47,12 @@ impl TensorTree {
     }
 }
 
-/// A function as a tree in the given axes. A tree of the same rank is only pruned further, and kept as it is by a
-/// tolerance of 0 and a level that is not coarser than its own. Light that goes straight on fills its own cell; in rank
-/// 3 the two cells on both sides of azimuth 0.
+/// Converts a function to a tree in the given axes. A tree of the same rank is only pruned further, and kept as it is
+/// by a tolerance of 0 and a level that is not coarser than its own. Regular transmission fills its own cell; in rank 3
+/// the two cells on both sides of azimuth 0.
 ///
 /// # Errors
-/// A level or tolerance out of range; a tree with more nodes than readers take.
+/// Returns an error if the level or the tolerance is out of range, or if the tree has more nodes than readers take.
 pub fn tree_on(btdf: &Btdf, axes: TreeAxes, shape: TreeShape) -> Result<OnTree, OnTreeError> {
     let grid = shape.check()?;
     if let (None, Some(Scattered::Tree(tree))) = (&btdf.regular, &btdf.scattered)
@@ -139,7 +140,7 @@ fn four(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> Vec<f64
     values
 }
 
-/// For every grid cell the ring cells that it lies in, with their shares of it.
+/// Returns for every grid cell the ring cells that it lies in, with their shares of it.
 fn shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
     let side = (512 / grid.resolution()).max(4);
     let one = 1.0 / (side * side) as f64;

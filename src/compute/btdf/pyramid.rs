@@ -10,7 +10,7 @@ impl Pyramid {
         Self { levels: (0..=finest).map(|level| vec![0.0; 1 << (2 * level)]).collect() }
     }
 
-    /// From totals of the finest cells: every coarser cell holds the sum of its four.
+    /// Creates a pyramid from totals of the finest cells: every coarser cell holds the sum of its four.
     pub(super) fn gather(finest: u32, totals: Vec<f64>) -> Self {
         let mut pyramid = Self::new(finest);
         pyramid.levels[finest as usize] = totals;
@@ -36,7 +36,7 @@ impl Pyramid {
         self.levels[level as usize][(iy << level) + ix]
     }
 
-    /// Every cell's value handed down to all finest cells below it, and summed there.
+    /// Adds every cell's value to all finest cells below it, and returns these.
     pub(super) fn spread(mut self) -> Vec<f64> {
         for level in 1..self.levels.len() {
             let side = 1 << level;

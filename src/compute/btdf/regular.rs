@@ -1,14 +1,14 @@
 //! Regular transmission in patch-averaged data and in data at single directions. A pane in such a file is a diagonal of
-//! patches, and their width blurs the view through it. Where light keeps its direction, the direction is known exactly, and
-//! only τ(θ) has to be estimated, from means over patches or from values at single directions.
+//! patches, and their width blurs the view through it. Where light keeps its direction, the direction is known exactly,
+//! and only τ(θ) has to be estimated, from means over patches or from values at single directions.
 //!
 //! Transmission is recognised as regular if it
-//! - lies only in the emergent patches straight ahead of the incident direction, and not in their neighbours, as every lobe
-//!   with a width does;
+//! - lies only in the emergent patches straight ahead of the incident direction, and not in their neighbours, as every
+//!   lobe with a width does;
 //! - depends on the angle of incidence only, as that of panes, perforated sheets and fabrics.
 //!
-//! τ(θ) is the smoothest function of cosθ with the means of the data (Gaussian process with a Matérn covariance of order 5/2;
-//! Rasmussen & Williams 2006, ch. 2 and 4), with τ(90°) = 0 unless the data contradict it.
+//! τ(θ) is the smoothest function of cosθ with the means of the data (Gaussian process with a Matérn covariance of
+//! order 5/2; Rasmussen & Williams 2006, ch. 2 and 4), with τ(90°) = 0 unless the data contradict it.
 
 use super::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered};
 use crate::compute::basis::{Cell, Neighbours, RingBasis, sub_directions};
@@ -26,60 +26,63 @@ const LEAK: f64 = 0.02;
 const STANDS_OUT: f64 = 0.5;
 /// Smallest share of the transmitted flux that is separated.
 const LEAST: f64 = 1e-3;
-/// Largest difference of τ at the same angle of incidence, as a share of the largest τ ...
+/// Largest difference of τ at the same angle of incidence, as a share of the largest τ; [`ROUGH`] allows more.
 const EVEN: f64 = 0.01;
-/// ... and as a share of the scattered flux in the same patches, which is known to this accuracy.
+/// Additional difference of τ at the same angle of incidence, as a share of the scattered flux in the same patches,
+/// which is known to this accuracy.
 const ROUGH: f64 = 0.3;
-/// Angles of incidence that round to the same multiple of the inverse are the same. \[1/rad\]
+/// Inverse of the step to which equal angles of incidence are rounded. \[1/rad\]
 const SAME_ANGLE: f64 = 1800.0 / PI;
-/// Fewest angles of incidence, and the least value of the largest of them. \[rad\]
+/// Minimum number of angles of incidence, and minimum of the largest of them. \[rad\]
 const KNOWN: (usize, f64) = (4, 65.0 * PI / 180.0);
-/// Directions along each side of an incident patch that find the emergent patches straight ahead.
+/// Number of directions along each side of an incident patch that find the emergent patches straight ahead.
 const NAMES: usize = 8;
-/// Light of a single direction may be stored in a patch next to it: this far in θ \[rad\] ...
+/// Distance in θ within which light of a single direction may be stored in a patch next to it. \[rad\]
 const BESIDE: f64 = 0.3 * PI / 180.0;
-/// ... and, where a row was rotated about the normal, this share of a patch in φ.
+/// Share of a patch in φ within which light of a single direction may be stored beside it, where a row was rotated
+/// about the normal.
 const TURNED: f64 = 0.999;
-/// Gauss points for the mean over a patch.
+/// Number of Gauss points for the mean over a patch.
 const ACROSS: usize = 8;
-/// Length of the covariance over cosθ, and relative accuracy of the digits in files.
+/// Length of the covariance over cosθ.
 const LENGTH: f64 = 1.0;
+/// Relative accuracy of the digits in files.
 const DIGITS: f64 = 1e-4;
-/// τ(90°) = 0 is used within this number of standard errors: computed for one to three panes on Klems, half, quarter and
-/// Tregenza patches it is at most 3.6, for an opening at least 11.
+/// Number of standard errors within which τ(90°) = 0 is used: computed for one to three panes on Klems, half, quarter
+/// and Tregenza patches it is at most 3.6, for an opening at least 11.
 const NO_SURPRISE: f64 = 4.0;
 /// Standard error of τ(90°) = 0, relative to the largest τ.
 const AT_GRAZING: f64 = 1e-3;
-/// Uncertainty in standard errors, and the range of angles over which the largest is used \[°\]: computed errors of panes are up
-/// to three standard errors at single angles.
+/// Uncertainty in standard errors: computed errors of panes are up to three standard errors at single angles.
 const STATED: f64 = 3.5;
+/// Range of angles over which the largest uncertainty is used. \[°\]
 const WITHIN: usize = 8;
 /// Smallest squared deviation that is kept, as a share of the largest.
 const FAINT: f64 = 1e-4;
 
 /// One row of the data.
 struct Row {
-    /// Angle to the normal, for rows with the same. \[rad\]
+    /// Angle to the normal, by which rows are grouped. \[rad\]
     theta: f64,
     /// Cosines of incidence with weights that sum to 1.
     points: Vec<(f64, f64)>,
-    /// Emergent cells that hold its names.
+    /// Emergent cells straight ahead of the row's incident directions.
     names: Vec<usize>,
-    /// Share of the hemisphere that it stands for.
+    /// Share of the projected hemisphere that the row represents.
     share: f64,
 }
 
-/// What the rows of one angle say.
+/// Regular transmittance that the rows of one angle give together.
 #[derive(Clone)]
 struct Known {
     theta: f64,
     points: Vec<(f64, f64)>,
     tau: f64,
-    /// Standard error.
+    /// Standard error of `tau`.
     noise: f64,
 }
 
-/// The same function with regular transmission separated; `None` where none is recognised in its data.
+/// Returns the function with regular transmission separated; `None` where none is recognised in its data.
 pub fn separate_regular(btdf: &Btdf) -> Option<Btdf> {
     if btdf.regular.is_some() {
         return None;
@@ -134,7 +137,7 @@ impl Row {
     }
 }
 
-/// Regular transmittance and what is left, row by row; nothing where that is no light at all.
+/// Separates the regular transmittance; returns also what is left, row by row, or `None` for it where no light is left.
 fn apart(
     rows: &[Row],
     emergent: &RingBasis,
@@ -174,7 +177,7 @@ fn apart(
     Some((tau, scattered.then_some(rest)))
 }
 
-/// What rows of the same angle say together; `None` where they contradict each other.
+/// Combines rows of the same angle; `None` where they contradict each other, or where the angles are too few.
 fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
     let key = |row: &Row| (row.theta * SAME_ANGLE).round() as i64;
     let mut groups = BTreeMap::<i64, Vec<usize>>::new();
@@ -196,19 +199,19 @@ fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
     known.filter(|known| known.len() >= KNOWN.0 && reach(known))
 }
 
-/// The smoothest function through what is known.
+/// Smoothest function through the known values.
 struct Smooth<'a> {
     known: &'a [Known],
     factor: Llt<f64>,
     solved: Mat<f64>,
-    /// Of the function itself.
+    /// Variance of the function itself.
     variance: f64,
-    /// How far each of them is off what all others say, squared, in units of what they should know it to.
+    /// Squared deviation of each known value from what all others predict, in units of the expected deviation.
     surprise: Vec<f64>,
 }
 
 impl Known {
-    /// Covariance with the value at a cosine of incidence.
+    /// Returns the covariance with the value at a cosine of incidence.
     fn covariance_with(&self, cosine: f64) -> f64 {
         self.points.iter().map(|p| p.1 * covariance(p.0, cosine)).sum()
     }
@@ -238,7 +241,8 @@ impl<'a> Smooth<'a> {
         Some(Self { known, factor, solved, variance, surprise })
     }
 
-    /// Value and standard error at a cosine of incidence, and what the data about it are off what they should be, squared.
+    /// Returns the value and its standard error at a cosine of incidence, and the squared ratio of actual to expected
+    /// deviations of the data about it.
     fn at(&self, cosine: f64) -> [f64; 3] {
         let n = self.known.len();
         let here = Mat::from_fn(n, 1, |i, _| self.known[i].covariance_with(cosine));
@@ -246,15 +250,15 @@ impl<'a> Smooth<'a> {
         let sum = |of: &dyn Fn(usize) -> f64| (0..n).map(of).sum::<f64>();
         let value = sum(&|i| here[(i, 0)] * self.solved[(i, 0)]);
         let variance = self.variance * (1.0 - sum(&|i| here[(i, 0)] * weights[(i, 0)])).max(0.0);
-        // Where the function is smoother than it is on the whole, its neighbours know it better than the variance says; where
-        // it has kinks, worse.
+        // Where the function is smoother than it is on the whole, its neighbours know it better than the variance says;
+        // where it has kinks, worse.
         let squares = sum(&|i| weights[(i, 0)].powi(2));
         let surprise = sum(&|i| weights[(i, 0)].powi(2) * self.surprise[i]) / squares.max(1e-300);
         [value, variance.sqrt(), surprise]
     }
 
-    /// Deviations of the values at whole degrees that are independent of each other, scaled degree by degree: what the
-    /// covariance of what is not known is made of.
+    /// Returns deviations of the values at whole degrees that are independent of each other, scaled degree by degree:
+    /// what the covariance of what is not known is made of.
     fn modes(&self, scale: &[f64]) -> Option<Vec<Vec<f64>>> {
         let (n, count) = (self.known.len(), scale.len());
         let cosine = |degree: usize| (degree as f64).to_radians().cos();

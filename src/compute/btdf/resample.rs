@@ -3,7 +3,7 @@
 use super::cell_matrix::CellMatrix;
 use crate::compute::basis::{Resampling, RingBasis, same_cells};
 
-/// A matrix on other cells: means over the new incident and the new emergent cells.
+/// Returns a matrix on other cells: means over the new incident and the new emergent cells.
 pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     if matrix.incident() == incident && matrix.emergent() == emergent {
         return matrix.clone();

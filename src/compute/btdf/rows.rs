@@ -1,25 +1,25 @@
-//! How indicatrices on the same cells are held: as plain values, or compact and made again when asked for.
+//! Storage of indicatrices on the same cells: as plain values, or compact and made again on request.
 
 use crate::compute::wavelet::CompactRows;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// One indicatrix after the other.
+/// Indicatrices, one after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Rows {
-    /// Every value, shared by those that hold the same. \[1/sr\]
+    /// Plain values, shared by those that hold the same. \[1/sr\]
     Plain(Arc<Vec<f64>>),
-    /// The same of very many values that f32 holds without loss: half the memory.
+    /// Very many plain values that f32 holds without loss: half the memory. \[1/sr\]
     Single(Arc<Vec<f32>>),
-    /// Few numbers a row.
+    /// Compact form, few numbers per row.
     Compact(Arc<CompactRows>),
 }
 
-/// From so many values on, memory counts for more than the time that it takes to widen them: 64 MB.
+/// Number of values above which memory counts for more than the time that it takes to widen them: 64 MB.
 const MANY: usize = 1 << 23;
 
 impl Rows {
-    /// Of values one after the other.
+    /// Creates rows from values one after the other.
     pub fn of(values: Vec<f64>) -> Self {
         if values.len() > MANY && values.iter().all(|value| f64::from(*value as f32).to_bits() == value.to_bits()) {
             return Self::Single(Arc::new(values.into_iter().map(|value| value as f32).collect()));
@@ -27,7 +27,7 @@ impl Rows {
         Self::Plain(Arc::new(values))
     }
 
-    /// Of values that were kept as f32.
+    /// Creates rows from values that were kept as f32.
     pub fn of_single(values: Vec<f32>) -> Self {
         if values.len() > MANY {
             return Self::Single(Arc::new(values));
@@ -35,12 +35,12 @@ impl Rows {
         Self::Plain(Arc::new(values.into_iter().map(f64::from).collect()))
     }
 
-    /// What every row of `n` values sums to with a weight for each of them.
+    /// Returns the sum of every row, with a weight for each of its values.
     pub fn sums(&self, rows: usize, weight: &[f64]) -> Vec<f64> {
         (0..rows).map(|k| self.row(k, weight.len()).iter().zip(weight).map(|(q, w)| q * w).sum()).collect()
     }
 
-    /// One row of `n` values.
+    /// Returns one row of `n` values.
     pub fn row(&self, row: usize, n: usize) -> Cow<'_, [f64]> {
         match self {
             Self::Plain(values) => Cow::Borrowed(&values[row * n..(row + 1) * n]),
@@ -51,7 +51,7 @@ impl Rows {
         }
     }
 
-    /// One value of a row of `n`.
+    /// Returns one value of a row of `n`.
     pub fn value(&self, row: usize, cell: usize, n: usize) -> f64 {
         match self {
             Self::Plain(values) => values[row * n + cell],
@@ -60,7 +60,7 @@ impl Rows {
         }
     }
 
-    /// All rows, one after the other.
+    /// Returns all rows, one after the other.
     pub fn all(&self) -> Cow<'_, [f64]> {
         match self {
             Self::Plain(values) => Cow::Borrowed(values),
@@ -69,7 +69,7 @@ impl Rows {
         }
     }
 
-    /// The compact form, where it is one.
+    /// Returns the compact form, where it is one.
     pub fn compact(&self) -> Option<&Arc<CompactRows>> {
         match self {
             Self::Plain(_) | Self::Single(_) => None,

@@ -1,24 +1,24 @@
-//! The solar band of data: where its values come from, and the mark that goes with them.
+//! Solar band of data: the source of its values, and the mark that goes with them.
 //!
-//! Data and descriptions that say nothing of the solar band are used with their visible values; whoever asks is told
-//! ([`SolarSource`]). Where a description gives solar properties of some of its materials only, the computed band is a
-//! mixture: the words [`PARTLY_VISIBLE`] stand in the dataset's own text then, which every format keeps, and make the
-//! finding of the same name whenever it is read.
+//! Data and descriptions without a solar band are used with their visible values, as [`SolarSource`] reports. Where a
+//! description gives solar properties of some of its materials only, the computed band is a mixture: the words
+//! [`PARTLY_VISIBLE`] stand in the dataset's own text then, which every format keeps, and make the finding of the same
+//! name whenever it is read.
 
 use super::{Band, Btdf, Dataset, Finding};
 
-/// A spectral band.
+/// Spectral band.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum BandName {
     /// Light, weighted by the eye.
     #[default]
     Visible,
-    /// The whole of the sun's radiation.
+    /// Solar radiation over its whole spectrum.
     Solar,
 }
 
 impl BandName {
-    /// The word of files.
+    /// Returns the key in files.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Visible => "Visible",
@@ -27,19 +27,20 @@ impl BandName {
     }
 }
 
-/// What stands for the solar properties of a system.
+/// Source of the solar properties of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SolarSource {
-    /// Its own.
+    /// Solar data of the system.
     Own,
-    /// Its own, but for materials that have none: there the visible ones.
+    /// Solar data of the system, with the visible properties of materials that have none.
     Partly,
-    /// The visible ones.
+    /// Visible properties of the system.
     Visible,
 }
 
 impl SolarSource {
-    /// Of a description of which some materials have solar properties of their own.
+    /// Returns the source for a description, from the number of materials with solar properties of their own and the
+    /// number of all materials.
     pub const fn of([given, all]: [usize; 2]) -> Self {
         match (given, given < all) {
             (0, _) => Self::Visible,
@@ -48,7 +49,7 @@ impl SolarSource {
         }
     }
 
-    /// As results say it.
+    /// Returns the label in results.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Own => "solar data",
@@ -62,7 +63,7 @@ impl SolarSource {
 pub const PARTLY_VISIBLE: [&str; 2] = ["solar-partly-visible", "Solar band: visible taken as solar for"];
 
 impl Dataset {
-    /// The functions of a band; the visible ones where the data have not all of them as solar.
+    /// Returns the functions of a band; the visible ones where the data have not all of them as solar.
     pub fn band(&self, name: BandName) -> &Band {
         let whole = |solar: &&Band| self.visible.components().iter().all(|one| solar.get(*one).is_some());
         match (name, self.solar.as_ref().filter(whole)) {
@@ -71,7 +72,7 @@ impl Dataset {
         }
     }
 
-    /// Transmission of light from outside in a band; the visible one where the data have none that is solar.
+    /// Returns the transmission of light from outside in a band; the visible one where the data have no solar one.
     pub fn transmission_of(&self, name: BandName) -> Option<&Btdf> {
         match (name, self.solar.as_ref().and_then(|solar| solar.transmission_front.as_ref())) {
             (BandName::Solar, Some(solar)) => Some(solar),
@@ -79,12 +80,12 @@ impl Dataset {
         }
     }
 
-    /// What [`Self::transmission_of`] gives as solar.
+    /// Returns the source of the solar values that [`Self::transmission_of`] returns.
     pub fn solar_source(&self) -> SolarSource {
         self.source(self.solar.as_ref().is_some_and(|solar| solar.transmission_front.is_some()))
     }
 
-    /// What [`Self::band`] gives as solar.
+    /// Returns the source of the solar values that [`Self::band`] returns.
     pub fn solar_source_of_all(&self) -> SolarSource {
         self.source(!std::ptr::eq(self.band(BandName::Solar), &self.visible))
     }
@@ -109,7 +110,7 @@ impl Dataset {
         self.tell_partly_visible();
     }
 
-    /// The finding of a mark that stands in the dataset's text; nothing without one.
+    /// Adds the finding of a mark that stands in the dataset's text; does nothing without one.
     pub fn tell_partly_visible(&mut self) {
         let [code, words] = PARTLY_VISIBLE;
         let told = self.findings.iter().any(|one| one.code == code);

@@ -1,4 +1,4 @@
-//! What a tensor tree sends out: luminances and indicatrices, summed over the tree without ever making it dense.
+//! Light that a tensor tree emits: luminances and indicatrices, summed over the tree without ever making it dense.
 
 use super::Indicatrix;
 use super::pyramid::Pyramid;
@@ -8,7 +8,7 @@ use crate::compute::direction::Incident;
 use std::f64::consts::PI;
 
 impl TensorTree {
-    /// Emergent luminance \[cd/m²\] from the illuminance \[lx\] that arrives through every cell of
+    /// Computes the emergent luminance \[cd/m²\] from the illuminance \[lx\] that arrives through every cell of
     /// [`TensorTree::incident_grid`] (façade frame, row by row). Panics when the counts differ.
     ///
     /// The result stands on [`RingBasis::equal_area`]: the emergent grid of the tree with straightened azimuth
@@ -24,8 +24,8 @@ impl TensorTree {
         (grid.rings(), luminance)
     }
 
-    /// As [`TensorTree::luminance`], on the emergent grid itself (façade frame, row by row), where the tree has one
-    /// that does not turn with the light: rank 4 only.
+    /// Computes the luminance like [`TensorTree::luminance`], but on the emergent grid itself (façade frame, row by
+    /// row), where the tree has one that does not turn with the light: rank 4 only.
     pub fn luminance_on_grid(&self, illuminance: &[f64]) -> Option<Vec<f64>> {
         assert_eq!(illuminance.len(), self.incident_grid().len(), "one illuminance an incident cell");
         (self.rank() == TreeRank::Four).then(|| self.luminance_anisotropic(illuminance))
@@ -44,15 +44,16 @@ impl TensorTree {
         self.turned(&out.spread())
     }
 
-    /// Emergent luminance \[cd/m²\] from light of one direction with the given illuminance \[lx\] on the element.
+    /// Computes the emergent luminance \[cd/m²\] from light of one direction with the given illuminance \[lx\] on the
+    /// element.
     pub fn sun_luminance(&self, incident: Incident, illuminance: f64) -> (RingBasis, Vec<f64>) {
         let Indicatrix { basis, mut q } = self.indicatrix(incident);
         q.iter_mut().for_each(|q| *q *= illuminance);
         (basis, q)
     }
 
-    /// The emergent distribution of the incident cell that holds the direction, on [`RingBasis::equal_area`]; turned
-    /// to the exact azimuth for rank 3. All zero for directions from behind.
+    /// Returns the emergent distribution of the incident cell that holds the direction, on [`RingBasis::equal_area`];
+    /// turned to the exact azimuth for rank 3. All zero for directions from behind.
     pub fn indicatrix(&self, incident: Incident) -> Indicatrix {
         let grid = self.incident_grid();
         let q = match (self.disk(incident.0), self.rank()) {
@@ -69,7 +70,7 @@ impl TensorTree {
         Indicatrix { basis: grid.rings(), q }
     }
 
-    /// Emergent square, in the tree's axes, for one finest incident cell given by its incident coordinates.
+    /// Returns the emergent square, in the tree's axes, for one finest incident cell given by its incident coordinates.
     fn slice(&self, incident: &[usize]) -> Vec<f64> {
         let mut out = Pyramid::new(self.incident_grid().level());
         self.slice_node(0, 0, incident, [0, 0], &mut out);
@@ -91,7 +92,7 @@ impl TensorTree {
         }
     }
 
-    /// q on the ring cells for incidence in one ring of sinθ at façade azimuth 0 (rank 3).
+    /// Returns q on the ring cells for incidence in one ring of sinθ at façade azimuth 0 (rank 3).
     fn relative_row(&self, ring: usize) -> Vec<f64> {
         let grid = self.incident_grid();
         let resolution = grid.resolution();
@@ -102,7 +103,7 @@ impl TensorTree {
         grid.to_rings(&mirrored)
     }
 
-    /// A grid in the tree's axes from one in the façade frame, or the way back.
+    /// Converts a grid in the tree's axes to the façade frame, or back.
     fn turned(&self, values: &[f64]) -> Vec<f64> {
         let resolution = self.incident_grid().resolution();
         (0..values.len())
@@ -143,12 +144,12 @@ impl TensorTree {
     }
 }
 
-/// Cells of one ring of [`RingBasis::equal_area`].
+/// Returns the cells of one ring of [`RingBasis::equal_area`].
 fn ring_cells(ring: usize) -> std::ops::Range<usize> {
     4 * ring * ring..4 * (ring + 1) * (ring + 1)
 }
 
-/// Totals of equal sectors handed over to `n` equal sectors, both starting at azimuth 0.
+/// Distributes totals of equal sectors over `n` equal sectors, both starting at azimuth 0.
 fn sectors(totals: &[f64], n: usize) -> Vec<f64> {
     let mut out = vec![0.0; n];
     let ratio = n as f64 / totals.len() as f64;
@@ -164,7 +165,7 @@ fn sectors(totals: &[f64], n: usize) -> Vec<f64> {
     out
 }
 
-/// Ring values turned by an azimuth, split between the two sectors that a sector then touches.
+/// Rotates ring values by an azimuth, split between the two sectors that a sector then touches.
 fn turn_rings(grid: SquareGrid, values: &[f64], phi: f64) -> Vec<f64> {
     let mut out = vec![0.0; values.len()];
     for ring in 0..grid.resolution() / 2 {

@@ -1,14 +1,14 @@
-//! Tensor trees against reciprocity: the same function for light going the other way, and how far two trees differ.
+//! Tensor trees and reciprocity: the function for light in the opposite direction, and the difference of two trees.
 
 use super::tensor_tree::{TensorTree, TreeNode, TreeRank, radial_coordinate, rotate};
 use crate::compute::basis::{disk_from_square, square_from_disk};
 
 impl TensorTree {
-    /// The same function for light going the other way, by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
+    /// Returns the function for light in the opposite direction, by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
     ///
-    /// Rank 4: an exchange of the two squares, exact. Rank 3: the exchanged function is no tree of the same cells; it
-    /// is averaged over them anew (27 points a leaf), with τ for uniform light kept exactly. A rotationally symmetric
-    /// system is taken as mirror-symmetric too, as all that are measured or built are.
+    /// Rank 4: an exchange of the two squares, exact. Rank 3: the exchanged function is not a tree of the same cells;
+    /// it is averaged over them again (27 points per leaf), with τ for uniform light kept exactly. A rotationally
+    /// symmetric system is taken as mirror-symmetric too, as all that are measured or built are.
     pub fn reversed(&self) -> Self {
         match self.rank() {
             TreeRank::Four => {
@@ -72,7 +72,7 @@ impl TensorTree {
         tree
     }
 
-    /// Weighted mean relative difference from another tree of the same rank, as in
+    /// Returns the weighted mean relative difference from another tree of the same rank, as in
     /// [`super::reciprocity_error`]; `None` for different ranks.
     pub(super) fn relative_difference(&self, other: &Self) -> Option<f64> {
         if self.rank() != other.rank() {
@@ -115,7 +115,7 @@ impl TensorTree {
     }
 }
 
-/// A full tree of means, with equal children merged and the unused half left zero.
+/// Builds a full tree of means, with equal children merged and the unused half left zero.
 pub(super) fn build_isotropic(
     levels_below: u32,
     corner: [usize; 3],

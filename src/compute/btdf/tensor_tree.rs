@@ -14,17 +14,17 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// How many coordinates a tree has.
+/// Number of coordinates of a tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TreeRank {
-    /// Rotationally symmetric: sinθ of incidence, and the emergent square relative to the azimuth of incidence.
+    /// Rank 3, rotationally symmetric: sinθ of incidence, and the emergent square relative to the azimuth of incidence.
     Three,
-    /// Incident square and emergent square.
+    /// Rank 4: incident square and emergent square.
     Four,
 }
 
 impl TreeRank {
-    /// Number of coordinates.
+    /// Returns the number of coordinates.
     pub const fn dimensions(self) -> usize {
         match self {
             Self::Three => 3,
@@ -32,23 +32,23 @@ impl TreeRank {
         }
     }
 
-    /// Children of every branch.
+    /// Returns the number of children of every branch.
     pub const fn children(self) -> usize {
         1 << self.dimensions()
     }
 }
 
-/// How the squares' axes stand to the façade frame, through-names on both sides.
+/// Orientation of the squares' axes to the façade frame, with through directions on both sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TreeAxes {
-    /// Light from outside: (x, −y), as [`AzimuthMap::KLEMS_FRONT`].
+    /// Axes for light from outside: (x, −y), as [`AzimuthMap::KLEMS_FRONT`].
     Front,
-    /// Light from inside: (−x, y), as [`AzimuthMap::KLEMS_BACK`].
+    /// Axes for light from inside: (−x, y), as [`AzimuthMap::KLEMS_BACK`].
     Back,
 }
 
 impl TreeAxes {
-    /// The same relation for azimuths.
+    /// Returns the azimuth map of these axes.
     pub const fn azimuth(self) -> AzimuthMap {
         match self {
             Self::Front => AzimuthMap::KLEMS_FRONT,
@@ -56,7 +56,7 @@ impl TreeAxes {
         }
     }
 
-    /// Disk coordinates in the tree's axes. An involution: the same for the way back.
+    /// Converts disk coordinates to the tree's axes. An involution: the same for the way back.
     pub(super) fn turn(self, [x, y]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Front => [x, -y],
@@ -64,7 +64,7 @@ impl TreeAxes {
         }
     }
 
-    /// Grid cell of the tree's axes ↔ of the façade frame.
+    /// Converts a grid cell between the tree's axes and the façade frame.
     pub(super) const fn turn_cell(self, [ix, iy]: [usize; 2], resolution: usize) -> [usize; 2] {
         match self {
             Self::Front => [ix, resolution - 1 - iy],
@@ -73,36 +73,36 @@ impl TreeAxes {
     }
 }
 
-/// A node of a tree in its list form.
+/// Node of a tree in its list form.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TreeNode {
-    /// The same q in the whole box. \[1/sr\]
+    /// Constant q in the whole box. \[1/sr\]
     Leaf(f64),
     /// Index of the first of 2^rank consecutive children.
     Branch(u32),
 }
 
-/// Why a list of nodes is no tree.
+/// Reason why a list of nodes is not a tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum TreeError {
-    /// Nothing at all.
+    /// List without nodes.
     #[error("the tree has no nodes")]
     Empty,
-    /// A branch names children that do not follow it or are not in the list.
+    /// Branch that names children that do not follow it or are not in the list.
     #[error("node {0} names children that are not in the list behind it")]
     Children(usize),
-    /// Finer than any instrument or simulation.
+    /// Tree finer than any instrument or simulation.
     #[error("the tree is more than {MAX_LEVEL} levels deep")]
     Depth,
-    /// Two branches name the same children: what looks small could have more leaves than can be counted.
+    /// Two branches with the same children: what looks small could have more leaves than can be counted.
     #[error("node {0} names children that another node has already")]
     Shared(usize),
-    /// A value that is negative or not finite.
+    /// Value that is negative or not finite.
     #[error("node {0} holds a value that is negative or not finite")]
     Value(usize),
 }
 
-/// A BTDF or BRDF as a tensor tree.
+/// BTDF or BRDF as a tensor tree.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TensorTree {
     rank: TreeRank,
@@ -115,7 +115,7 @@ pub struct TensorTree {
 }
 
 impl TensorTree {
-    /// From nodes, the root first and every branch before its children.
+    /// Creates a tree from nodes, the root first and every branch before its children.
     pub fn new(rank: TreeRank, axes: TreeAxes, nodes: Vec<TreeNode>) -> Result<Self, TreeError> {
         if nodes.is_empty() {
             return Err(TreeError::Empty);
@@ -150,37 +150,38 @@ impl TensorTree {
         Ok(tree)
     }
 
-    /// Rank.
+    /// Returns the rank.
     pub const fn rank(&self) -> TreeRank {
         self.rank
     }
 
-    /// How its squares stand to the façade frame.
+    /// Returns the orientation of the squares' axes to the façade frame.
     pub const fn axes(&self) -> TreeAxes {
         self.axes
     }
 
-    /// The nodes, root first.
+    /// Returns the nodes, root first.
     pub fn nodes(&self) -> &[TreeNode] {
         &self.nodes
     }
 
-    /// Number of leaves.
+    /// Returns the number of leaves.
     pub fn leaves(&self) -> usize {
         self.nodes.iter().filter(|node| matches!(node, TreeNode::Leaf(_))).count()
     }
 
-    /// The finest incident (and emergent) grid in the façade frame.
+    /// Returns the finest incident (and emergent) grid in the façade frame.
     pub const fn incident_grid(&self) -> SquareGrid {
         self.grid
     }
 
-    /// Number of cells along one side of the finest incident square. Rank 3 resolves sinθ in half as many steps.
+    /// Returns the number of cells along one side of the finest incident square. Rank 3 resolves sinθ in half as many
+    /// steps.
     pub const fn incident_resolution(&self) -> usize {
         self.grid.resolution()
     }
 
-    /// Directional-hemispherical transmittance for every cell of [`Self::incident_grid`], façade frame.
+    /// Returns the directional-hemispherical transmittance for every cell of [`Self::incident_grid`], façade frame.
     pub fn tau_by_cell(&self) -> Vec<f64> {
         let resolution = self.grid.resolution();
         self.grid
@@ -195,12 +196,12 @@ impl TensorTree {
             .collect()
     }
 
-    /// Largest τ of any incident cell.
+    /// Returns the largest τ of any incident cell.
     pub fn tau_max(&self) -> f64 {
         self.tau.iter().copied().fold(0.0, f64::max)
     }
 
-    /// q of the leaf that holds the two directions; 0 for directions from behind. \[1/sr\]
+    /// Returns q of the leaf that holds the two directions; 0 for directions from behind. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         let (Some(incident), Some(twin)) = (self.disk(incident.0), self.disk(emergent.through_name())) else {
             return 0.0;
@@ -217,7 +218,7 @@ impl TensorTree {
         }
     }
 
-    /// Directional-hemispherical transmittance of the incident cell that holds the direction.
+    /// Returns the directional-hemispherical transmittance of the incident cell that holds the direction.
     pub fn tau(&self, incident: Incident) -> f64 {
         self.disk(incident.0).map_or(0.0, |disk| match self.rank {
             TreeRank::Four => {
@@ -228,7 +229,7 @@ impl TensorTree {
         })
     }
 
-    /// Transmittance for uniform luminance.
+    /// Returns the transmittance for uniform luminance.
     pub fn tau_hemispherical(&self) -> f64 {
         match self.rank {
             TreeRank::Four => self.tau.iter().sum::<f64>() / self.tau.len() as f64,
@@ -239,13 +240,14 @@ impl TensorTree {
         }
     }
 
-    /// Directions to list τ by: the centres of Klems' full basis, θ = 0, 10, 20, … 70, 82.5°, azimuths counted
-    /// as Klems counts them for light from outside, which is also the way of a front tree's square. Only the centres matter: τ belongs to the tree's cell that holds them, not to the Klems patch.
+    /// Returns directions to list τ by: the centres of Klems' full basis, θ = 0, 10, 20, … 70, 82.5°, azimuths counted
+    /// as Klems counts them for light from outside, which is also the way of a front tree's square. Only the centres
+    /// matter: τ belongs to the tree's cell that holds them, not to the Klems patch.
     pub fn incident_listing(&self) -> RingBasis {
         RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
     }
 
-    /// Disk coordinates in the tree's axes; `None` from behind.
+    /// Returns disk coordinates in the tree's axes; `None` from behind.
     pub(super) fn disk(&self, d: Dir<Facade>) -> Option<[f64; 2]> {
         let v = d.vector();
         // The square has a border on the vertical meridian, where suns are often put. Such directions count to the
@@ -254,7 +256,7 @@ impl TensorTree {
         (v.z >= -1e-12).then(|| self.axes.turn([x, v.y]))
     }
 
-    /// Ring of equal steps of sinθ that holds a point of the disk.
+    /// Returns the ring of equal steps of sinθ that holds a point of the disk.
     pub(super) fn ring(&self, disk: [f64; 2]) -> usize {
         let rings = self.grid.resolution() / 2;
         rings - 1 - ((radial_coordinate(disk) * self.grid.resolution() as f64) as usize).min(rings - 1)
@@ -281,7 +283,7 @@ impl TensorTree {
         }
     }
 
-    /// Every leaf with its level and the corner of its box in cells of that level.
+    /// Calls `f` for every leaf, with its level and the corner of its box in cells of that level.
     pub(super) fn for_each_leaf(&self, f: &mut impl FnMut(u32, [usize; 4], f64)) {
         self.walk(0, 0, [0; 4], f);
     }
@@ -328,18 +330,18 @@ impl TensorTree {
     }
 }
 
-/// Incident coordinate of rank 3; the small shift puts borders into the ring farther out, as Radiance does.
+/// Returns the incident coordinate of rank 3; the small shift puts borders into the ring farther out, as Radiance does.
 pub(super) fn radial_coordinate(disk: [f64; 2]) -> f64 {
     (0.5 - 1e-12 - 0.5 * disk[0].hypot(disk[1])).max(0.0)
 }
 
-/// A point turned counter-clockwise.
+/// Returns a point rotated counter-clockwise.
 pub(super) fn rotate([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
     let (sin, cos) = angle.sin_cos();
     [cos * x - sin * y, sin * x + cos * y]
 }
 
-/// Number of the concentric frame, from the centre, in which a grid cell lies.
+/// Returns the number of the concentric frame, from the centre, in which a grid cell lies.
 pub(super) fn frame_of([ix, iy]: [usize; 2], resolution: usize) -> usize {
     let half = resolution / 2;
     let from_centre = |i: usize| if i >= half { i - half } else { half - 1 - i };

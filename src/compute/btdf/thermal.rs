@@ -1,9 +1,9 @@
-//! What makers' files say about a product besides its light: for heat balances and frames of other programs.
+//! Data of makers' files on a product besides its light: for heat balances and frames of other programs.
 //!
 //! Nothing here takes part in a computation of light. It is kept so that a file that is read and written again still
 //! says what was measured.
 
-/// Which of the numbers.
+/// Key of a thermal value or extent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ThermalKey {
     /// Thermal conductivity across the product. \[W/(m K)\]
@@ -27,7 +27,7 @@ pub enum ThermalKey {
 }
 
 impl ThermalKey {
-    /// All of them, in the order of files and listings.
+    /// All keys, in the order of files and listings.
     pub const ALL: [Self; 9] = [
         Self::Conductivity,
         Self::AirPermeability,
@@ -40,7 +40,7 @@ impl ThermalKey {
         Self::Height,
     ];
 
-    /// The word in sentences.
+    /// Returns the name in sentences.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Conductivity => "conductivity",
@@ -55,7 +55,7 @@ impl ThermalKey {
         }
     }
 
-    /// The key in JSON, with the unit where there is one.
+    /// Returns the key in JSON, with the unit where there is one.
     pub const fn json(self) -> &'static str {
         match self {
             Self::Conductivity => "conductivity_w_mk",
@@ -70,7 +70,7 @@ impl ThermalKey {
         }
     }
 
-    /// The largest number that can be meant: 1 for shares.
+    /// Returns the largest valid value: 1 for shares.
     pub const fn most(self) -> f64 {
         match self {
             Self::EmissivityFront
@@ -87,18 +87,19 @@ impl ThermalKey {
 /// [`Dataset::thickness`](super::Dataset::thickness), since light needs it too.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Thermal {
-    /// Kind of device in the words of LBNL's schema, e.g. `Woven shade`; empty where none is told.
+    /// Kind of device in the words of LBNL's schema, e.g. `Woven shade`; empty where none is given.
     pub device: String,
     values: [Option<f64>; ThermalKey::ALL.len()],
 }
 
 impl Thermal {
-    /// One of the numbers.
+    /// Returns one of the values.
     pub const fn get(&self, key: ThermalKey) -> Option<f64> {
         self.values[key as usize]
     }
 
-    /// Sets one of the numbers; what is negative, not finite or above [`ThermalKey::most`] is not taken and gives `false`.
+    /// Sets one of the values; what is negative, not finite or above [`ThermalKey::most`] is not stored and gives
+    /// `false`.
     pub fn set(&mut self, key: ThermalKey, value: f64) -> bool {
         let sound = value.is_finite() && value >= 0.0 && value <= key.most();
         if sound {
@@ -107,17 +108,17 @@ impl Thermal {
         sound
     }
 
-    /// Is nothing known?
+    /// Whether no value is known.
     pub fn is_empty(&self) -> bool {
         self.device.is_empty() && self.values.iter().all(Option::is_none)
     }
 
-    /// What is known, in the order of [`ThermalKey::ALL`].
+    /// Returns the known values, in the order of [`ThermalKey::ALL`].
     pub fn known(&self) -> impl Iterator<Item = (ThermalKey, f64)> {
         ThermalKey::ALL.into_iter().filter_map(|key| Some((key, self.get(key)?)))
     }
 
-    /// The same product seen from the other side.
+    /// Returns the data of the product seen from the other side.
     #[must_use]
     pub fn swapped(mut self) -> Self {
         self.values.swap(ThermalKey::EmissivityFront as usize, ThermalKey::EmissivityBack as usize);

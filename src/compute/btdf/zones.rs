@@ -1,4 +1,4 @@
-//! Where transmitted light goes, by the elevation at which it leaves.
+//! Shares of transmitted light by the elevation at which it leaves.
 //!
 //! The regular part leaves as it came; the scattered part is summed over the emergent cells. A cell that straddles a
 //! limit is split by projected solid angle, on points that are even in it; one that cannot straddle is taken whole.
@@ -8,11 +8,11 @@ use crate::compute::direction::{Dir, Incident};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Points that a whole hemisphere gets at least. Misses a straight limit by less than 1 % of the flux.
+/// Minimum number of points on a whole hemisphere. Misses a straight limit by less than 1 % of the flux.
 const POINTS: usize = 40_000;
 
-/// Shares of the incident light that leave above each limit of elevation and below the one before it, and below the
-/// last: `N` limits \[rad\], falling, give `N + 1` shares, whose sum is τ of the incidence.
+/// Returns the shares of the incident light that leave above each limit of elevation and below the one before it, and
+/// below the last: `N` limits \[rad\], falling, give `N + 1` shares, whose sum is τ of the incidence.
 ///
 /// `up`: the vertical in the frame of the data (façade: y; roof: z).
 pub fn zone_shares<const N: usize>(btdf: &Btdf, incident: Incident, up: DVec3, limits: [f64; N]) -> Vec<f64> {

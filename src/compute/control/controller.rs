@@ -1,89 +1,90 @@
 //! A controller that follows a rule through time: thresholds, hysteresis, minimum dwell time, night.
 //!
-//! What keeps the sun out is never delayed: the controller closes at once, and waits only before it opens. A rule that
+//! Closing against direct sun is never delayed: the controller closes at once, but waits before it opens. A rule that
 //! rounds to the nearest state (redirection) waits before every movement.
 
 use super::curve::{curve_range, curve_value, redirecting_tilt, retro_tilt};
 use super::cut_off::SlatRow;
 use super::states::{by_openness, most_closed, most_open, nearest, towards_closed};
 
-/// How a demanded value becomes a state.
+/// Method by which a demanded value is rounded to a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rounding {
-    /// The least closed state that reaches it.
+    /// The least closed state whose value reaches the demanded one.
     Closed,
-    /// The nearest one.
+    /// State whose value is nearest to the demanded one.
     Nearest,
 }
 
-/// A state by the clock.
+/// Daily period in which one state is held by the clock.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Period {
-    /// From this hour of the day …
+    /// Hour of the day at which the period begins. \[h\]
     pub from: f64,
-    /// … until this one; before `from`: over midnight.
+    /// Hour of the day at which the period ends. \[h\] A value before `from` means a period over midnight.
     pub to: f64,
-    /// Index of the state.
+    /// Index of the state that is held.
     pub state: usize,
 }
 
-/// What is demanded while the sun is on the façade, or at all times.
+/// Control rule: the state demanded while the sun is on the façade, or at all times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Rule {
-    /// The most open state that lets no direct light through.
+    /// Cut-off control: the most open state that lets no direct light through.
     CutOff {
-        /// The slats.
+        /// Section of the slats.
         section: SlatRow,
-        /// By how much a tilt may be missed. \[rad\]
+        /// Deviation of the tilt from its set value that the cut-off has to bear. \[rad\]
         tolerance: f64,
     },
-    /// Closed while the façade gets direct sun (DIN 5034).
+    /// Closed state while the façade gets direct sun (DIN 5034).
     Din5034,
-    /// A table of (profile angle, value), profile angles rising.
+    /// Control curve: a table of (profile angle, value), profile angles rising, and the rounding to a state.
     Curve(Vec<(f64, f64)>, Rounding),
-    /// Mirror slats that throw the sun back.
+    /// Mirror slats that reflect the sun back towards it.
     RetroReflect(Rounding),
-    /// Mirror slats that send the sun into the room at this elevation. \[rad\]
+    /// Mirror slats that redirect the sun into the room at a given elevation. \[rad\]
     Redirect(f64, Rounding),
-    /// Always one state.
+    /// One state at all times.
     Fixed(usize),
-    /// By the clock; between the periods the state that is given first.
+    /// Schedule of daily periods; the state given first holds between the periods.
     User(usize, Vec<Period>),
-    /// Rows of a table: (seconds since the beginning of the year, index of the state), rising; each holds until the next,
-    /// the last to the end of the year.
+    /// Table of (seconds since the beginning of the year, index of the state), times rising. Each row holds until the
+    /// next, the last to the end of the year.
     Table(Vec<(f64, usize)>),
 }
 
-/// Everything that a controller is set to.
+/// All settings of a controller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Values of the device's states, in their own unit; tilts in radians.
     pub values: Vec<f64>,
-    /// What is followed.
+    /// Control rule that the controller follows.
     pub rule: Rule,
-    /// State that DIN 5034 and `close_above` take.
+    /// Index of the state chosen by [`Rule::Din5034`] and above `close_above`.
     pub closed: usize,
-    /// State by day without direct sun.
+    /// Index of the state by day without direct sun.
     pub open: usize,
-    /// State while the sun is down.
+    /// Index of the state while the sun is below the horizon.
     pub night: usize,
     /// Direct illuminance of the façade above which there is direct sun. \[lx\]
     pub threshold: f64,
-    /// Illuminance of the façade in all above which the device closes, whatever the rule. \[lx\]
+    /// Global illuminance of the façade above which the device closes, whatever the rule. \[lx\]
     pub close_above: Option<f64>,
-    /// Illuminance indoors below which it is not closed further than the rule's slats: takes back what DIN 5034 and
-    /// `close_above` closed. \[lx\]
+    /// Indoor illuminance below which the device closes no further than the rule's slats do: undoes what
+    /// [`Rule::Din5034`] and `close_above` closed. \[lx\]
     pub open_below: Option<f64>,
-    /// Share of a threshold at which it lets go again, 0 … 1; of `open_below` its inverse.
+    /// Share of a threshold at which it is released again, 0 … 1; for `open_below` the inverse of that share.
     pub release: f64,
-    /// How much more open than its state the rule must be before the device opens, in the unit of the values.
+    /// Hysteresis: how much more open than the present state the rule must be before the device opens, in the unit of
+    /// the values.
     pub hysteresis: f64,
-    /// Least time between a movement and the next opening. \[s\]
+    /// Dwell time: minimum time between a movement and the next opening. \[s\]
     pub dwell: f64,
 }
 
 impl Settings {
-    /// A rule without thresholds, hysteresis and dwell time. `None` without states.
+    /// Creates settings from a rule, without thresholds, hysteresis and dwell time. `None` without states.
     pub fn new(values: Vec<f64>, rule: Rule) -> Option<Self> {
         let (open, closed) = (most_open(&values)?, most_closed(&values)?);
         Some(Self {
@@ -103,8 +104,9 @@ impl Settings {
 }
 
 impl Settings {
-    /// What the rule asks for over profile angles from 0 to 90°, in steps of 1°, for a sun without extent, kept within the
-    /// values of the device: what a picture shows. \[rad\] Tables as they are; empty for rules without a curve.
+    /// Returns the control curve over profile angles from 0 to 90° in steps of 1°, for a sun without extent, limited to
+    /// the values of the device: the curve of diagrams. \[rad\] Tables are returned unchanged; the list is empty for
+    /// rules without a curve.
     pub fn curve(&self) -> Vec<(f64, f64)> {
         let range = self.range();
         let sampled = |value: &dyn Fn(f64) -> Option<f64>| {
@@ -120,62 +122,63 @@ impl Settings {
         }
     }
 
-    /// Least and greatest value of the states.
+    /// Returns the minimum and maximum value of the states.
     fn range(&self) -> [f64; 2] {
         self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(*v), b.max(*v)])
     }
 }
 
-/// What the controller's sensors and clock say.
+/// Inputs of the controller: readings of its sensors and clock.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs {
-    /// Hour of the day, local. \[h\]
+    /// Local hour of the day. \[h\]
     pub hour: f64,
-    /// Seconds since the beginning of the year, local standard time, in a calendar of 366 days; `None` without a date. \[s\]
+    /// Seconds since the beginning of the year, local standard time, in a calendar of 366 days; `None` without a date.
+    /// \[s\]
     pub of_year: Option<f64>,
-    /// Is any of the sun above the horizon?
+    /// Whether any part of the sun is above the horizon.
     pub day: bool,
-    /// Profile angle of the sun's centre, and of the least and greatest of its visible disc; `None` while nothing of it is
-    /// before the façade. \[rad\]
+    /// Profile angles of the sun's centre and of its visible disc; `None` while no part of it is in front of the
+    /// façade. \[rad\]
     pub sun: Option<SunAt>,
-    /// Illuminance of the façade by the sun. \[lx\]
+    /// Illuminance of the façade by direct sun. \[lx\]
     pub facade_direct: f64,
-    /// The same by sun, sky and ground. \[lx\]
+    /// Illuminance of the façade by sun, sky and ground. \[lx\]
     pub facade_global: f64,
-    /// What a sensor in the room reads, where there is one. \[lx\]
+    /// Reading of the sensor in the room, if there is one. \[lx\]
     pub indoor: Option<f64>,
 }
 
-/// The sun in the section. \[rad\]
+/// Profile angles of the sun in the section across the slats. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunAt {
-    /// Profile angle of the centre, kept within the span.
+    /// Profile angle of the sun's centre, limited to `span`. \[rad\]
     pub centre: f64,
-    /// Least and greatest profile angle of the visible disc.
+    /// Minimum and maximum profile angle of the visible disc. \[rad\]
     pub span: [f64; 2],
 }
 
-/// Why a state was chosen.
+/// Reason for the choice of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
-    /// It always is.
+    /// State of a rule with one fixed state.
     Fixed,
-    /// The clock.
+    /// State of a schedule or table.
     Schedule,
-    /// The sun is down.
+    /// Sun below the horizon.
     Night,
-    /// It is day, but no direct sun on the façade.
+    /// Day without direct sun on the façade.
     NoSun,
-    /// The rule for direct sun.
+    /// Direct sun, for which the rule was followed.
     Sun,
-    /// The façade is brighter than `close_above`.
+    /// Façade brighter than [`Settings::close_above`].
     Bright,
-    /// The room is darker than `open_below`.
+    /// Room darker than [`Settings::open_below`].
     Dark,
 }
 
 impl Reason {
-    /// The word in tables.
+    /// Returns the key of the reason in tables.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -189,22 +192,22 @@ impl Reason {
     }
 }
 
-/// What a step did.
+/// Result of one time step of the controller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
     /// Index of the state.
     pub state: usize,
-    /// Value that the rule asks for without regard to states; `None` where it asks for none.
+    /// Value that the rule demands without regard to the states; `None` where it demands none.
     pub demanded: Option<f64>,
-    /// Why.
+    /// Reason for the state demanded.
     pub reason: Reason,
-    /// Another state than the step before.
+    /// Whether the state differs from that of the step before.
     pub moved: bool,
-    /// Hysteresis or dwell time keeps it from the state that is wanted.
+    /// Whether hysteresis or dwell time prevents the demanded state.
     pub held: bool,
 }
 
-/// Steps through time.
+/// Controller of a device, stepped through time.
 #[derive(Debug, Clone)]
 pub struct Controller {
     settings: Settings,
@@ -215,7 +218,7 @@ pub struct Controller {
     dark: bool,
 }
 
-/// What is wanted at a step, before it is weighed against what is.
+/// State demanded at a step, before hysteresis and dwell time.
 struct Wanted {
     state: usize,
     demanded: Option<f64>,
@@ -223,17 +226,17 @@ struct Wanted {
 }
 
 impl Controller {
-    /// At no state yet: the first step takes what is wanted.
+    /// Creates a controller without a state: the first step takes the demanded state.
     pub const fn new(settings: Settings) -> Self {
         Self { settings, state: None, moved_at: f64::NEG_INFINITY, lit: false, bright: false, dark: false }
     }
 
-    /// What it was set to.
+    /// Returns the settings of the controller.
     pub const fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// The state at `time` \[s\], which does not go back.
+    /// Computes the state at `time` \[s\], which must not decrease from step to step.
     pub fn step(&mut self, time: f64, inputs: &Inputs) -> Decision {
         self.read(inputs);
         let wanted = self.wanted(inputs, 0.0);
@@ -256,7 +259,7 @@ impl Controller {
         Decision { state, demanded: wanted.demanded, reason: wanted.reason, moved, held: state != wanted.state }
     }
 
-    /// Thresholds with their release.
+    /// Updates the threshold flags from the inputs, with their release.
     fn read(&mut self, inputs: &Inputs) {
         let s = &self.settings;
         let above = |was: bool, limit: f64, value: f64| value > if was { limit * s.release } else { limit };
@@ -269,7 +272,7 @@ impl Controller {
         };
     }
 
-    /// What settings and inputs ask for; slats in the sun closed further by `margin`.
+    /// Returns the state that settings and inputs demand; slats in direct sun are closed further by `margin`.
     fn wanted(&self, inputs: &Inputs, margin: f64) -> Wanted {
         let s = &self.settings;
         let plain = |state, reason| Wanted { state, demanded: None, reason };
@@ -309,7 +312,7 @@ impl Controller {
         by_rule
     }
 
-    /// Demanded value and state of the rule in direct sun.
+    /// Returns the demanded value and state of the rule in direct sun.
     fn in_sun(&self, sun: SunAt, margin: f64) -> (Option<f64>, usize) {
         let s = &self.settings;
         let rounded = |value: f64, rounding: Rounding| match rounding {
@@ -343,7 +346,7 @@ impl Controller {
         (demanded, state.unwrap_or(s.closed))
     }
 
-    /// The state after hysteresis and dwell time.
+    /// Returns the index of the state after hysteresis and dwell time.
     fn weighed(&self, now: usize, wanted: &Wanted, time: f64, inputs: &Inputs) -> usize {
         let s = &self.settings;
         if wanted.state == now || matches!(wanted.reason, Reason::Fixed | Reason::Schedule) {
@@ -374,7 +377,7 @@ impl Controller {
         if closes(careful) { now } else { careful }
     }
 
-    /// Is one state more open than another, in the order by which the rule rounds?
+    /// Whether state `a` is more open than state `b`, in the order by which the rule rounds.
     fn more_open(&self, a: usize, b: usize) -> bool {
         let (a, b) = (self.settings.values[a], self.settings.values[b]);
         match self.settings.rule {
@@ -384,11 +387,12 @@ impl Controller {
     }
 }
 
-/// Index of the most open state that lets no direct light of the span through, even when it is missed by the tolerance.
-/// Where none does, the one that lets least through, and of equal ones the most closed.
+/// Returns the index of the most open state that blocks direct light of all profile angles of `span`, even when the
+/// tilt is off by `tolerance`. Where no state does, returns the one that lets least through, and of equal ones the most
+/// closed.
 ///
 /// # Panics
-/// Without states.
+/// Panics if there are no states.
 pub fn cut_off_state(section: &SlatRow, values: &[f64], tolerance: f64, span: [f64; 2]) -> usize {
     let order = by_openness(values);
     let keeps_out = order.iter().copied().find(|&state| section.blocks(values[state], tolerance, span));

@@ -1,9 +1,9 @@
-//! Demanded values over the profile angle: tables, and the closed forms of mirror slats.
+//! Control curves: demanded values over the profile angle, from tables and from the closed forms of mirror slats.
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Value of a piecewise linear curve of (profile angle, value) points, profile angles rising; constant beyond the
-/// ends. `None` without points.
+/// Returns the value of a piecewise linear curve of (profile angle, value) points at a profile angle, profile angles
+/// rising; constant beyond the ends. `None` without points.
 pub fn curve_value(points: &[(f64, f64)], at: f64) -> Option<f64> {
     let (first, last) = (points.first()?, points.last()?);
     if at <= first.0 {
@@ -17,21 +17,22 @@ pub fn curve_value(points: &[(f64, f64)], at: f64) -> Option<f64> {
     Some(if x1 > x0 { y0 + (y1 - y0) * (at - x0) / (x1 - x0) } else { y1 })
 }
 
-/// Least and greatest value of such a curve between two profile angles. `None` without points.
+/// Returns the minimum and maximum value of a piecewise linear curve between two profile angles. `None` without points.
 pub fn curve_range(points: &[(f64, f64)], [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     let ends = [curve_value(points, low)?, curve_value(points, high)?];
     let inside = points.iter().filter(|point| (low..=high).contains(&point.0)).map(|point| point.1);
     Some(inside.fold([ends[0].min(ends[1]), ends[0].max(ends[1])], |[a, b], value| [a.min(value), b.max(value)]))
 }
 
-/// Tilt of a mirror slat that throws light of a profile angle back where it comes from: the slat stands across the
-/// beam, β = 90° − ψ. \[rad\]
+/// Returns the tilt of a mirror slat that reflects light of profile angle `psi` back towards its source: the slat
+/// stands across the beam, β = 90° − ψ. \[rad\]
 pub fn retro_tilt(psi: f64) -> f64 {
     FRAC_PI_2 - psi
 }
 
-/// Tilt of a mirror slat whose upper face sends light of a profile angle into the room at `elevation` above the
-/// horizontal: reflection turns the light's path by twice the slat's angle, elevation = 2β + ψ. \[rad\]
+/// Returns the tilt of a mirror slat whose upper face redirects light of profile angle `psi` into the room at
+/// `elevation` above the horizontal: reflection turns the light's path by twice the slat's angle, elevation = 2β + ψ.
+/// \[rad\]
 pub fn redirecting_tilt(psi: f64, elevation: f64) -> f64 {
     0.5 * (elevation - psi)
 }
@@ -51,7 +52,7 @@ mod tests {
         assert_eq!(curve_range(&[(0.0, 5.0), (10.0, -1.0), (20.0, 5.0)], [5.0, 15.0]), Some([-1.0, 2.0]));
     }
 
-    /// Mirrors the way of light of profile angle ψ in a slat of tilt β; (inward, upward).
+    /// Mirrors the path of light of profile angle ψ in a slat of tilt β; (inward, upward).
     fn mirrored(psi: f64, tilt: f64) -> [f64; 2] {
         // Light travels inward and down; seen from the outer edge (lowered by β > 0), the slat rises inward.
         let (d, slat) = ([psi.cos(), -psi.sin()], [tilt.cos(), tilt.sin()]);

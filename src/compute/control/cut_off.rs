@@ -1,31 +1,31 @@
 //! Tilts at which slats let no direct light through.
 //!
-//! Neighbouring slats' shadows across a beam of profile angle ψ repeat every s cosψ; light passes straight between them
+//! Shadows of neighbouring slats across a beam of profile angle ψ repeat every s cosψ; light passes between them
 //! unless a slat's extent across the beam is that long: extent(β + ψ) ≥ s cosψ. Flat slats and arcs have an extent that
 //! grows with the angle α = β + ψ between beam and chord alone, so the tilts to avoid are an open interval about −ψ and
 //! its turns by 180°:
 //!
 //! * flat, chord w:                       extent = w sin|α|
-//! * arc, radius R, half opening η:       extent = R (1 − cos(η + |α|)) for |α| ≤ η, by the point where the beam touches
-//!   the arc, else w sin|α|
+//! * arc, radius R, half opening η:       extent = R (1 − cos(η + |α|)) for |α| ≤ η, by the point where the beam
+//!   touches the arc, else w sin|α|
 //!
 //! Polylines and the outlines of thick slats are searched instead, with a bound on how fast extents change.
 
 use crate::compute::system::slats::{SlatArray, SlatProfile, Venetian, arc};
 use std::f64::consts::PI;
 
-/// Slats of one section, infinitely many and infinitely long.
+/// Section of a row of slats, infinitely many and infinitely long.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlatRow {
     /// Shape of a slat at tilt 0.
     pub profile: SlatProfile,
-    /// Vertical pitch. \[m\]
+    /// Vertical pitch of the slats. \[m\]
     pub spacing: f64,
-    /// Greatest distance between two of its points: no beam is wider across it. \[m\]
+    /// Maximum distance between two points of a slat: its extent across a beam is never larger. \[m\]
     reach: f64,
 }
 
-/// Tilts to avoid: between two limits and those turned by any number of half turns. \[rad\]
+/// Tilts that let direct light through: between two limits and those turned by any number of half turns. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Avoid {
     Nothing,
@@ -33,13 +33,14 @@ enum Avoid {
     Everything,
 }
 
-/// Angles closer than this are the same. \[rad\]
+/// Difference below which two angles count as equal. \[rad\]
 const SLACK: f64 = 1e-10;
-/// Step by which polylines are searched. \[rad\]
+/// Step of the search for tilts of polylines. \[rad\]
 const STEP: f64 = PI / 720.0;
 
 impl SlatRow {
-    /// `None` where lengths are not above 0 and finite, an arc is more than a semicircle, or a polyline has no two points.
+    /// Creates a row of slats from profile and pitch. `None` if a length is not above 0 and finite, an arc is more than
+    /// a semicircle, or a polyline has fewer than two different points.
     pub fn new(profile: SlatProfile, spacing: f64) -> Option<Self> {
         let length = |x: f64| x > 0.0 && x.is_finite();
         let sane = match &profile {
@@ -55,8 +56,8 @@ impl SlatRow {
         (sane && length(spacing)).then_some(Self { profile, spacing, reach })
     }
 
-    /// The slats of a described blind, their thickness included: all corners of a solid slat's outline, which stop light
-    /// as the slat does. `None` as for [`new`](Self::new).
+    /// Creates the row of slats of a described blind, their thickness included: all corners of a solid slat's outline,
+    /// which block light as the slat does. `None` as for [`new`](Self::new).
     pub fn of(blind: &Venetian) -> Option<Self> {
         let thick = (blind.thickness > 0.0)
             .then(|| {
@@ -68,12 +69,13 @@ impl SlatRow {
         Self::new(solid.unwrap_or_else(|| blind.profile.clone()), blind.spacing)
     }
 
-    /// Share of light of a profile angle that passes straight between slats of a tilt. \[rad\]
+    /// Returns the share of light of a profile angle that passes directly between slats of a tilt. Angles in \[rad\].
     pub fn direct_share(&self, tilt: f64, psi: f64) -> f64 {
         self.profile.open_share(tilt, self.spacing, psi)
     }
 
-    /// Is all direct light of the profile angles `span` kept out, by every tilt within `tolerance` of `tilt`? \[rad\]
+    /// Whether all direct light of the profile angles `span` is blocked by every tilt within `tolerance` of `tilt`.
+    /// \[rad\]
     pub fn blocks(&self, tilt: f64, tolerance: f64, span: [f64; 2]) -> bool {
         match self.avoid(span) {
             Some(Avoid::Nothing) => true,
@@ -88,8 +90,8 @@ impl SlatRow {
         }
     }
 
-    /// The most open tilt of `range` (nearest to 0; of two equally open ones the positive) that blocks all profile angles
-    /// of `span`, even when it is missed by `tolerance`. \[rad\] `None` where no tilt does.
+    /// Returns the most open tilt of `range` (nearest to 0; of two equally open ones the positive) that blocks all
+    /// profile angles of `span`, even when it is off by `tolerance`. \[rad\] `None` where no tilt does.
     pub fn cut_off(&self, range: [f64; 2], tolerance: f64, span: [f64; 2]) -> Option<f64> {
         let start = 0.0_f64.clamp(range[0], range[1]);
         match self.avoid(span) {
@@ -110,7 +112,8 @@ impl SlatRow {
         }
     }
 
-    /// The tilts to avoid for all profile angles of a span; `None` for polylines, which have no closed form.
+    /// Returns the tilts that let direct light of any profile angle of a span through; `None` for polylines, which have
+    /// no closed form.
     fn avoid(&self, span: [f64; 2]) -> Option<Avoid> {
         let s = self.spacing;
         // Least extent, the extent up to which the beam touches the arc, and the profile angle of a stationary limit.
@@ -142,8 +145,8 @@ impl SlatRow {
         Some(if limits[1] - limits[0] >= PI { Avoid::Everything } else { Avoid::Between(limits[0], limits[1]) })
     }
 
-    /// The least angle between beam and chord at which the extent reaches `needed` \[m → rad\]; `None` where it never
-    /// does.
+    /// Returns the minimum angle between beam and chord at which the extent reaches `needed` \[m → rad\]; `None` where
+    /// it never does.
     fn critical(&self, needed: f64) -> Option<f64> {
         let flat = |width: f64| (needed <= width * (1.0 + 1e-12)).then(|| (needed / width).min(1.0).asin());
         match self.profile {
@@ -160,8 +163,8 @@ impl SlatRow {
         }
     }
 
-    /// Is the extent long enough over a rectangle of tilts and profile angles? Both it and the pitch across the beam
-    /// change no faster than the longest of their parts, so that one value speaks for its neighbourhood.
+    /// Whether the extent is long enough over a rectangle of tilts and profile angles. Both it and the pitch across the
+    /// beam change no faster than the longest of their parts, so that one value bounds its neighbourhood.
     fn blocks_by_search(&self, tilts: [f64; 2], span: [f64; 2]) -> bool {
         let reach = self.reach;
         let surplus = |tilt: f64, psi: f64| self.profile.extent(tilt + psi) - self.spacing * psi.cos();
@@ -187,8 +190,8 @@ impl SlatRow {
         true
     }
 
-    /// From the most open tilt outwards in both senses, in steps, then by bisection. Tilts that block over less than a
-    /// step (0.25°) may be missed: the answer is then a more closed one.
+    /// Searches the cut-off tilt from the most open one outwards in both senses, in steps, then by bisection. Tilts
+    /// that block over less than a step (0.25°) may be missed: the result is then a more closed one.
     fn cut_off_by_search(&self, start: f64, range: [f64; 2], tolerance: f64, span: [f64; 2]) -> Option<f64> {
         let blocks = |tilt: f64| self.blocks(tilt, tolerance, span);
         if blocks(start) {
@@ -212,7 +215,8 @@ impl SlatRow {
     }
 }
 
-/// Greatest distance between two points of a polyline; the chord of others, whose extent no beam exceeds.
+/// Returns the maximum distance between two points of a polyline; for other profiles the chord, which the extent never
+/// exceeds.
 fn diameter(profile: &SlatProfile) -> f64 {
     match profile {
         SlatProfile::Flat { width } | SlatProfile::Arc { width, .. } => *width,

@@ -1,4 +1,4 @@
-//! The functions of a band on common cells in through-names, so that any two can be compared number by number.
+//! Functions of a band on common cells, by through direction, so that any two can be compared number by number.
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{Band, Component, Dataset, Scattered, matrix_roughly_on};
@@ -6,47 +6,48 @@ use crate::compute::direction::Dir;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Finer functions are compared on coarser cells.
+/// Maximum number of cells on which functions are compared; finer functions are compared on Klems cells.
 const MOST_CELLS: usize = 700;
 
-/// One function on the common cells: `q[i · n + o]`, incident cell i, emergent cell o (through-name).
+/// One function on the common cells: `q[i · n + o]`, incident cell i, emergent cell o (through direction).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
     /// Values. \[1/sr\]
     pub q: Vec<f64>,
-    /// Directional-hemispherical value of every incident cell.
+    /// Direct-hemispherical transmittance or reflectance of every incident cell.
     pub tau: Vec<f64>,
 }
 
-/// A turn or mirror image of the hemisphere.
+/// Rotation or mirror image of the hemisphere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Turn {
     /// Up and down exchanged.
     UpDown,
     /// Left and right exchanged.
     LeftRight,
-    /// By 180° about the normal.
+    /// Rotation by 180° about the normal.
     HalfRound,
-    /// By 90° about the normal.
+    /// Rotation by 90° about the normal.
     QuarterRound,
 }
 
-/// The functions of a band on common cells.
+/// Functions of a band on common cells.
 #[derive(Debug, Clone)]
 pub struct Blocks {
-    /// The cells, counted as the façade frame does.
+    /// Common cells, counted as in the façade frame.
     pub basis: RingBasis,
     /// Projected solid angles. \[sr\]
     pub weight: Vec<f64>,
-    /// Cosine of the angle that stands for each cell.
+    /// Cosine of the polar angle that represents each cell.
     pub cosine: Vec<f64>,
-    /// Transmission front, transmission back, reflection front, reflection back, as far as the file itself has them.
+    /// Transmission front, transmission back, reflection front, reflection back; `None` where the file itself does not
+    /// have the function.
     pub given: [Option<Block>; 4],
     turns: [Vec<usize>; 4],
 }
 
 impl Blocks {
-    /// The functions of a band that the source itself holds; `None` without any.
+    /// Creates the blocks of a band from the functions that the source itself holds; `None` if it holds none.
     pub fn new(dataset: &Dataset, band: &Band) -> Option<Self> {
         // Functions derived by reciprocity would agree with their origin whatever is wrong. The dataset's list is about
         // its visible band alone.
@@ -86,12 +87,12 @@ impl Blocks {
         (!components.is_empty()).then_some(Self { basis, weight, cosine, given, turns })
     }
 
-    /// One function.
+    /// Returns the block of one function.
     pub fn get(&self, component: Component) -> Option<&Block> {
         self.given[component as usize].as_ref()
     }
 
-    /// The cell that a cell becomes.
+    /// Returns the index of the cell that `cell` becomes by a turn.
     pub fn turned(&self, turn: Turn, cell: usize) -> usize {
         match turn {
             Turn::UpDown => self.turns[0][cell],
@@ -101,7 +102,8 @@ impl Blocks {
         }
     }
 
-    /// Σ w|a − b| / Σ w(a + b)/2 over all pairs of cells, w the product of projected solid angles; 0 for two zeros.
+    /// Returns Σ w|a − b| / Σ w(a + b)/2 over all pairs of cells, w the product of projected solid angles; 0 for two
+    /// zeros.
     pub fn difference(&self, a: impl Fn(usize, usize) -> f64, b: impl Fn(usize, usize) -> f64) -> f64 {
         let (mut difference, mut sum) = (0.0, 0.0);
         let n = self.weight.len();
@@ -116,34 +118,34 @@ impl Blocks {
         if sum > 0.0 { difference / sum } else { 0.0 }
     }
 
-    /// How far a function is from its own image under a turn.
+    /// Returns the relative difference between a function and its own image under a turn.
     pub fn asymmetry(&self, block: &Block, turn: Turn) -> f64 {
         let n = self.weight.len();
         self.difference(|i, o| block.q[i * n + o], |i, o| block.q[self.turned(turn, i) * n + self.turned(turn, o)])
     }
 
-    /// Reciprocity error of a function against itself: exact for reflections, in names r = f(ω_i, ω_r) =
-    /// f(ω_r, ω_i) is q(i, o) = q(o turned by 180°, i turned by 180°); for the transmission of systems that are alike
-    /// on both sides the same.
+    /// Returns the reciprocity error of a function against itself. Reflections fulfil it exactly: f(ω_i, ω_r) = f(ω_r,
+    /// ω_i) reads, by through direction, q(i, o) = q(o turned by 180°, i turned by 180°). The transmission of systems
+    /// that are alike on both sides fulfils it too.
     pub fn own_reciprocity(&self, block: &Block, factor: impl Fn(usize) -> f64) -> f64 {
         let n = self.weight.len();
         let turn = |k| self.turned(Turn::HalfRound, k);
         self.difference(|i, o| block.q[i * n + o] * factor(o), |i, o| block.q[turn(o) * n + turn(i)] * factor(i))
     }
 
-    /// Mean of τ over the rings, from the normal outwards, with the polar angle of each. \[rad\]
+    /// Returns the mean of τ over each ring, from the normal outwards, with its polar angle. \[rad\]
     pub fn tau_by_ring(&self, block: &Block) -> Vec<(f64, f64)> {
         self.by_ring(&block.tau)
     }
 
-    /// The same of the function read the other way round: the light that would leave if emergence were incidence.
+    /// Returns the ring means of the reversed function: the light that would leave if emergence were incidence.
     pub fn reversed_tau_by_ring(&self, block: &Block) -> Vec<(f64, f64)> {
         let n = self.weight.len();
         let sums: Vec<f64> = (0..n).map(|o| (0..n).map(|i| self.weight[i] * block.q[i * n + o]).sum()).collect();
         self.by_ring(&sums)
     }
 
-    /// Means of values of the cells over the rings, from the normal outwards, with the polar angle of each. \[rad\]
+    /// Returns the means of cell values over the rings, from the normal outwards, with the polar angle of each. \[rad\]
     pub(super) fn by_ring(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let mean = |ring: usize| {
             let (from, to) =
@@ -155,12 +157,12 @@ impl Blocks {
         rings
     }
 
-    /// Mean over the hemisphere by projected solid angle.
+    /// Returns the mean of τ over the hemisphere, weighted by projected solid angle.
     pub fn hemispherical(&self, block: &Block) -> f64 {
         block.tau.iter().zip(&self.weight).map(|(tau, w)| tau * w).sum::<f64>() / std::f64::consts::PI
     }
 
-    /// Share of the light that keeps its cell.
+    /// Returns the share of the light that stays in its cell.
     pub fn straight_share(&self, block: &Block) -> f64 {
         let n = self.weight.len();
         let straight: f64 = (0..n).map(|k| block.q[k * n + k] * self.weight[k] * self.weight[k]).sum();
@@ -169,7 +171,7 @@ impl Blocks {
     }
 }
 
-/// Do all turns map the cells onto each other? Complete rings, sectors centred on the horizontal, an even number.
+/// Whether all turns map the cells onto each other: complete rings, sectors centred on the horizontal, an even number.
 fn even(basis: &RingBasis) -> bool {
     let mut rings = basis.rings().to_vec();
     rings.sort_by(|a, b| a.theta_min.total_cmp(&b.theta_min));

@@ -1,11 +1,11 @@
-//! Blocks that are there twice, empty, or not at all.
+//! Checks for blocks that are copies, empty or missing.
 
 use super::at::At;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BandScope, BlockScope, RepairKind};
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
 
-/// Do two functions hold the same numbers in the same order, as when one is a copy of the other?
+/// Whether two functions hold the same numbers in the same order, as when one is a copy of the other.
 pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     match (&a.scattered, &b.scattered) {
         (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) => a.values() == b.values(),
@@ -17,10 +17,10 @@ pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     }
 }
 
-/// Rounding to four digits changes a value by no more than this share of it.
+/// Maximum relative difference of two equal values of which one is rounded to four digits.
 const ROUNDED: f64 = 6e-4;
 
-/// Is one function a copy of the other, be it rounded?
+/// Whether one function is a copy of the other, exact or rounded.
 fn repeats(a: &Btdf, b: &Btdf) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDED * a.abs().max(b.abs());
     match (&a.scattered, &b.scattered) {
@@ -32,7 +32,7 @@ fn repeats(a: &Btdf, b: &Btdf) -> bool {
     }
 }
 
-/// A solar band that repeats the visible one.
+/// Returns findings about a solar band that repeats the visible one.
 pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
     // What was computed from a description is what that says, in both bands.
     let Some(solar) = dataset.solar.as_ref().filter(|_| dataset.described.is_none()) else { return Vec::new() };
@@ -56,9 +56,9 @@ pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
     alone_copied(dataset, solar, &shared)
 }
 
-/// Single functions that are the same in both bands while others are not. Two that are measured apart never agree in
-/// every digit; a function that does not depend on the band (mirrors without colour, nothing but holes) does so only
-/// where its counterpart of the other side or its transmission nearly does.
+/// Returns findings about single functions that are the same in both bands while others are not. Two separate
+/// measurements never agree in every digit; a function that does not depend on the band (mirrors without colour,
+/// nothing but holes) does so only where its counterpart of the other side or its transmission nearly does.
 fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Diagnosis> {
     let total = |component: &Component| {
         let (a, b) = (dataset.visible.get(*component), solar.get(*component));
@@ -85,10 +85,10 @@ fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Di
     vec![Finding::warning("band-copied", message).into()]
 }
 
-/// Bands whose functions differ by less, as shares of the larger, are those of a neutral material.
+/// Relative difference of functions below which two bands are those of a neutral material, as a share of the larger.
 const NEUTRAL: f64 = 0.02;
 
-/// Are the transmissions of both sides the same numbers, and the reflections?
+/// Whether the transmissions of both sides are the same numbers, and whether the reflections are.
 pub(super) fn copied(band: &Band) -> [bool; 2] {
     let alike = |a: &Option<Btdf>, b: &Option<Btdf>| a.as_ref().zip(b.as_ref()).is_some_and(|(a, b)| repeats(a, b));
     [alike(&band.transmission_front, &band.transmission_back), alike(&band.reflection_front, &band.reflection_back)]
@@ -127,8 +127,8 @@ fn copied_transmission(at: &At) -> Option<Diagnosis> {
     Some(one)
 }
 
-/// Two sides of a system measured apart never agree in every digit; that they do is telling when their transmissions
-/// do not.
+/// Returns a finding if both reflections are the same numbers. Two sides measured separately never agree in every
+/// digit; it is suspicious where their transmissions differ.
 fn copied_reflection(at: &At) -> Option<Diagnosis> {
     let (front, back) = (at.band.reflection_front.as_ref()?, at.band.reflection_back.as_ref()?);
     if tau_max(front) == 0.0 || !repeats(front, back) {

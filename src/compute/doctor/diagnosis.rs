@@ -1,21 +1,21 @@
-//! A finding with the repair that is offered for it.
+//! Findings with the repairs that are offered for them.
 
 use super::repair::{BandScope, Repair};
 use crate::compute::btdf::{Finding, Severity};
 
-/// How sure a suspicion is.
+/// Confidence of a suspicion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Confidence {
-    /// Other explanations are as good.
+    /// Suspicion that other explanations fit as well.
     Possible,
-    /// The data speak for it.
+    /// Suspicion that the data support.
     Likely,
-    /// Nothing else explains the numbers.
+    /// Suspicion without any other explanation of the numbers.
     Certain,
 }
 
 impl Confidence {
-    /// The word in messages.
+    /// Returns the word for this confidence in messages.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Possible => "possibly",
@@ -24,7 +24,7 @@ impl Confidence {
         }
     }
 
-    /// What a fault of this confidence is worth: only what is beyond doubt makes a dataset unfit for use.
+    /// Returns the severity of a fault of this confidence: only a certain one makes a dataset unfit for use.
     pub const fn severity(self) -> Severity {
         match self {
             Self::Possible | Self::Likely => Severity::Warning,
@@ -33,14 +33,14 @@ impl Confidence {
     }
 }
 
-/// A finding and the repair that is offered.
+/// Finding with the repair that is offered.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// What was found.
+    /// Finding on the data.
     pub finding: Finding,
-    /// What would mend it, where that is safe to offer.
+    /// Repair of the finding, where it is safe to offer one.
     pub repair: Option<Repair>,
-    /// Is the repair beyond doubt? Only such repairs may be made without being asked for one by one.
+    /// Whether the repair is certain. Only certain repairs may be made without being asked for one by one.
     pub sure: bool,
 }
 
@@ -51,19 +51,20 @@ impl From<Finding> for Diagnosis {
 }
 
 impl Diagnosis {
-    /// A suspicion of the given confidence.
+    /// Creates a diagnosis whose severity follows from the confidence.
     pub(super) fn suspicion(confidence: Confidence, code: &'static str, message: String) -> Self {
         Finding { severity: confidence.severity(), code, message }.into()
     }
 
-    /// The same with a repair; beyond doubt where the finding is.
+    /// Returns the diagnosis with a repair, which is certain if the finding is an error.
     pub(super) fn with(mut self, repair: Repair) -> Self {
         self.repair = Some(repair);
         self.sure = self.finding.severity == Severity::Error;
         self
     }
 
-    /// The same with a repair that only somebody who knows the product can decide on, however sure the finding is.
+    /// Returns the diagnosis with an uncertain repair: only somebody who knows the product can decide on it, however
+    /// certain the finding is.
     pub(super) fn asking(mut self, repair: Repair) -> Self {
         self.repair = Some(repair);
         self.sure = false;
@@ -71,7 +72,8 @@ impl Diagnosis {
     }
 }
 
-/// Findings of both bands; what both show in the same way is said once and mended in both.
+/// Merges the findings of both bands: a finding with the same repair in both is stated once, and its repair covers both
+/// bands.
 pub(super) fn merged(mut visible: Vec<Diagnosis>, solar: Vec<Diagnosis>) -> Vec<Diagnosis> {
     for other in solar {
         let kind = |one: &Diagnosis| one.repair.map(|repair| (repair.kind, repair.blocks));

@@ -1,4 +1,4 @@
-//! Is light won? Are numbers percent, negative, or no numbers?
+//! Checks of energy and units: transmittance plus reflectance above 1, values in percent, negative or not numbers.
 
 use super::at::At;
 use super::diagnosis::{Confidence, Diagnosis};
@@ -9,18 +9,18 @@ use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, tau_max
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::DVec3;
 
-/// Sums up to here are rounding.
+/// Direct-hemispherical sum up to which an excess over 1 is rounding.
 const ROUNDING: f64 = 1.001;
-/// Measured and simulated functions may exceed 1 by this without being useless; the sum of two independent
-/// measurements by twice as much.
+/// Direct-hemispherical sum up to which a function is usable: measured and simulated functions may exceed 1 by this
+/// much. The sum of two independent measurements may exceed 1 by twice as much.
 const PLAUSIBLE: f64 = 1.05;
-/// Beyond this the numbers are in another unit.
+/// Direct-hemispherical sum above which the values are assumed to be in another unit.
 const OTHER_UNIT: f64 = 1.5;
-/// Up to here a forgotten π or a cosine explains as much.
+/// Direct-hemispherical sum up to which a missing π or cosine explains the values as well as percent do.
 const OTHER_FACTOR: f64 = 4.0;
-/// Beyond this nothing but percent does: ten times as much as there can be.
+/// Direct-hemispherical sum above which only percent explain the values: ten times the physical maximum.
 const SURELY_PERCENT: f64 = 10.0;
-/// No percent exceed this.
+/// Maximum direct-hemispherical sum of values in percent.
 const MOST_PERCENT: f64 = 150.0;
 
 pub(super) fn check(at: &At) -> Vec<Diagnosis> {
@@ -68,12 +68,13 @@ fn not_numbers(at: &At) -> Vec<Diagnosis> {
     list
 }
 
-/// Values divided by the cosine exceed 1 at grazing angles alone; percent do so from everywhere.
+/// Whether a function exceeds 1 at most angles, as percent do; values divided by the cosine do so at grazing angles
+/// only.
 fn everywhere(sum: f64, mean: f64) -> bool {
     mean > 2.2 || sum < 2.5 * mean
 }
 
-/// Is there a function that can be nothing but percent? Files have one unit.
+/// Whether the dataset has a function that can only be in percent. A file has one unit.
 fn surely_percent(dataset: &Dataset) -> bool {
     let bands = std::iter::once(&dataset.visible).chain(&dataset.solar);
     let mut functions = bands.flat_map(|band| band.components().into_iter().filter_map(|c| band.get(c)));
@@ -83,7 +84,7 @@ fn surely_percent(dataset: &Dataset) -> bool {
     })
 }
 
-/// Sums about 100 times too large, by what is possible and by what the other side says.
+/// Returns suspicions of values in percent: sums about 100 times the physical maximum or the value of the other side.
 fn percent(at: &At) -> Vec<Diagnosis> {
     let components = at.band.components();
     let largest = |component: Component| at.band.get(component).map_or(0.0, tau_max);
@@ -164,7 +165,7 @@ fn percent(at: &At) -> Vec<Diagnosis> {
     list
 }
 
-/// A band whose transmission is about 100 times that of the other.
+/// Returns a finding if the transmission of one band is about 100 times that of the other.
 pub(super) fn between_bands(dataset: &Dataset) -> Option<Diagnosis> {
     // A description may well stop nearly all of one band.
     let solar = dataset.solar.as_ref().filter(|_| dataset.described.is_none())?;
@@ -186,7 +187,7 @@ pub(super) fn between_bands(dataset: &Dataset) -> Option<Diagnosis> {
     })
 }
 
-/// More light leaves than arrives?
+/// Returns findings about direct-hemispherical sums above 1, of single functions and of transmission plus reflection.
 fn sums(at: &At) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     for (side, through, back) in [
@@ -259,8 +260,8 @@ fn largest_sum(transmitted: &Btdf, reflected: &Btdf) -> (f64, Dir<Facade>) {
     worst
 }
 
-/// Directional-hemispherical value of an incident cell: means over the cell for functions of θ, the stored mean for
-/// matrices on the same cells, the centre's value for all else.
+/// Returns the direct-hemispherical value of an incident cell: the mean over the cell for functions of θ, the stored
+/// mean for matrices on the same cells, the centre's value for all else.
 fn tau_of_cell(btdf: &Btdf, basis: &RingBasis, index: usize) -> f64 {
     let cell = basis.cell(index);
     let regular = btdf.regular.as_ref().map_or(0.0, |tau| cell_mean(&cell, 6, |d| tau.at(d.theta())));

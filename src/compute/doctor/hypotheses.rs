@@ -1,4 +1,4 @@
-//! The list of what can be wrong with a file: every hypothesis is about all blocks of a band together.
+//! Hypotheses about what is wrong with a file; each is about all blocks of a band together.
 
 use super::blocks::{Blocks, Turn};
 use super::reading::{Factor, Part, Reading, as_it_is};
@@ -6,23 +6,23 @@ use super::repair::{BlockScope, RepairKind};
 use super::witnesses::Witnesses;
 use crate::compute::btdf::Component;
 
-/// What may have happened to blocks.
+/// Fault that blocks of a file may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
-    /// Turned or mirrored.
+    /// Block turned or mirrored.
     Turned(Turn),
     /// Incident and emergent directions exchanged, as when rows are labelled columns.
     Transposed,
-    /// Under the name of the other side.
+    /// Blocks of outside and inside exchanged.
     Swapped,
-    /// A factor in the values.
+    /// Values multiplied or divided by a factor.
     Factor(Factor),
     /// One transmission is a copy of the other.
     Copied,
 }
 
 impl Fault {
-    /// Identifier of the finding.
+    /// Returns the code of the finding.
     pub(super) const fn code(self) -> &'static str {
         match self {
             Self::Turned(Turn::LeftRight) => "mirrored-block",
@@ -34,7 +34,7 @@ impl Fault {
         }
     }
 
-    /// What undoes it; `None` for what stands in the list as an alternative alone.
+    /// Returns the kind of repair that undoes the fault; `None` for a fault that is listed only as an alternative.
     pub(super) const fn repair(self) -> Option<RepairKind> {
         Some(match self {
             Self::Turned(Turn::LeftRight) => RepairKind::MirrorLeftRight,
@@ -50,7 +50,7 @@ impl Fault {
         })
     }
 
-    /// What blocks with the fault are.
+    /// Returns the description of blocks with this fault, for messages.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Turned(Turn::LeftRight) => "mirrored left to right",
@@ -67,7 +67,7 @@ impl Fault {
         }
     }
 
-    /// How a part is read when the fault is undone.
+    /// Returns the part as it reads with the fault undone.
     fn undone(self, part: Part) -> Part {
         match self {
             Self::Turned(turn) => Part { turn: Some(turn), ..part },
@@ -80,24 +80,24 @@ impl Fault {
     }
 }
 
-/// The place of the other side's block.
+/// Returns the index of the block of the other side.
 fn other(source: usize) -> usize {
     Component::ALL[source].other_side() as usize
 }
 
-/// One explanation of the whole file.
+/// Hypothesis: one explanation of the whole file.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hypothesis {
-    /// What happened.
+    /// Fault that is assumed.
     pub(super) fault: Fault,
-    /// To which blocks, as repairs name them.
+    /// Blocks with the fault, as repairs name them.
     pub(super) scopes: Vec<BlockScope>,
-    /// The numbers with that undone.
+    /// Reading of the numbers with the fault undone.
     pub(super) reading: Reading,
 }
 
-/// All that can be wrong with the blocks of a band, one fault at a time. `copied`: the transmissions, or the reflections,
-/// of both sides are the same numbers, which neither a turn nor a transposition makes.
+/// Returns the hypotheses about the blocks of a band, one fault at a time. `copied`: whether the transmissions, and the
+/// reflections, of both sides are the same numbers, which neither a turn nor a transposition produces.
 pub(super) fn hypotheses(witnesses: &Witnesses, copied: [bool; 2]) -> Vec<Hypothesis> {
     let blocks = witnesses.blocks;
     let lit: Vec<Component> = Component::ALL.into_iter().filter(|c| witnesses.lit(*c as usize)).collect();
@@ -136,14 +136,14 @@ pub(super) fn hypotheses(witnesses: &Witnesses, copied: [bool; 2]) -> Vec<Hypoth
     list
 }
 
-/// The same function of both sides.
+/// Pairs of the same function on both sides.
 const PAIRS: [[Component; 2]; 2] = [
     [Component::TransmissionFront, Component::TransmissionBack],
     [Component::ReflectionFront, Component::ReflectionBack],
 ];
 
-/// The sets of blocks that go wrong together: each alone, both transmissions, both reflections, both of one side, all
-/// but one, all.
+/// Returns the sets of blocks that go wrong together: each block by itself, both transmissions, both reflections, both
+/// of one side, all but one, all.
 fn sets(lit: &[Component]) -> Vec<Vec<Component>> {
     let meant = |test: &dyn Fn(&Component) -> bool| lit.iter().copied().filter(|c| test(c)).collect::<Vec<_>>();
     let mut list: Vec<Vec<Component>> = Vec::new();

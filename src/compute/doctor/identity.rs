@@ -23,8 +23,8 @@ const TEMPLATE: [&str; 16] = [
     "default",
 ];
 
-/// Thickness from which on a system is no product for a façade. \[m\] Chosen: above the deepest louvres and light shelves,
-/// and so low that a sheet of half a millimetre is found whose thickness was written in metres.
+/// Thickness above which a dataset cannot be a façade system. \[m\] Chosen: above the deepest louvres and light
+/// shelves, and so low that a sheet of half a millimetre is found whose thickness was written in metres.
 const MAX_THICKNESS: f64 = 0.5;
 
 fn template(word: &str) -> bool {

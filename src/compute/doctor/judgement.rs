@@ -1,9 +1,10 @@
-//! Which hypothesis explains a file best, and how far it stands ahead of every other.
+//! Choice of the hypothesis that explains a file best, and its lead over every other.
 //!
-//! Every misfit counts by the logarithm of how many times it exceeds what genuine files show, so that all questions have
-//! one voice each, whatever their unit, and none can outvote all others by being absurd. A hypothesis is asked about
-//! when it takes enough off that sum; it is acted upon when besides no other explanation, nothing being wrong included,
-//! comes near it. Both thresholds, and what genuine files show, stand beside the table of `examples/planted_faults.rs`.
+//! A misfit counts by the logarithm of its ratio to the size usual in genuine files, so that all questions have
+//! comparable influence, whatever their unit, and no absurd value outweighs the others. A hypothesis is reported when
+//! it reduces that sum enough; it is certain when no other explanation, including that nothing is wrong, comes near it.
+//! Both thresholds, and the sizes usual in genuine files, are documented with the table of
+//! `examples/planted_faults.rs`.
 
 use super::blocks::Blocks;
 use super::copies::copied;
@@ -13,8 +14,8 @@ use super::repair::BandScope;
 use super::witnesses::{Answers, Question, Witnesses};
 use crate::compute::btdf::{Band, Component, Scattered, TreeRank};
 
-/// What genuine files show, and how much an answer counts: a misfit of the first size counts ln 2 times the second. What
-/// holds for every system counts twice as much as what holds for most.
+/// Returns the size of a misfit that genuine files show, and its weight: a misfit of that size counts ln 2 times the
+/// weight. Rules that hold for every system count twice as much as those that hold for most.
 const fn scale(question: Question) -> (f64, f64) {
     match question {
         Question::Between | Question::Own => (0.02, 1.0),
@@ -27,19 +28,19 @@ const fn scale(question: Question) -> (f64, f64) {
         Question::Lost => (0.5, 1.0),
     }
 }
-/// The same for the shapes of one function in both bands.
+/// Difference between the shapes of one function in both bands that genuine files show; weighted share.
 const BANDS: f64 = 0.1;
 
-/// A hypothesis that takes so much off the sum of misfits is asked about.
+/// Reduction of the sum of misfits from which a hypothesis is reported.
 pub(super) const ASK: f64 = 0.9;
-/// One that takes so much more off than any other is beyond doubt.
+/// Lead over every other hypothesis from which a hypothesis is certain.
 pub(super) const SURE: f64 = 1.6;
-/// Every further set of blocks that must have gone wrong counts against a hypothesis like the toss of a coin.
+/// Cost of every further set of blocks that a hypothesis assumes to be wrong, like the toss of a coin: ln 2.
 const FURTHER: f64 = std::f64::consts::LN_2;
-/// Readings that differ by less are one; weighted share.
+/// Difference below which two readings count as equal; weighted share. Also the step by which gains are compared.
 const NOTHING: f64 = 0.05;
 
-/// A band ready to be judged.
+/// Band with the evidence on its readings.
 pub(super) struct Side<'a> {
     pub(super) scope: BandScope,
     pub(super) witnesses: Witnesses<'a>,
@@ -59,40 +60,41 @@ impl<'a> Side<'a> {
     }
 }
 
-/// A hypothesis about some bands.
+/// Hypothesis about one or both bands, with its gain.
 #[derive(Debug, Clone)]
 pub(super) struct Candidate {
     pub(super) hypothesis: Hypothesis,
     pub(super) bands: BandScope,
-    /// How much it takes off the sum of misfits.
+    /// Reduction of the sum of misfits.
     pub(super) gain: f64,
 }
 
-/// What explains a file best.
+/// Best explanation of a file, with its rivals and evidence.
 #[derive(Debug, Clone)]
 pub(super) struct Verdict {
     pub(super) best: Candidate,
-    /// Others that come near it, the nearest first.
+    /// Other explanations that come near it, best first.
     pub(super) rivals: Vec<Candidate>,
-    /// How far it is ahead of all of them and of nothing being wrong; no more than [`SURE`].
+    /// Lead over all rivals and over nothing being wrong; at most [`SURE`].
     pub(super) lead: f64,
-    /// Misfits before and after, of the first band that it is about.
+    /// Misfits before and after the repair, of the first band that the explanation is about.
     pub(super) evidence: Vec<(Question, f64, f64)>,
 }
 
 impl Verdict {
-    /// Is it worth a question?
+    /// Whether the explanation is to be reported: its gain reaches [`ASK`].
     pub(super) fn asks(&self) -> bool {
         self.best.gain >= ASK
     }
 
-    /// Is it far ahead of every other, and of nothing being wrong?
+    /// Whether the explanation is certain: its lead over every other one, and over nothing being wrong, reaches
+    /// [`SURE`].
     pub(super) fn sure(&self) -> bool {
         self.lead >= SURE
     }
 }
 
-/// Sum of what misfits count.
+/// Returns the sum of the weighted logarithms of the misfits.
 fn cost(answers: &Answers) -> f64 {
     let counts = |(question, misfit): &(Question, f64)| {
         let (noise, weight) = scale(*question);
@@ -101,7 +103,8 @@ fn cost(answers: &Answers) -> f64 {
     answers.iter().map(counts).sum()
 }
 
-/// What the same functions of two bands count when their shapes differ: one device, one goniometer.
+/// Returns the cost of different shapes of the same functions in two bands, which one product measured on one
+/// goniometer does not have.
 fn between_bands(a: (&Witnesses, &Reading), b: (&Witnesses, &Reading)) -> f64 {
     let mut sum = 0.0;
     for slot in 0..4 {
@@ -113,7 +116,7 @@ fn between_bands(a: (&Witnesses, &Reading), b: (&Witnesses, &Reading)) -> f64 {
     sum
 }
 
-/// The best explanation of what does not fit, however little it explains; `None` where nothing could be asked about.
+/// Returns the best explanation of the misfits, however small its gain; `None` if there is nothing to explain.
 pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
     let plain: Vec<Reading> = sides.iter().map(|side| as_it_is(side.witnesses.blocks)).collect();
     let own: Vec<f64> =

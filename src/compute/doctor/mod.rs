@@ -1,15 +1,15 @@
-//! The data doctor: what is odd about a dataset, what that does to results, and how it may be mended.
+//! Data check: findings about a dataset, their effect on results, and the repairs that are offered.
 //!
-//! [`examine`] asks everything that can be asked of the numbers themselves; what only a reader can know (syntax,
-//! labels, counts) is already in [`Dataset::findings`] and is passed on. [`repaired()`] does what a
-//! finding offers, and nothing is ever mended without being asked for.
+//! [`examine`] checks the numbers themselves; findings that only a reader can make (syntax, labels, counts) are already
+//! in [`Dataset::findings`] and are included. [`repaired()`] makes the repair that a finding offers; nothing is ever
+//! repaired without a request.
 //!
-//! Comparisons between functions are made on common cells in through-names ([`blocks`]), where a clear pane is a
-//! diagonal matrix and reciprocity a plain transpose. What is wrong is a hypothesis about all blocks of a file together
-//! (`hypotheses`): the numbers are read as if it were undone (`reading`), every reading is asked the same few questions
-//! (`witnesses`), and what explains most is told, or done where it stands far ahead of everything else (`judgement`).
-//! Where no witness speaks against a reading, as when all functions are upside down together, the data cannot tell; the
-//! sentence about the sun then asks the user.
+//! Comparisons between functions are made on common cells by through direction ([`blocks`]), where a clear pane is a
+//! diagonal matrix and reciprocity a plain transpose. A fault is a hypothesis about all blocks of a file together
+//! (`hypotheses`): the numbers are read as if it were undone (`reading`), every reading is rated by the same few
+//! questions (`witnesses`), and the best explanation is reported, and offered as certain where its lead over all others
+//! is large (`judgement`). Where no question contradicts a reading, as when all functions are upside down together, the
+//! data do not show the fault; the sentence about the sun then asks the user.
 
 mod at;
 pub mod blocks;
@@ -45,8 +45,8 @@ use judgement::{Side, Verdict};
 use rayon::prelude::*;
 use std::borrow::Borrow;
 
-/// Everything that is to be said about a dataset, the worst first: the reader's own findings and the doctor's. A finding
-/// that asks for several repairs comes once with each of them, one after the other.
+/// Returns all findings about a dataset, worst severity first: those of the reader and those of the data check. A
+/// finding with several repairs comes once with each of them.
 pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     let mut list: Vec<Diagnosis> = dataset.findings.iter().cloned().map(Diagnosis::from).collect();
     list.extend(examined(dataset));
@@ -68,7 +68,8 @@ pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     kept
 }
 
-/// What is to be said about each of several datasets, side by side; states of the same data are examined once.
+/// Returns the findings about each of several datasets, computed in parallel; states with the same data are examined
+/// once.
 pub fn examine_all(datasets: &[impl Borrow<Dataset> + Sync]) -> Vec<Vec<Diagnosis>> {
     let same = |a: &Dataset, b: &Dataset| {
         (&a.name, &a.manufacturer, &a.format, a.thickness, &a.derived, &a.findings)
@@ -89,7 +90,7 @@ pub fn examine_all(datasets: &[impl Borrow<Dataset> + Sync]) -> Vec<Vec<Diagnosi
     places.into_iter().map(|place| found[place].clone()).collect()
 }
 
-/// What the doctor itself finds, without the reader's findings.
+/// Returns the findings of the data check, without those of the reader.
 pub fn findings(dataset: &Dataset) -> Vec<Finding> {
     examined(dataset).into_iter().map(|one| one.finding).collect()
 }
@@ -132,20 +133,21 @@ fn judged(dataset: &Dataset, visible: Option<&Blocks>, solar: Option<&Blocks>) -
     judgement::judge(&sides)
 }
 
-/// What explains a dataset best of all that can be wrong with its blocks together, whether or not it is told.
+/// Best explanation of everything that can be wrong with the blocks of a dataset together, whether or not it is
+/// reported.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Standing {
-    /// What would undo it.
+    /// Repairs that undo the fault.
     pub repairs: Vec<Repair>,
-    /// How much better the numbers fit then; asked about from 0.9 on.
+    /// Reduction of the sum of misfits by the repairs; the finding is reported from 0.9 on.
     pub gain: f64,
-    /// How far it is ahead of every other explanation, nothing being wrong included; beyond doubt from 1.6 on, and not
-    /// followed further.
+    /// Lead over every other explanation, including that nothing is wrong; at most 1.6, from which the finding is
+    /// certain.
     pub lead: f64,
 }
 
-/// The standing of the best explanation; `None` where the numbers leave nothing to explain. For those who judge the
-/// judgement.
+/// Returns repairs, gain and lead of the best explanation; `None` if the numbers leave nothing to explain. For checking
+/// the choice of explanations itself.
 pub fn standing(dataset: &Dataset) -> Option<Standing> {
     let blocks = Blocks::new(dataset, &dataset.visible);
     let solar = dataset.solar.as_ref().and_then(|solar| Blocks::new(dataset, solar));

@@ -1,4 +1,4 @@
-//! Where a sun 45° above goes: the user knows the product and sees whether up is up.
+//! Check of the orientation by light from a sun at 45° altitude: the user knows the product and sees whether up is up.
 //!
 //! A dataset all of whose functions are upside down, or whose sides are all exchanged, contradicts nothing. What can
 //! be said is what is usual: devices are mounted so that the sun from above passes less than light from below, and
@@ -10,16 +10,16 @@ use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Incident};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// Functions that differ less from their own image are alike, for measured ones. Weighted share.
+/// Difference from its own image up to which a measured function counts as symmetric. Weighted share.
 const UNEVEN: f64 = 0.02;
 
-/// How far beside the sun in front is asked. \[rad\]
+/// Azimuth on either side of the sun in front at which the function is evaluated. \[rad\]
 const ASIDE: f64 = 1e-3;
 
-/// Where the light of one incidence goes, as shares of what is transmitted.
+/// Division of the transmitted light of one incident direction between up and down, right and left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ways {
-    /// Transmittance of that incidence.
+    /// Direct-hemispherical transmittance for that incident direction.
     pub tau: f64,
     /// Share that leaves upwards; the rest leaves downwards.
     pub up: f64,
@@ -28,7 +28,7 @@ pub struct Ways {
 }
 
 impl Ways {
-    /// Of one incidence; `None` when nothing passes.
+    /// Returns the shares for one incident direction; `None` when nothing passes.
     pub fn of(btdf: &Btdf, incident: Incident) -> Option<Self> {
         let half = |value: f64| if value.abs() < 1e-9 { 0.5 } else { f64::from(u8::from(value > 0.0)) };
         let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
@@ -51,8 +51,8 @@ impl Ways {
 
     /// Returns the shares for a sun at 45° altitude, perpendicular to the façade in plan; `None` when nothing passes.
     ///
-    /// Mean of two suns a little to the right and to the left of it: straight ahead is a border between cells of many functions,
-    /// where the value would be that of one side alone.
+    /// The value is the mean of two suns a little to the right and to the left: the perpendicular direction is a border
+    /// between cells of many functions, where the value would be that of one side.
     pub fn from_above(btdf: &Btdf) -> Option<Self> {
         let beside = |aside: f64| Self::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2 + aside)));
         match (beside(ASIDE), beside(-ASIDE)) {
@@ -66,7 +66,7 @@ impl Ways {
     }
 }
 
-/// The sentence about a sun 45° above in front; `None` when nothing of it passes.
+/// Returns the sentence about a sun at 45° altitude in front of the façade; `None` when nothing of it passes.
 pub fn sun_from_above(btdf: &Btdf) -> Option<String> {
     let ways = Ways::from_above(btdf)?;
     let (up, down) = (100.0 * ways.up, 100.0 * (1.0 - ways.up));
@@ -85,13 +85,14 @@ pub fn sun_from_above(btdf: &Btdf) -> Option<String> {
     Some(format!("With the sun 45° above in front, {:.0} % passes; {text}.", 100.0 * ways.tau))
 }
 
-/// Mean transmittance of light from 30 to 60° above (or below) in front.
+/// Returns the mean transmittance of light from 30 to 60° above (or below) in front.
 fn from(btdf: &Btdf, phi: f64) -> f64 {
     let angles = [30.0_f64, 40.0, 50.0, 60.0];
     angles.iter().map(|theta| btdf.tau(Incident(Dir::from_theta_phi(theta.to_radians(), phi)))).sum::<f64>() / 4.0
 }
 
-/// Which side is outside, where the sides differ: how much each reflects, for the user to compare.
+/// Returns a finding with the reflectance of each side if the sides differ, so that the user can compare which side is
+/// outside.
 fn sides(dataset: &Dataset, blocks: &Blocks) -> Option<Diagnosis> {
     let n = blocks.weight.len();
     let turned = |k| blocks.turned(Turn::HalfRound, k);

@@ -1,4 +1,4 @@
-//! Directions without data, and spikes at grazing angles.
+//! Checks for directions without data and for spikes at grazing angles.
 
 use super::at::At;
 use super::blocks::{Block, Blocks, Turn};
@@ -6,9 +6,9 @@ use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding};
 use crate::compute::direction::Dir;
 
-/// A spike in the last 10° before grazing is this much above the values beside it.
+/// Ratio to the values beside it from which a value in the last 10° before grazing is a spike.
 const SPIKE: f64 = 2.0;
-/// Where grazing begins. \[rad\]
+/// Polar angle from which incidence counts as grazing. \[rad\]
 const GRAZING: f64 = 1.38;
 
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
@@ -65,7 +65,7 @@ fn gaps(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Option
     Some(Finding::warning("missing-patches", message).into())
 }
 
-/// Cells that are zero although both neighbours on their ring are well lit.
+/// Returns the cells that are zero although both neighbours on their ring have light.
 fn alone(blocks: &Blocks, values: &[f64], largest: f64) -> Vec<usize> {
     let mut list = Vec::new();
     for (index, ring) in blocks.basis.rings().iter().enumerate() {

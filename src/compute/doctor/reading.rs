@@ -1,32 +1,32 @@
-//! Ways to read the numbers of a band: each block as it stands, or turned, transposed, without a factor, or taken for
+//! Readings of the numbers of a band: each block as given, or turned, transposed, without a factor, or taken for
 //! another one.
 
 use super::blocks::{Blocks, Turn};
 use crate::compute::btdf::Component;
 
-/// A factor that is suspected in values.
+/// Factor that is suspected in values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Factor {
-    /// Multiplied by the cosine of the emergent angle.
+    /// Values multiplied by the cosine of the emergent angle.
     CosineTooMuch,
-    /// Divided by the cosine of the emergent angle.
+    /// Values divided by the cosine of the emergent angle.
     CosineTooLittle,
-    /// Divided by the cosine of the incident angle: what leaves symmetric values when the cosine of emergence is too
-    /// much does so too. No repair undoes it; it stands against those that do.
+    /// Values divided by the cosine of the incident angle. It leaves symmetric values wherever a surplus cosine of
+    /// emergence does. No repair undoes it; it is a rival of the hypotheses with a repair.
     IncidentTooLittle,
-    /// Multiplied by the cosine of the incident angle.
+    /// Values multiplied by the cosine of the incident angle.
     IncidentTooMuch,
-    /// Multiplied by the projected solid angle of the emergent cell.
+    /// Values multiplied by the projected solid angle of the emergent cell.
     SolidAngle,
 }
 
 impl Factor {
-    /// Is it one of the emergent angle or cell?
+    /// Whether the factor depends on the emergent angle or cell.
     pub(super) const fn of_emergence(self) -> bool {
         !matches!(self, Self::IncidentTooLittle | Self::IncidentTooMuch)
     }
 
-    /// What undoes it for an incident and an emergent cell, as a product of both.
+    /// Returns the inverse of the factor, by incident cell and by emergent cell; a value is multiplied by both.
     pub(super) fn undone(self, blocks: &Blocks) -> (Vec<f64>, Vec<f64>) {
         let one = vec![1.0; blocks.weight.len()];
         let inverse = |list: &[f64]| list.iter().map(|value| 1.0 / value).collect();
@@ -40,35 +40,35 @@ impl Factor {
     }
 }
 
-/// One block, read in one way.
+/// Reading of one block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Part {
-    /// The block whose numbers these are, by its place in [`Component::ALL`].
+    /// Index in [`Component::ALL`] of the block whose numbers are read.
     pub(super) source: usize,
-    /// Turned so.
+    /// Turn of the directions, if any.
     pub(super) turn: Option<Turn>,
-    /// Incident and emergent directions exchanged.
+    /// Whether incident and emergent directions are exchanged.
     pub(super) transposed: bool,
-    /// Without this factor.
+    /// Factor that is removed from the values, if any.
     pub(super) factor: Option<Factor>,
 }
 
 impl Part {
-    /// As it stands.
+    /// Creates the reading of a block as given.
     pub(super) const fn plain(source: usize) -> Self {
         Self { source, turn: None, transposed: false, factor: None }
     }
 }
 
-/// What is read for each of the four functions.
+/// Readings of the four functions.
 pub(super) type Reading = [Option<Part>; 4];
 
-/// The numbers as they stand.
+/// Returns the reading of all blocks as given.
 pub(super) fn as_it_is(blocks: &Blocks) -> Reading {
     Component::ALL.map(|component| blocks.get(component).map(|_| Part::plain(component as usize)))
 }
 
-/// A turn after another; both without the quarter turn.
+/// Returns the composition of two turns, neither of them a quarter turn.
 pub(super) fn after(a: Option<Turn>, b: Option<Turn>) -> Option<Turn> {
     use Turn::{HalfRound, LeftRight, UpDown};
     match (a, b) {

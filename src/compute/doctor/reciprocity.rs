@@ -1,10 +1,11 @@
-//! Does light go both ways alike? Graded, never passed or failed: fabrics as makers measure them miss it by 20 to 60 %.
+//! Check of reciprocity between both sides. Graded, never passed or failed: measured data of fabrics miss it by 20 to
+//! 60 %.
 
 use super::at::At;
 use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding, reciprocity_error};
 
-/// Mean difference between the transmissions of both sides; `None` unless the source has both.
+/// Returns the mean difference between the transmissions of both sides; `None` unless the source has both.
 pub(super) fn of(at: &At) -> Option<f64> {
     let derived = &at.dataset.derived;
     if derived.contains(&Component::TransmissionFront) || derived.contains(&Component::TransmissionBack) {

@@ -1,44 +1,44 @@
-//! Repairs by name: what is done, to which functions of which band; their words in files, and how they are undone.
+//! Repairs by name: kind, bands and functions; their keys in files, and their inverses.
 
 use crate::compute::btdf::Component;
 use std::fmt;
 use std::str::FromStr;
 
-/// What is done.
+/// Kind of repair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum RepairKind {
-    /// Up and down exchanged, for incident and emergent light.
+    /// Exchange of up and down, for incident and emergent light.
     TurnUpsideDown,
-    /// Left and right exchanged.
+    /// Exchange of left and right.
     MirrorLeftRight,
-    /// Turned by 180° about the normal.
+    /// Rotation by 180° about the normal.
     TurnHalfRound,
-    /// The blocks named for outside and inside exchanged.
+    /// Exchange of the blocks of outside and inside.
     SwapSides,
-    /// Incident and emergent directions exchanged.
+    /// Exchange of incident and emergent directions.
     Transpose,
-    /// Percent made fractions.
+    /// Conversion of percent to fractions.
     DivideBy100,
-    /// Fractions made percent; undoes [`Self::DivideBy100`].
+    /// Conversion of fractions to percent; undoes [`Self::DivideBy100`].
     MultiplyBy100,
-    /// Values divided by the cosine of the emergent angle.
+    /// Division of the values by the cosine of the emergent angle.
     RemoveCosine,
-    /// Values multiplied by the cosine of the emergent angle.
+    /// Multiplication of the values by the cosine of the emergent angle.
     MultiplyCosine,
-    /// Values divided by the projected solid angle of the emergent cell.
+    /// Division of the values by the projected solid angle of the emergent cell.
     RemoveSolidAngle,
-    /// Values multiplied by the projected solid angle of the emergent cell.
+    /// Multiplication of the values by the projected solid angle of the emergent cell.
     MultiplySolidAngle,
-    /// The block left out.
+    /// Removal of the block.
     DropBlock,
-    /// The block made from its counterpart by reciprocity.
+    /// Derivation of the block from its counterpart by reciprocity.
     DeriveByReciprocity,
-    /// Values below zero set to zero.
+    /// Replacement of negative values by zero.
     ClampNegative,
 }
 
 impl RepairKind {
-    /// All kinds.
+    /// List of all kinds.
     pub const ALL: [Self; 14] = [
         Self::TurnUpsideDown,
         Self::MirrorLeftRight,
@@ -56,7 +56,7 @@ impl RepairKind {
         Self::ClampNegative,
     ];
 
-    /// The word in files and on the command line.
+    /// Returns the key in files and on the command line.
     pub const fn word(self) -> &'static str {
         match self {
             Self::TurnUpsideDown => "turn-upside-down",
@@ -76,7 +76,7 @@ impl RepairKind {
         }
     }
 
-    /// What a button says.
+    /// Returns the label of a button for this kind.
     pub const fn label(self) -> &'static str {
         match self {
             Self::TurnUpsideDown => "Turn upside down",
@@ -96,7 +96,7 @@ impl RepairKind {
         }
     }
 
-    /// The kind that undoes this one; `None` where values are lost.
+    /// Returns the kind that undoes this one; `None` if values are lost.
     pub const fn inverse(self) -> Option<Self> {
         Some(match self {
             Self::TurnUpsideDown | Self::MirrorLeftRight | Self::TurnHalfRound | Self::SwapSides | Self::Transpose => {
@@ -113,10 +113,10 @@ impl RepairKind {
     }
 }
 
-/// Which bands a repair is for.
+/// Bands that a repair covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BandScope {
-    /// Visible, and solar where there is one.
+    /// The visible band, and the solar one if there is one.
     Both,
     /// The visible band.
     Visible,
@@ -124,10 +124,10 @@ pub enum BandScope {
     Solar,
 }
 
-/// Which functions a repair is for.
+/// Functions that a repair covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BlockScope {
-    /// All that are there.
+    /// All functions of the band.
     All,
     /// Both transmissions.
     Transmission,
@@ -138,7 +138,7 @@ pub enum BlockScope {
 }
 
 impl BlockScope {
-    /// Is a function meant?
+    /// Whether the scope contains a function.
     pub fn holds(self, component: Component) -> bool {
         let transmission = component.is_transmission();
         match self {
@@ -149,7 +149,7 @@ impl BlockScope {
         }
     }
 
-    /// The word in files.
+    /// Returns the key in files.
     pub const fn word(self) -> &'static str {
         match self {
             Self::All => "all",
@@ -160,29 +160,30 @@ impl BlockScope {
     }
 }
 
-/// One repair. Its text is `KIND`, `KIND:BLOCKS` or `KIND:BAND.BLOCKS`, e.g. `transpose:visible.transmission_back`.
+/// Repair of some functions. Its text is `KIND`, `KIND:BLOCKS` or `KIND:BAND.BLOCKS`, e.g.
+/// `transpose:visible.transmission_back`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Repair {
-    /// What is done.
+    /// Kind of the repair.
     pub kind: RepairKind,
-    /// To which bands.
+    /// Bands that are repaired.
     pub bands: BandScope,
-    /// To which functions.
+    /// Functions that are repaired.
     pub blocks: BlockScope,
 }
 
 impl Repair {
-    /// A repair of all functions of both bands.
+    /// Creates a repair of all functions of both bands.
     pub const fn whole(kind: RepairKind) -> Self {
         Self { kind, bands: BandScope::Both, blocks: BlockScope::All }
     }
 
-    /// The repair that undoes this one; `None` where values are lost and only the source has them.
+    /// Returns the repair that undoes this one; `None` if values are lost and only the source has them.
     pub fn inverse(self) -> Option<Self> {
         Some(Self { kind: self.kind.inverse()?, ..self })
     }
 
-    /// What a button says: the kind, and the functions where not all are meant.
+    /// Returns the label of a button: the kind, and the functions unless all are covered.
     pub fn label(self) -> String {
         let blocks = match self.blocks {
             BlockScope::All => String::new(),
@@ -210,7 +211,7 @@ impl fmt::Display for Repair {
     }
 }
 
-/// Not the name of a repair.
+/// Error for a text that is not a repair.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no repair '{0}'; expected KIND[:[BAND.]BLOCKS], KIND one of {kinds}", kinds = kinds())]
 pub struct NoRepair(String);
@@ -240,10 +241,10 @@ impl FromStr for Repair {
     }
 }
 
-/// The word before the list of repairs in a text on provenance.
+/// Marker before the list of repairs in a text on provenance.
 const MARK: &str = "repaired: ";
 
-/// A text on provenance with repairs added to those that it already records.
+/// Returns a text on provenance with repairs added to those that it already records.
 pub fn record(text: &str, repairs: &[Repair]) -> String {
     if repairs.is_empty() {
         return text.to_owned();
@@ -267,7 +268,7 @@ pub fn record(text: &str, repairs: &[Repair]) -> String {
     if before.is_empty() { format!("{MARK}{words}") } else { format!("{before}\n{MARK}{words}") }
 }
 
-/// The text without its record, and the repairs recorded, in the order in which they were made.
+/// Returns the text without its record, and the repairs recorded, in the order in which they were made.
 pub fn recorded(text: &str) -> (&str, Vec<Repair>) {
     let Some(at) = text.rfind(MARK) else { return (text, Vec::new()) };
     let list: Option<Vec<Repair>> = text[at + MARK.len()..].split(", ").map(|word| word.trim().parse().ok()).collect();

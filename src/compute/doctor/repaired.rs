@@ -1,4 +1,4 @@
-//! What repairs do. The dataset given stays as it is; a changed one comes back.
+//! Execution of repairs. The given dataset is not changed; a repaired copy is returned.
 
 use super::derive::by_reciprocity;
 use super::repair::{BandScope, Repair, RepairKind, record};
@@ -12,29 +12,31 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Why a repair cannot be made.
+/// Reason why a repair cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RepairError {
-    /// No function of the dataset is meant.
+    /// Dataset without any of the functions to be repaired.
     #[error("{0}: the dataset has no such function")]
     Nothing(Repair),
-    /// The counterpart that it would be made from is missing.
+    /// Missing counterpart of the function that is to be derived.
     #[error("{0}: the counterpart that it would be made from is missing")]
     NoCounterpart(Repair),
-    /// The form in which the values are held does not allow it.
+    /// Form of the values that does not allow the repair.
     #[error("{repair}: {what}")]
     Form {
-        /// The repair.
+        /// Repair that was asked for.
         repair: Repair,
-        /// What stands against it.
+        /// Obstacle, in words.
         what: &'static str,
     },
 }
 
-/// A repaired copy. The repair is recorded in the description, see [`record`]; findings stay those of the source.
+/// Returns a repaired copy. The repair is recorded in the description, see [`record`]; findings stay those of the
+/// source.
 ///
 /// # Errors
-/// A repair of functions that are not there, or that their form does not allow.
+/// Returns an error if the dataset lacks the functions or their counterpart, or if the form of the values does not
+/// allow the repair.
 pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairError> {
     let mut out = dataset.clone();
     let mut done = false;
@@ -70,13 +72,13 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
         out.thermal = out.thermal.swapped();
     }
     out.description = record(&out.description, &[repair]);
-    // What was mended is no longer what the description gives.
+    // Repaired data are no longer those of the description.
     out.described = None;
     Ok(out)
 }
 
-/// Makes a derived function anew where its origin changed and it did not change as that did: factors of emergent angles
-/// are not those of the light that goes the other way.
+/// Derives a function again where its origin changed and it did not change as that did: factors of emergent angles are
+/// not those of the light in the reverse direction.
 fn rederive(band: &mut Band, component: Component, repair: Repair) {
     let factor = matches!(
         repair.kind,
@@ -97,15 +99,15 @@ fn rederive(band: &mut Band, component: Component, repair: Repair) {
     }
 }
 
-/// Several repairs, one after the other.
+/// Returns a copy with several repairs made, one after the other.
 ///
 /// # Errors
-/// Of the first that cannot be made.
+/// Returns the error of the first repair that cannot be made.
 pub fn repaired_all(dataset: &Dataset, repairs: &[Repair]) -> Result<Dataset, RepairError> {
     repairs.iter().try_fold(dataset.clone(), |dataset, repair| repaired(&dataset, *repair))
 }
 
-/// Was there anything to mend?
+/// Repairs a band; returns whether it had any of the functions.
 fn mend(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
     let meant: Vec<Component> = Component::ALL.into_iter().filter(|c| repair.blocks.holds(*c)).collect();
     match repair.kind {
@@ -164,7 +166,7 @@ fn form(repair: Repair) -> impl Fn(&'static str) -> RepairError {
     move |what| RepairError::Form { repair, what }
 }
 
-/// The same numbers under the name of the other side, whose azimuths files count half a turn further.
+/// Returns the same numbers as a block of the other side, whose azimuths files count half a turn further.
 fn relabelled(btdf: Btdf, axes: TreeAxes) -> Result<Btdf, &'static str> {
     let scattered = match btdf.scattered {
         Some(Scattered::Tree(tree)) => {
@@ -206,7 +208,7 @@ fn changed(btdf: &Btdf, kind: RepairKind) -> Result<Btdf, &'static str> {
     }
 }
 
-/// Which axes are turned round.
+/// Axes that are reversed.
 #[derive(Clone, Copy)]
 struct Mirror {
     x: bool,
@@ -219,7 +221,7 @@ impl Mirror {
         Dir::from_unit(DVec3::new(if self.x { -v.x } else { v.x }, if self.y { -v.y } else { v.y }, v.z))
     }
 
-    /// The same cells, each named by where it goes.
+    /// Returns the same cells, each with the mirrored direction.
     fn basis(self, basis: &RingBasis) -> RingBasis {
         let own = basis.azimuth();
         let azimuth = match (self.x, self.y) {
@@ -311,9 +313,9 @@ fn transposed(btdf: &Btdf) -> Result<Btdf, &'static str> {
     Ok(Btdf { regular: btdf.regular.clone(), scattered })
 }
 
-/// Values times a factor of the emergent cell; `all`: light that goes straight on as well.
+/// Multiplies the values by a factor of the emergent cell; `all`: unscattered light as well.
 fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf, &'static str> {
-    // With `all` the factor is the same for every cell: any one tells it.
+    // With `all` the factor is the same for every cell.
     let anywhere = factor(&RingBasis::hemisphere().cell(0));
     // What a file's author did to the values was done to the emergent cells: every row takes the same factors.
     let rows = |basis: &RingBasis, values: &[f64]| -> Vec<f64> {
@@ -344,12 +346,12 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
             Some(Scattered::Tree(Box::new(tree)))
         }
     };
-    // τ of straight light is no density: cosines and solid angles were never in it, a factor of 100 may be.
+    // τ of unscattered light is not a density: cosines and solid angles were never in it, a factor of 100 may be.
     let regular = btdf.regular.as_ref().map(|tau| if all { tau.scaled(anywhere) } else { tau.clone() });
     Ok(Btdf { regular, scattered })
 }
 
-/// Leaves times the factor at the middle of their emergent square, taken as a cell of the same size.
+/// Multiplies the leaves by the factor at the middle of their emergent square, taken as a cell of the same size.
 fn scale_leaves(
     tree: &TensorTree,
     node: usize,

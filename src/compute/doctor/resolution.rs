@@ -1,11 +1,11 @@
-//! How finely directions are resolved, and what that is good for.
+//! Angular resolution of a dataset, and the calculations that it is sufficient for.
 
 use super::Diagnosis;
 use crate::compute::btdf::{Dataset, Finding, Scattered};
 
-/// The sun's lobe is kept, and with it the luminance that glares. \[rad\]
+/// Cell width up to which the sun's lobe, and with it the luminance that causes glare, is resolved. \[rad\]
 const GLARE: f64 = 0.026;
-/// Patches of redirected sun are where they are, if softened. \[rad\]
+/// Cell width up to which patches of redirected sun are in their place, with soft edges. \[rad\]
 const PATCHES: f64 = 0.07;
 
 pub(super) fn check(dataset: &Dataset) -> Option<Diagnosis> {

@@ -1,4 +1,4 @@
-//! Which symmetries the visible transmission has, beside the one that its form declares.
+//! Symmetries of the visible transmission, besides the one that its form declares.
 
 use super::at::At;
 use super::blocks::{Blocks, Turn};
@@ -6,7 +6,7 @@ use super::diagnosis::Diagnosis;
 use super::repair::BandScope;
 use crate::compute::btdf::{Component, Finding, Scattered, TreeRank};
 
-/// Differences below this are noise of measuring or sampling.
+/// Difference below which asymmetry is noise of measuring or sampling. Weighted share.
 const NOISE: f64 = 0.05;
 
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {

@@ -1,4 +1,4 @@
-//! A verdict in words, with its repairs.
+//! Message of the best explanation, with its repairs.
 
 use super::diagnosis::{Confidence, Diagnosis};
 use super::hypotheses::{Fault, Hypothesis};
@@ -6,7 +6,7 @@ use super::judgement::{ASK, Candidate, SURE, Verdict};
 use super::repair::{BandScope, BlockScope, Repair};
 use super::witnesses::Question;
 
-/// Which functions, in words.
+/// Returns the names of the functions that a hypothesis is about.
 fn subject(hypothesis: &Hypothesis) -> String {
     let words = hypothesis.scopes.iter().map(|scope| match scope {
         BlockScope::All => "the whole file",
@@ -25,7 +25,7 @@ fn band(bands: BandScope) -> &'static str {
     }
 }
 
-/// What would undo it.
+/// Returns the repairs that undo the fault of a candidate.
 pub(super) fn repairs(candidate: &Candidate) -> Vec<Repair> {
     let Candidate { hypothesis, bands, .. } = candidate;
     let kind = hypothesis.fault.repair();
@@ -33,7 +33,7 @@ pub(super) fn repairs(candidate: &Candidate) -> Vec<Repair> {
     kind.map(|kind| of(kind).collect()).unwrap_or_default()
 }
 
-/// What a question measures; in percent.
+/// Returns the text of a misfit, to be followed by its value in percent.
 const fn measured(question: Question) -> &'static str {
     match question {
         Question::Between => "the transmissions of both sides disagree by",
@@ -48,7 +48,7 @@ const fn measured(question: Question) -> &'static str {
     }
 }
 
-/// The two answers that change most, in words.
+/// Returns the text of the two misfits that the repair reduces most.
 fn evidence(verdict: &Verdict) -> String {
     let mut list: Vec<&(Question, f64, f64)> = verdict.evidence.iter().filter(|(_, then, now)| then > now).collect();
     list.sort_by(|a, b| (b.1 - b.2).total_cmp(&(a.1 - a.2)));
@@ -68,7 +68,7 @@ fn evidence(verdict: &Verdict) -> String {
     words.join("; ")
 }
 
-/// The finding, once for each of its repairs; none where too little speaks for it.
+/// Returns the finding, once for each of its repairs; nothing if the gain is too small.
 pub(super) fn told(verdict: &Verdict) -> Vec<Diagnosis> {
     if !verdict.asks() {
         return Vec::new();
@@ -108,5 +108,5 @@ pub(super) fn told(verdict: &Verdict) -> Vec<Diagnosis> {
         .collect()
 }
 
-/// More explanations than that are none.
+/// Maximum number of alternative explanations in a message.
 const MOST_RIVALS: usize = 5;

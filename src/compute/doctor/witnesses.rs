@@ -1,7 +1,7 @@
-//! What the numbers of a band say about a way to read them: a few misfits, each 0 where physics and experience put it.
+//! Evidence on the readings of a band: a few misfits, each 0 where physics and experience expect it.
 //!
-//! All are asked of the same sums over rows and columns of the blocks, which are made once; only whether light goes both
-//! ways alike needs all pairs of directions, and is remembered.
+//! All are computed from the same sums over rows and columns of the blocks, which are made once; only reciprocity needs
+//! all pairs of directions, and its results are cached.
 
 use super::blocks::{Block, Blocks, Turn};
 use super::reading::{Factor, Part, Reading, after, as_it_is};
@@ -11,68 +11,69 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::rc::Rc;
 
-/// What is asked.
+/// Question that a reading is rated by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Question {
-    /// Do the transmissions of both sides belong together? Exact for every system.
+    /// Difference between the transmissions of both sides, one of them reversed. 0 for every system.
     Between,
-    /// Does a lone transmission go both ways alike, as it does in systems that are alike on both sides?
+    /// Difference between a single transmission and its own reverse. 0 for systems that are alike on both sides.
     Alone,
-    /// Does a reflection go both ways alike? Exact for every system.
+    /// Difference between a reflection and its own reverse. 0 for every system.
     Own,
-    /// Is as much light left over, neither transmitted nor reflected, from above as from below, from right as from left?
+    /// Difference of the sum of transmittance and reflectance between above and below, and between right and left.
     Even,
-    /// Does light that passes well from one side, above or below, come back the less from there?
+    /// Correlation of the preferences of transmission and reflection for light from above or below; 0 where they oppose
+    /// each other, as they should.
     Opposed,
-    /// Is as much light left over from every angle to the normal?
+    /// Variation of the sum of transmittance and reflectance with the angle of incidence.
     Rest,
-    /// Is light won?
+    /// Transmittance plus reflectance above 1.
     Won,
-    /// Is nearly all light lost?
+    /// Loss of nearly all light.
     Lost,
-    /// Do panes, mirrors and diffusers depend on the angle as such materials do?
+    /// Deviation of panes, mirrors and diffusers from the angular dependence of such materials.
     Shape,
 }
 
-/// Less than this share of what there can be is rounding.
+/// Direct-hemispherical value below which a cell is dark: rounding.
 const DARK: f64 = 1e-9;
-/// Light that is won up to here is measuring error.
+/// Transmittance plus reflectance up to which an excess over 1 is a measuring error.
 const PLAUSIBLE: f64 = 1.01;
-/// A block that keeps more of its light straight is a pane or a mirror, one that keeps less than the rest a diffuser.
+/// Share of unscattered light above which a block is a pane or mirror; symmetric blocks below it are diffusers.
 const STRAIGHT: f64 = 0.9;
-/// Blocks that differ less from their own images depend on the angle alone.
+/// Difference from its own images below which a block depends on the angle of incidence only. Weighted share.
 const ALIKE: f64 = 0.05;
-/// Less than this between above and below is no preference.
+/// Root mean square difference between above and below that counts as a preference.
 const PREFERRED: f64 = 0.015;
-/// A surface that keeps its light straight reflects at least this share of what it does not reflect at the normal more at
-/// grazing angles.
+/// Minimum rise of the reflectance of a mirror from the normal to grazing angles, as a share of 1 minus the reflectance
+/// at the normal.
 const GRAZING: f64 = 0.25;
-/// A file whose light is lost but for this is black, or its values are no luminances.
+/// Mean direct-hemispherical value below which a file is black, or its values are not luminance coefficients.
 const BLACK: f64 = 0.06;
 
-/// Sums of one block without a factor: what leaves of an incident cell, and what each emergent cell sends for even
-/// light. \[1\]
+/// Sums of one block without a factor: direct-hemispherical value of each incident cell, and light sent by each
+/// emergent cell under uniform incident light. \[1\]
 #[derive(Debug, Clone)]
 pub(super) struct Sums {
     tau: Vec<f64>,
     emitted: Vec<f64>,
 }
 
-/// What a block is.
+/// Kind of scattering of a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
-    /// Keeps its light straight and depends on the angle of incidence alone.
+    /// Unscattered light that depends on the angle of incidence only.
     Straight,
-    /// Scatters, and does not care about azimuths.
+    /// Scattering that does not depend on azimuths.
     Diffuse,
-    /// Anything else.
+    /// Any other scattering.
     Directed,
 }
 
-/// A block as it was read, turned, exchanged.
+/// Key of a rearranged block: index of the source, turn, and whether incident and emergent directions are exchanged.
 type Rearranged = (usize, Option<Turn>, bool);
 
-/// The blocks of a band, ready to be asked.
+/// Evidence from the blocks of a band, with caches of sums, rearranged values and differences.
 pub(super) struct Witnesses<'a> {
     pub(super) blocks: &'a Blocks,
     kinds: [Option<Kind>; 4],
@@ -81,13 +82,13 @@ pub(super) struct Witnesses<'a> {
     compared: RefCell<BTreeMap<(Part, Part, bool), f64>>,
 }
 
-/// Answers to the questions, in their order; what does not apply is left out in every reading alike.
+/// Misfits by question, in a fixed order; questions that do not apply are omitted in every reading alike.
 pub(super) type Answers = Vec<(Question, f64)>;
 
 impl<'a> Witnesses<'a> {
-    /// `heard`: which blocks may be asked.
+    /// Creates the evidence of the blocks for which `heard` is `true`.
     pub(super) fn new(blocks: &'a Blocks, heard: impl Fn(Component) -> bool) -> Self {
-        // What is zero says nothing, nor does what was measured from a few directions alone.
+        // A block of zeros does not count, nor does one measured from a few directions only.
         let lit = |block: &&Block| 2 * block.tau.iter().filter(|tau| **tau > DARK).count() > block.tau.len();
         let mut all = Self {
             blocks,
@@ -113,7 +114,7 @@ impl<'a> Witnesses<'a> {
         }
     }
 
-    /// Does a block hold light?
+    /// Whether a block contains light and is used as evidence.
     pub(super) fn lit(&self, source: usize) -> bool {
         self.kinds[source].is_some()
     }
@@ -123,7 +124,7 @@ impl<'a> Witnesses<'a> {
         self.blocks.given[source].as_ref().expect("a reading names given blocks")
     }
 
-    /// Sums over rows and columns of a block read so.
+    /// Returns the sums over rows and columns of a block in the given reading.
     pub(super) fn sums(&self, part: Part) -> Sums {
         let key = (part.source, part.factor);
         let known = self.sums.borrow().get(&key).cloned();
@@ -170,7 +171,7 @@ impl<'a> Witnesses<'a> {
         }
     }
 
-    /// How far two blocks are apart, `reversed`: one of them as the light goes the other way. Remembered.
+    /// Returns the relative difference of two blocks, cached. `reversed`: one of them with the light reversed.
     pub(super) fn apart(&self, a: Part, b: Part, reversed: bool) -> f64 {
         let (a, b, reversed) = canonical(a, b, reversed);
         if a == b && !reversed {
@@ -184,7 +185,7 @@ impl<'a> Witnesses<'a> {
         apart
     }
 
-    /// Values of a block turned so, by rows of incident cells, or of emergent ones when exchanged. Remembered.
+    /// Returns the values of a turned block by rows of incident cells, or of emergent ones if `exchanged`. Cached.
     fn values(&self, source: usize, turn: Option<Turn>, exchanged: bool) -> Rc<Vec<f64>> {
         let made = || {
             let (q, n) = (&self.block(source).q, self.blocks.weight.len());
@@ -203,7 +204,7 @@ impl<'a> Witnesses<'a> {
         self.values.borrow_mut().entry((source, turn, exchanged)).or_insert_with(made).clone()
     }
 
-    /// As [`Blocks::difference`], of rows side by side.
+    /// Returns the relative difference like [`Blocks::difference`], computed row by row.
     fn difference(&self, a: Part, b: Part, reversed: bool) -> f64 {
         let weight = &self.blocks.weight;
         let n = weight.len();
@@ -229,7 +230,7 @@ impl<'a> Witnesses<'a> {
         if sum > 0.0 { difference / sum } else { 0.0 }
     }
 
-    /// Do two readings come to the same functions?
+    /// Whether two readings give the same functions, to within `nothing`.
     pub(super) fn same(&self, a: &Reading, b: &Reading, nothing: f64) -> bool {
         a.iter().zip(b).all(|(a, b)| match (a, b) {
             (Some(a), Some(b)) => a == b || self.apart(*a, *b, false) < nothing,
@@ -238,7 +239,7 @@ impl<'a> Witnesses<'a> {
         })
     }
 
-    /// What the numbers say about a reading.
+    /// Returns the misfits of a reading.
     pub(super) fn answers(&self, reading: &Reading) -> Answers {
         let lit = as_it_is(self.blocks).map(|part| part.filter(|part| self.lit(part.source)));
         let there = |slot: usize| lit[slot].and(reading[slot]);
@@ -282,7 +283,7 @@ impl<'a> Witnesses<'a> {
         list
     }
 
-    /// How far the sums of a function in two bands are apart, each by its own mean.
+    /// Returns the difference between the sums of a function in two bands, each relative to its own mean.
     pub(super) fn shapes_apart(&self, part: Part, other: &Self, of_other: Part) -> f64 {
         let (a, b) = (self.sums(part), other.sums(of_other));
         let apart = |a: &[f64], b: &[f64]| {
@@ -292,13 +293,13 @@ impl<'a> Witnesses<'a> {
         0.5 * (apart(&a.tau, &b.tau) + apart(&a.emitted, &b.emitted))
     }
 
-    /// A function against itself as the light goes the other way.
+    /// Returns the relative difference between a function and its own reverse.
     fn own(&self, part: Part) -> f64 {
         // Names of light that leaves on the side where it came from are turned by 180°.
         self.apart(part, Part { turn: after(part.turn, Some(Turn::HalfRound)), ..part }, true)
     }
 
-    /// Mean over even light.
+    /// Returns the mean under uniform incident light.
     fn mean(&self, values: impl Iterator<Item = f64>) -> f64 {
         values.zip(&self.blocks.weight).map(|(value, w)| w * value).sum::<f64>() / PI
     }
@@ -307,21 +308,21 @@ impl<'a> Witnesses<'a> {
         self.mean(values.map(|value| value * value)).sqrt()
     }
 
-    /// How far values are from their mean.
+    /// Returns the root mean square deviation of values from their mean.
     fn uneven(&self, values: &[f64]) -> f64 {
         let mean = self.mean(values.iter().copied());
         self.rms(values.iter().map(|value| value - mean))
     }
 
-    /// How far values are from their own images above and below, right and left.
+    /// Returns the root mean square difference between values and their mirror images, above–below and left–right.
     fn one_sided(&self, values: &[f64]) -> f64 {
         let apart =
             |turn| self.rms(values.iter().enumerate().map(|(k, value)| value - values[self.blocks.turned(turn, k)]));
         apart(Turn::UpDown).hypot(apart(Turn::LeftRight))
     }
 
-    /// Correlation of what transmission and reflection prefer, above or below, where both prefer anything; 0 where they
-    /// oppose each other as they should.
+    /// Returns the correlation of the preferences of transmission and reflection, above or below; 0 where they oppose
+    /// each other, as they should, or one of them has no preference.
     fn together(&self, t: &[f64], r: &[f64]) -> f64 {
         let preference = |values: &[f64]| -> Vec<f64> {
             (0..values.len()).map(|k| values[k] - values[self.blocks.turned(Turn::UpDown, k)]).collect()
@@ -334,7 +335,7 @@ impl<'a> Witnesses<'a> {
         (self.mean(t.iter().zip(&r).map(|(t, r)| t * r)) / (through * back)).max(0.0)
     }
 
-    /// How far their means over rings are from the mean of all.
+    /// Returns the root mean square deviation of the ring means from the overall mean.
     fn by_angle(&self, values: &[f64]) -> f64 {
         let basis = &self.blocks.basis;
         let mean = |ring: usize| {
@@ -346,13 +347,14 @@ impl<'a> Witnesses<'a> {
         self.uneven(&means)
     }
 
-    /// Means over rings from the normal outwards, with the cosine of each.
+    /// Returns the means over rings from the normal outwards, with the cosine of each.
     fn rings(&self, values: &[f64]) -> Vec<(f64, f64)> {
         self.blocks.by_ring(values).into_iter().map(|(theta, mean)| (theta.cos(), mean)).collect()
     }
 
-    /// What materials of its kind do not do: a pane that changes before 40°, a mirror that does not reflect more towards
-    /// grazing, a diffuser that sends unevenly what it takes evenly. Logarithms of ratios.
+    /// Returns the deviation from the behaviour of the kind of material: a pane that changes before 40°, a mirror that
+    /// does not reflect more towards grazing, a diffuser that emits less uniformly than it receives. Logarithms of
+    /// ratios.
     fn shape(&self, part: Part, sums: &Sums, transmission: bool) -> Option<f64> {
         let rings = self.rings(&sums.tau);
         let (first, last) = (rings.first()?.1, rings.last()?.1);
@@ -371,10 +373,10 @@ impl<'a> Witnesses<'a> {
     }
 }
 
-/// Cosine of the angle up to which panes keep their transmittance.
+/// Cosine of the angle up to which the transmittance of panes is constant.
 const MIDDLE: f64 = 0.77;
 
-/// The same comparison in the one way in which it is remembered.
+/// Returns the unique form of a comparison under which its result is cached.
 fn canonical(a: Part, b: Part, reversed: bool) -> (Part, Part, bool) {
     if a.factor.is_some() || b.factor.is_some() {
         return (a, b, reversed);

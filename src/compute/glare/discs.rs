@@ -1,37 +1,36 @@
-//! Beams of the sun that meet an eye: what the eye sees of each is a disc of the sun's size, where mirrors spread it an
-//! ellipse.
+//! Beams of the sun at an eye: the image of each is a disc of the sun's size, or an ellipse where mirrors spread it.
 
 use crate::compute::sky::SUN_HALF_ANGLE;
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Beams nearer than this belong together: parts of one disc, pieces of one fan. \[rad\]
+/// Angle between beams below which they belong together, as parts of one disc or pieces of one fan. \[rad\]
 const TOUCHING: f64 = 0.3 * PI / 180.0;
 
-/// A beam at an eye.
+/// Beam of sunlight at an eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// From the eye to where it comes from, of unit length.
+    /// Unit vector from the eye towards the beam's origin.
     pub to: DVec3,
-    /// Illuminance across it where nothing hides any part of it. \[lx\]
+    /// Illuminance across the beam where no part of it is hidden. \[lx\]
     pub normal: f64,
-    /// Share of it that the eye sees, 0 … 1.
+    /// Share of the beam that the eye sees, 0 … 1.
     pub share: f64,
 }
 
-/// What an eye sees of the sun.
+/// Image of the sun at an eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// From the eye to its middle, of unit length.
+    /// Unit vector from the eye to the middle of the disc.
     pub to: DVec3,
-    /// \[cd/m²\]
+    /// Luminance of the disc. \[cd/m²\]
     pub luminance: f64,
-    /// Of what is seen of it. \[sr\]
+    /// Solid angle of the visible part of the disc. \[sr\]
     pub solid_angle: f64,
 }
 
-/// Discs of beams. A beam alone is as large as the sun; of beams that belong together the scatter of their directions tells
-/// how large the image is: an ellipse of the same second moments, nowhere narrower than the sun.
+/// Returns the discs of beams. A single beam is as large as the sun; of beams that belong together the scatter of their
+/// directions gives the size of the image: an ellipse of the same second moments, nowhere narrower than the sun.
 pub fn discs(rays: &[Ray]) -> Vec<Disc> {
     let seen: Vec<Ray> = rays.iter().copied().filter(|ray| ray.share > 0.0 && ray.normal > 0.0).collect();
     let mut open: Vec<usize> = (0..seen.len()).rev().collect();
@@ -53,7 +52,7 @@ pub fn discs(rays: &[Ray]) -> Vec<Disc> {
     found
 }
 
-/// The image that beams are together.
+/// Returns the common image of beams.
 fn image(rays: &[Ray]) -> Option<Disc> {
     let whole: f64 = rays.iter().map(|ray| ray.normal).sum();
     let seen: f64 = rays.iter().map(|ray| ray.normal * ray.share.min(1.0)).sum();

@@ -1,4 +1,4 @@
-//! DGP of one eye from what it sees.
+//! Daylight glare probability of one observer from the field of view.
 
 use super::discs::Disc;
 use super::field::Field;
@@ -9,12 +9,13 @@ use crate::compute::estimate::Estimate;
 use glam::DVec2;
 use std::f64::consts::PI;
 
-/// What is brighter than this glares.
+/// Luminance threshold above which light is a glare source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Threshold {
-    /// So much \[cd/m²\]: the default of `evalglare` since 2.05, 2000 (Pierson et al. 2018).
+    /// Fixed luminance. \[cd/m²\] Default of `evalglare` since 2.05: 2000 (Pierson et al. 2018).
     Luminance(f64),
-    /// So many times the mean luminance of all that the eye sees: its default before, 5 (its `-b`; without a task).
+    /// Multiple of the mean luminance of the field of view. Default of `evalglare` before 2.05: 5 (its `-b`; without a
+    /// task).
     TimesMean(f64),
 }
 
@@ -24,50 +25,51 @@ impl Default for Threshold {
     }
 }
 
-/// What an eye sees.
+/// Field of view of an observer.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
-    /// The apertures.
+    /// Patches of the apertures.
     pub field: &'a Field,
     /// Luminance of every patch. \[cd/m²\]
     pub luminance: &'a [f64],
-    /// Beams of the sun.
+    /// Discs of direct or redirected sunlight.
     pub discs: &'a [Disc],
     /// Illuminance at the eye, all light counted. \[lx\]
     pub vertical: Estimate,
-    /// How far all luminances may be off together, a share of them.
+    /// Relative uncertainty that all luminances have in common.
     pub relative: f64,
 }
 
-/// Glare at one eye.
+/// Glare of one observer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glare {
     /// Daylight glare probability.
     pub dgp: Estimate,
-    /// Mean luminance of all that is in front of the eye, walls taken as even. \[cd/m²\]
+    /// Mean luminance of the hemisphere in front of the eye, walls taken as uniform. \[cd/m²\]
     pub mean: f64,
-    /// Of it that of all but the apertures. Where it is above the threshold, the error holds what even walls would glare.
-    /// \[cd/m²\]
+    /// Mean luminance of all but the apertures. \[cd/m²\] If it is above the threshold, the error of `dgp` includes the
+    /// glare of uniform walls.
     pub walls: f64,
-    /// What is brighter glares. \[cd/m²\]
+    /// Luminance above which light is a glare source. \[cd/m²\]
     pub threshold: f64,
-    /// What glares.
+    /// Glare sources of the observer.
     pub sources: Sources,
 }
 
-/// All that is in front of an eye: patches and discs as they are, all else as even as the rest of the illuminance says.
+/// Hemisphere in front of an eye: patches and discs as given, all else as uniform as the rest of the illuminance
+/// requires.
 struct Whole {
     /// Mean luminance. \[cd/m²\]
     mean: f64,
-    /// That of all else. \[cd/m²\]
+    /// Luminance of all but patches and discs. \[cd/m²\]
     walls: f64,
-    /// Middle of the light in the picture.
+    /// Centroid of the light in the picture. \[rad\]
     middle: DVec2,
 }
 
 fn whole(view: &View<'_>) -> Whole {
     let (mut flux, mut illuminance) = (0.0, 0.0);
-    // Of an even hemisphere the middle is that of the picture: walls lack what the openings have.
+    // The centroid of a uniform hemisphere is that of the picture: walls lack what the apertures have.
     let (mut place, mut lacking) = (DVec2::ZERO, DVec2::ZERO);
     for (patch, l) in view.field.patches.iter().zip(view.luminance) {
         flux += l * patch.solid_angle;
@@ -89,8 +91,9 @@ fn whole(view: &View<'_>) -> Whole {
     Whole { mean: all / (2.0 * PI), walls, middle }
 }
 
-/// Finds the sources and what they come to. The error holds that of the illuminance, that of the luminances, what the width
-/// of the patches costs, and what of them stands so near the threshold that it may or may not glare.
+/// Finds the glare sources and computes DGP. Its error contains that of the illuminance, that of the luminances, the
+/// effect of the width of the patches, and that of patches so near the threshold that they may or may not be glare
+/// sources.
 pub fn glare(view: &View<'_>, threshold: Threshold) -> Glare {
     let Whole { mean, walls, middle } = whole(view);
     let limit = match threshold {
@@ -106,13 +109,13 @@ pub fn glare(view: &View<'_>, threshold: Threshold) -> Glare {
     let less = dgp((e.value - e.error).max(0.0), sources.sum);
     let finer = dgp(e.value, sources.sum + sources.error);
     let mut error = off(brighter) + off(more).max(off(less)) + off(finer);
-    // As steep as a step: only asked where something stands on it.
+    // DGP has a step at the threshold: only evaluated where a patch is near it.
     let band = [limit / (1.0 + view.relative), limit * (1.0 + view.relative)];
     if view.luminance.iter().any(|l| (band[0]..=band[1]).contains(l)) {
         let with = |limit: f64| dgp(e.value, Sources::new(view.field, view.luminance, view.discs, limit).sum);
         error += off(with(band[0])).max(off(with(band[1])));
     }
-    // Walls are even in no room: where their mean glares, something of them does.
+    // Walls are never uniform: where their mean is a glare source, a part of them is.
     if walls > limit {
         error += off(dgp(e.value, sources.sum.max(2.0 * PI * (mean / position_index(middle)).powi(2))));
     }

@@ -1,4 +1,4 @@
-//! Apertures as an eye sees them: patches whose solid angles are exact and whose luminance is that towards the eye.
+//! Apertures as seen by an eye: patches with exact solid angles, whose luminance is that towards the eye.
 
 use super::gaze::Gaze;
 use crate::compute::direction::Dir;
@@ -8,37 +8,39 @@ use crate::compute::room::direct::Sensor;
 use glam::{DVec2, DVec3};
 use std::ops::Range;
 
-/// Patches are no wider than this across the line of sight to them. \[rad\] Their midpoints against 10⁵ directions: DGP
-/// within 0.002, as `tests/scenes/glare` has it.
+/// Maximum width of a patch across the line of sight to it. \[rad\] Compared with 10⁵ directions, the midpoints give
+/// DGP within 0.002, as `tests/scenes/glare` shows.
 const WIDEST: f64 = 2.0 * std::f64::consts::PI / 180.0;
-/// An opening has this many along each side at least.
+/// Minimum number of patches along each side of an aperture.
 const FEWEST: f64 = 6.0;
 
-/// A piece of an aperture.
+/// Patch of an aperture as seen by an eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// From the eye to its middle in the aperture's frame: the through-name of the light that comes from there.
+    /// Direction from the eye to the patch's middle in the aperture's frame: the through direction of the light that
+    /// comes from there.
     pub through: Dir<Facade>,
-    /// The same in the room's axes.
+    /// Unit vector from the eye to the patch's middle in the room's axes.
     pub to: DVec3,
-    /// Where it lies in the eye's picture. \[rad\]
+    /// Place of the patch in the eye's picture. \[rad\]
     pub place: DVec2,
-    /// \[sr\]
+    /// Solid angle of the patch. \[sr\]
     pub solid_angle: f64,
-    /// Times the cosine to the line of sight. \[sr\]
+    /// Solid angle times the cosine to the line of sight. \[sr\]
     pub projected: f64,
-    /// Odd or even row and column, 0 to 3: parts of the patches tell what their width costs.
+    /// Parity of row and column, 0 to 3: the difference between the four quarters gives the error due to the width of
+    /// the patches.
     pub quarter: usize,
 }
 
-/// All apertures before an eye.
+/// All apertures in front of an eye.
 #[derive(Debug, Clone)]
 pub struct Field {
-    /// The eye.
+    /// Eye of the observer.
     pub gaze: Gaze,
     /// Patches in front of the eye.
     pub patches: Vec<Patch>,
-    /// Those of each aperture.
+    /// Range of the patches of each aperture.
     pub of: Vec<Range<usize>>,
     /// Patches that share a side with each: left, right, below, above.
     beside: Vec<[Option<usize>; 4]>,
@@ -47,12 +49,12 @@ pub struct Field {
 }
 
 impl Field {
-    /// Of an eye.
+    /// Creates the field of an eye from the apertures, with patches of the default width.
     pub fn new<'a>(eye: &Sensor, apertures: impl IntoIterator<Item = &'a Aperture>) -> Self {
         Self::with_widest(eye, apertures, WIDEST)
     }
 
-    /// With patches of a width of one's own. \[rad\]
+    /// Creates the field of an eye with a given maximum width of the patches. \[rad\]
     pub fn with_widest<'a>(eye: &Sensor, apertures: impl IntoIterator<Item = &'a Aperture>, widest: f64) -> Self {
         let gaze = Gaze::new(eye);
         let mut field = Self { gaze, patches: Vec::new(), of: Vec::new(), beside: Vec::new(), rising: Vec::new() };
@@ -110,23 +112,23 @@ impl Field {
         }
     }
 
-    /// Patches that share a side with one: left, right, below, above.
+    /// Returns the patches that share a side with one: left, right, below, above.
     pub(super) fn beside(&self, patch: usize) -> [Option<usize>; 4] {
         self.beside[patch]
     }
 
-    /// Patches by rising height of their direction.
+    /// Returns the patches by rising height of their direction.
     pub(super) fn rising(&self) -> &[usize] {
         &self.rising
     }
 
-    /// Solid angle of all patches, and that projected. \[sr\]
+    /// Returns the solid angle of all patches, and their projected solid angle. \[sr\]
     pub fn solid_angles(&self) -> [f64; 2] {
         self.patches.iter().fold([0.0; 2], |[all, projected], p| [all + p.solid_angle, projected + p.projected])
     }
 }
 
-/// Limits along one side at even steps of the angle.
+/// Returns the limits of the patches along one side, at equal steps of the angle.
 fn knots([low, high]: [f64; 2], distance: f64, widest: f64) -> Vec<f64> {
     let (from, to) = (low.atan2(distance), high.atan2(distance));
     let count = ((to - from) / widest).ceil().max(FEWEST);
@@ -134,7 +136,7 @@ fn knots([low, high]: [f64; 2], distance: f64, widest: f64) -> Vec<f64> {
     std::iter::once(low).chain(inner).chain(std::iter::once(high)).collect()
 }
 
-/// The place half the angle on between two.
+/// Returns the coordinate at the mean angle between two coordinates.
 fn middle(low: f64, high: f64, distance: f64) -> f64 {
     (0.5 * (low.atan2(distance) + high.atan2(distance))).tan() * distance
 }

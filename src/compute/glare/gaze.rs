@@ -1,26 +1,27 @@
-//! An eye, the picture that it has of the room, and how much a place in that picture counts.
+//! Eye of an observer, its picture of the room, and the position index of places in that picture.
 //!
 //! The picture is an equiangular fisheye: a direction σ off the line of sight lies at a distance σ from the middle.
 
 use crate::compute::room::direct::Sensor;
 use glam::{DVec2, DVec3};
 
-/// The largest position index: beyond it nothing is known.
+/// Maximum position index, returned for all places beyond it, where no data exist.
 const LARGEST: f64 = 16.0;
 
-/// An eye and where it looks, in the room's axes.
+/// Eye of an observer and its line of sight, in the room's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gaze {
-    /// Where it is. \[m\]
+    /// Position of the eye. \[m\]
     pub position: DVec3,
-    /// The line of sight, of unit length.
+    /// Line of sight, a unit vector.
     pub forward: DVec3,
     right: DVec3,
     up: DVec3,
 }
 
 impl Gaze {
-    /// Of a sensor: it looks along its normal, upright. One that looks straight up or down has its head towards +y.
+    /// Creates the eye of a sensor point: it looks along the normal, upright. One that looks up or down vertically has
+    /// its head towards +y.
     pub fn new(sensor: &Sensor) -> Self {
         let forward = sensor.normal.normalize_or_zero();
         let upright = |axis: DVec3| {
@@ -30,14 +31,14 @@ impl Gaze {
         Self { position: sensor.position, forward, right: forward.cross(up), up }
     }
 
-    /// Where a unit direction lies in the picture: x to the right, y up. \[rad\]
+    /// Returns the place of a unit direction in the picture: x to the right, y up. \[rad\]
     pub fn place(&self, to: DVec3) -> DVec2 {
         let aside = DVec2::new(to.dot(self.right), to.dot(self.up));
         let off = aside.length().atan2(to.dot(self.forward));
         aside.normalize_or_zero() * off
     }
 
-    /// The direction at a place of the picture.
+    /// Returns the direction at a place of the picture.
     pub fn direction(&self, place: DVec2) -> DVec3 {
         let off = place.length();
         let aside = place.normalize_or_zero();
@@ -45,14 +46,14 @@ impl Gaze {
     }
 }
 
-/// Position index P of a source at a place of the picture \[rad\]: how much brighter it has to be to disturb as much as one
-/// on the line of sight.
+/// Returns the position index P of a source at a place of the picture \[rad\]: factor by which it has to be brighter to
+/// disturb as much as a source on the line of sight.
 ///
-/// Above the line of sight after Guth (IES Lighting Handbook; Wienold & Christoffersen 2006, eq 2), with σ the angle off
-/// the line of sight and τ that around it from the vertical, in degrees:
-/// P = exp((35.2 − 0.31889 τ − 1.22 e^(−2τ/9)) 10⁻³ σ + (21 + 0.26667 τ − 0.002963 τ²) 10⁻⁵ σ²).
-/// Below it after Iwata (Iwata & Tokura 1997; CIE 190:2010) in the form of `evalglare` 3.02 and later:
-/// P = exp(6.49·10⁻³ β + 21·10⁻⁵ β²), tan β = tan σ √(1 + 0.3225 cos² τ). Both meet on the horizontal; never more than 16.
+/// Above the line of sight after Guth (IES Lighting Handbook; Wienold & Christoffersen 2006, eq 2), with σ the angle
+/// off the line of sight and τ that around it from the vertical, in degrees: P = exp((35.2 − 0.31889 τ − 1.22
+/// e^(−2τ/9)) 10⁻³ σ + (21 + 0.26667 τ − 0.002963 τ²) 10⁻⁵ σ²). Below it after Iwata (Iwata & Tokura 1997; CIE
+/// 190:2010) in the form of `evalglare` 3.02 and later: P = exp(6.49·10⁻³ β + 21·10⁻⁵ β²), tan β = tan σ √(1 + 0.3225
+/// cos² τ). Both meet on the horizontal; the maximum is 16.
 pub fn position_index(place: DVec2) -> f64 {
     let sigma = place.length();
     if sigma <= 0.0 {
@@ -61,7 +62,7 @@ pub fn position_index(place: DVec2) -> f64 {
     let cosine = (place.y / sigma).clamp(-1.0, 1.0);
     let exponent = if cosine < 0.0 {
         let stretch = (1.0 + 0.3225 * cosine * cosine).sqrt();
-        // By components, so that 90° is no exception.
+        // By components, so that 90° needs no special case.
         let beta = (sigma.sin() * stretch).atan2(sigma.cos()).to_degrees();
         6.49e-3 * beta + 21e-5 * beta * beta
     } else {

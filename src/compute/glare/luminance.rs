@@ -1,4 +1,4 @@
-//! Luminances of an aperture's patches as the eye sees them.
+//! Luminances of an aperture's patches towards the eye.
 
 use super::field::{Field, Patch};
 use crate::compute::btdf::AngularTransmittance;
@@ -6,22 +6,22 @@ use crate::compute::direction::Emergent;
 use crate::compute::lid::{Emission, Facing};
 use std::f64::consts::FRAC_PI_2;
 
-/// Adds what an aperture scatters, of luminaires in its place too, to the luminances of all patches; `aperture`: its number
-/// in the field. What is seen straight through is left out.
+/// Adds the scattered light of an aperture, that of luminaires in its place too, to the luminances of all patches;
+/// `aperture` is its number in the field. Regular transmission is left out.
 pub fn add_emitted(field: &Field, aperture: usize, emission: &Emission, facing: &Facing<'_>, luminance: &mut [f64]) {
     let range = field.of[aperture].clone();
     if range.is_empty() {
         return;
     }
     let scattered = Emission { regular: None, beams: Vec::new(), notes: Vec::new(), ..emission.clone() };
-    // Of a luminance the size of the opening is no part.
+    // A luminance does not depend on the size of the aperture.
     let lid = scattered.lid(facing, [1.0; 2]);
     for (sum, patch) in luminance[range.clone()].iter_mut().zip(&field.patches[range]) {
         *sum += lid.luminance(Emergent::from_through_name(patch.through));
     }
 }
 
-/// Adds the outside as it is seen straight through a transmittance. `facing` has the outside as it is seen from the eye.
+/// Adds the outside that is visible through a regular transmittance. `facing` has the outside as seen from the eye.
 pub fn add_seen_through(
     field: &Field,
     aperture: usize,

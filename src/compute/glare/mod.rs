@@ -1,19 +1,20 @@
-//! Glare at an eye in closed form: the daylight glare probability DGP (Wienold & Christoffersen 2006, Energy and Buildings
-//! 38) with sources that are computed instead of found in a picture.
+//! Glare of an observer in closed form: the daylight glare probability DGP (Wienold & Christoffersen 2006, Energy and
+//! Buildings 38) with sources that are computed instead of found in a picture.
 //!
-//! | file | what |
+//! | file | content |
 //! | --- | --- |
 //! | `gaze` | an eye: its picture, the position index |
-//! | `field` | apertures as an eye sees them, cut into patches |
-//! | `luminance` | luminances of the patches by what the apertures emit |
-//! | `discs` | beams that meet the eye as discs of the sun |
-//! | `sources` | what glares, grouped |
+//! | `field` | apertures as seen by an eye, cut into patches |
+//! | `luminance` | luminances of the patches by the light that the apertures emit |
+//! | `discs` | beams that reach the eye as discs of the sun |
+//! | `sources` | glare sources, grouped |
 //! | `probability` | DGP of illuminance and sources, DGPs |
-//! | `evaluate` | all of it for one eye, with its error |
+//! | `evaluate` | glare of one observer, with its error |
 //!
-//! Sources are found as Radiance's `evalglare` (3.0x) finds them in a fisheye picture: all above a threshold, what stands
-//! within 5.7° of each other as one, peaks above 50,000 cd/m² apart. Walls and patches of sun on them are no sources: their
-//! light counts by the illuminance at the eye. Eyes have no blind spots: all in front of the plane of the eye is seen.
+//! Sources are found as Radiance's `evalglare` (3.0x) finds them in a fisheye picture: all light above a threshold,
+//! parts within 5.7° of each other as one, peaks above 50,000 cd/m² separately. Walls and patches of sun on them are
+//! not sources: their light counts by the illuminance at the eye. Eyes have no blind spots: all in front of the plane
+//! of the eye is seen.
 
 mod discs;
 mod evaluate;

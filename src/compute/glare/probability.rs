@@ -1,13 +1,13 @@
-//! The daylight glare probability of what meets an eye.
+//! Daylight glare probability from illuminance and glare sources, and its simplified form.
 
-/// Below this vertical illuminance, and outside DGP 0.2 to 0.8, the formula was not tested with people. \[lx\]
+/// Minimum vertical illuminance for which DGP was tested with people; the tests cover DGP from 0.2 to 0.8. \[lx\]
 pub const LEAST_ILLUMINANCE: f64 = 380.0;
-/// Below this illuminance DGP is lessened. \[lx\]
+/// Vertical illuminance below which the low-light correction reduces DGP. \[lx\]
 const LOW: f64 = 1000.0;
 
-/// DGP = 5.87·10⁻⁵ E_v + 0.0918 lg(1 + Σ / E_v^1.87) + 0.16, Σ = Σ L² ω / P² (Wienold & Christoffersen 2006, eq 5), no more
-/// than 1; below 1000 lx times e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)) (Wienold 2012, the low-light correction).
-/// `vertical` \[lx\], `sources` \[cd²/m⁴ sr\].
+/// Computes DGP = 5.87·10⁻⁵ E_v + 0.0918 lg(1 + Σ / E_v^1.87) + 0.16, Σ = Σ L² ω / P² (Wienold & Christoffersen 2006,
+/// eq 5), limited to 1. Below 1000 lx multiplied by e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)) (Wienold 2012, the
+/// low-light correction). `vertical` \[lx\], `sources` \[cd²/m⁴ sr\].
 pub fn dgp(vertical: f64, sources: f64) -> f64 {
     if vertical <= 0.0 {
         return 0.0;
@@ -16,7 +16,7 @@ pub fn dgp(vertical: f64, sources: f64) -> f64 {
     value.min(1.0) * low_light(vertical)
 }
 
-/// Σ / E_v^1.87.
+/// Returns Σ / E_v^1.87.
 fn contrast(vertical: f64, sources: f64) -> f64 {
     sources / vertical.powf(1.87)
 }
@@ -25,13 +25,13 @@ fn low_light(vertical: f64) -> f64 {
     if vertical < LOW { 1.0 / (1.0 + (4.0 - 0.024 * vertical).exp()) } else { 1.0 }
 }
 
-/// Simplified DGP of a vertical illuminance \[lx\], 6.22·10⁻⁵ E_v + 0.184 (Wienold 2009): for eyes that neither sun nor lobe
-/// meets.
+/// Computes the simplified DGP of a vertical illuminance \[lx\], 6.22·10⁻⁵ E_v + 0.184 (Wienold 2009): valid for eyes
+/// that neither the sun nor a lobe of it reaches.
 pub fn dgps(vertical: f64) -> f64 {
     6.22e-5 * vertical + 0.184
 }
 
-/// Does a value lie where the formula was tested with people?
+/// Whether illuminance and DGP lie in the range in which the formula was tested with people.
 pub fn is_proven(vertical: f64, dgp: f64) -> bool {
     vertical >= LEAST_ILLUMINANCE && (0.2..=0.8).contains(&dgp)
 }

@@ -1,7 +1,7 @@
-//! What glares: patches and discs above a threshold, grouped as `evalglare` groups the pixels of a picture.
+//! Glare sources: patches and discs above a threshold, grouped as `evalglare` groups the pixels of a picture.
 //!
-//! What is nearer than [`REACH`] to each other is one source of their mean luminance, at the middle of their light in the
-//! picture; of it what is brighter than [`PEAK`] is sources of its own.
+//! Parts nearer than [`REACH`] to each other are one source of their mean luminance, at the centroid of their light in
+//! the picture; parts brighter than [`PEAK`] are separate sources.
 
 use super::discs::Disc;
 use super::field::Field;
@@ -9,55 +9,55 @@ use super::gaze::position_index;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
-/// Half of the search angle of `evalglare` (its `-r 0.2`): what is no further apart belongs together. \[rad\]
+/// Half of the search angle of `evalglare` (its `-r 0.2`): parts no further from each other are one source. \[rad\]
 pub const REACH: f64 = 0.1;
-/// From here on it is a peak (its `-Y 50000`). \[cd/m²\]
+/// Luminance above which light is a peak, a separate source (`evalglare -Y 50000`). \[cd/m²\]
 pub const PEAK: f64 = 5e4;
 
-/// What a source is.
+/// Kind of a glare source.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// Bright patches.
     Bright,
     /// Patches above [`PEAK`].
     Peak,
-    /// The sun, straight or turned.
+    /// Direct or redirected sun.
     Sun,
 }
 
-/// One source.
+/// One glare source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Source {
-    /// What it is.
+    /// Kind of the source.
     pub kind: Kind,
-    /// From the eye to the middle of its light, in the room's axes.
+    /// Unit vector from the eye to the centroid of the source's light, in the room's axes.
     pub to: DVec3,
-    /// Mean. \[cd/m²\]
+    /// Mean luminance. \[cd/m²\]
     pub luminance: f64,
-    /// \[sr\]
+    /// Solid angle of the source. \[sr\]
     pub solid_angle: f64,
-    /// Guth's, or Iwata's.
+    /// Position index after Guth, or below the line of sight after Iwata.
     pub position_index: f64,
 }
 
-/// All sources of an eye.
+/// All glare sources of an observer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sources {
-    /// The brightest light first.
+    /// Glare sources, the brightest first.
     pub list: Vec<Source>,
     /// Σ L² ω / P². \[cd²/m⁴ sr\]
     pub sum: f64,
-    /// How far that may be off for the width of the patches: by halves of them.
+    /// Estimated absolute error of `sum` due to the width of the patches, from comparing halves of them.
     pub error: f64,
 }
 
-/// Light of a group, or of a part of it.
+/// Light of a group of patches, or of a part of it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Light {
     solid_angle: f64,
     /// Luminance times solid angle.
     flux: f64,
-    /// Places, by flux.
+    /// Sum of the places in the picture, weighted by flux.
     place: DVec2,
 }
 
@@ -85,7 +85,7 @@ impl Light {
         self.place / self.flux
     }
 
-    /// L² ω / P² with the position index of a place.
+    /// Returns L² ω / P² with the position index of a place.
     fn term(&self, place: DVec2) -> f64 {
         if self.solid_angle <= 0.0 || self.flux <= 0.0 {
             return 0.0;
@@ -105,10 +105,10 @@ impl Group {
         self.quarters.iter().fold(self.discs, |sum, quarter| sum.plus(*quarter, 1.0))
     }
 
-    /// L² ω / P² by every other row against that by the others, by columns, and by the fields of a chessboard: the largest
-    /// difference. Half of it would be the error of their mean, were they independent; along straight edges they are not.
-    /// Rows and columns stand for the solid angle of all, of which they need not have one half each; the place is that of
-    /// all, for halves lie a little aside.
+    /// Returns the largest difference of L² ω / P² between every other row and the others, between every other column
+    /// and the others, and between the fields of a chessboard. Half of it would be the error of their mean, were they
+    /// independent; along straight edges they are not. Rows and columns represent the solid angle of all, of which they
+    /// need not have one half each; the place is that of all, for halves lie a little aside.
     fn error(&self, place: DVec2) -> f64 {
         let all: f64 = self.quarters.iter().map(|quarter| quarter.solid_angle).sum();
         let by = |halves: [[usize; 2]; 2], scaled: bool| {
@@ -124,7 +124,8 @@ impl Group {
 }
 
 impl Sources {
-    /// Of patches with their luminances, and discs. `threshold`: what is brighter glares. \[cd/m²\]
+    /// Finds the glare sources among patches of given luminances and discs. `threshold`: luminance above which light is
+    /// a glare source. \[cd/m²\]
     pub fn new(field: &Field, luminance: &[f64], discs: &[Disc], threshold: f64) -> Self {
         let count = field.patches.len();
         let bright = linked(field, luminance, discs, threshold);
@@ -170,7 +171,7 @@ impl Sources {
     }
 }
 
-/// Sets that are joined.
+/// Disjoint sets that can be joined.
 struct Links(Vec<usize>);
 
 impl Links {
@@ -188,17 +189,17 @@ impl Links {
     }
 }
 
-/// Radius of a disc of a solid angle. \[rad\]
+/// Returns the radius of a disc of a solid angle. \[rad\]
 fn radius(solid_angle: f64) -> f64 {
     (solid_angle / std::f64::consts::PI).sqrt()
 }
 
-/// The group of every patch, then of every disc, that is brighter than `least`, a number of its own for each group.
+/// Returns the group number of every patch, then of every disc; `None` for those that are not brighter than `least`.
 fn linked(field: &Field, luminance: &[f64], discs: &[Disc], least: f64) -> Vec<Option<usize>> {
     let count = field.patches.len();
     let bright = |at: usize| luminance[at] > least;
     let mut links = Links((0..count + discs.len()).collect());
-    // Neighbours touch; who has a dark one beside it, or none, may be near to others beyond.
+    // Neighbours touch; a patch with a dark or no neighbour may be near to others beyond.
     let mut rim = Vec::new();
     let mut widest: f64 = 0.0;
     for &at in field.rising().iter().filter(|&&at| bright(at)) {
@@ -217,7 +218,7 @@ fn linked(field: &Field, luminance: &[f64], discs: &[Disc], least: f64) -> Vec<O
         let reach = REACH + radius(own.solid_angle);
         for &other in &rim[k + 1..] {
             let beyond = &field.patches[other];
-            // They rise: whoever is too high is followed by higher ones.
+            // Sorted by height: all that follow are too high as well.
             if beyond.to.z - own.to.z > reach + widest {
                 break;
             }
@@ -292,7 +293,7 @@ mod tests {
         let sun = Disc { to: DVec3::new(0.0, -0.98, 0.199).normalize_or_zero(), luminance: 1e8, solid_angle: 6.8e-5 };
         let all = Sources::new(&field, &vec![3000.0; field.patches.len()], &[sun], 2000.0);
         assert_eq!(all.list.iter().map(|one| one.kind).collect::<Vec<_>>(), [Kind::Sun, Kind::Bright]);
-        // A faint disc is no peak: it joins the window that it stands in.
+        // A faint disc is not a peak: it joins the aperture around it.
         let faint = Disc { luminance: 4e4, ..sun };
         let all = Sources::new(&field, &vec![3000.0; field.patches.len()], &[faint], 2000.0);
         assert_eq!(all.list.len(), 1);

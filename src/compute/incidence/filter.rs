@@ -14,10 +14,10 @@ use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// What spreads light.
+/// Kernel that spreads the light of an indicatrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kernel {
-    /// Nothing.
+    /// No spreading.
     None,
     /// Constant luminance within this angle. \[rad\]
     Cone(f64),
@@ -26,25 +26,25 @@ pub enum Kernel {
 }
 
 impl Kernel {
-    /// Figure 8, half as wide as patches: 6° across.
+    /// Kernel of the report's Figure 8, half as wide as patches: 6° across.
     pub const NARROW: Self = Self::Cone(3.0 * PI / 180.0);
-    /// Figure 8, as wide as patches: 12° across.
+    /// Kernel of the report's Figure 8, as wide as patches: 12° across.
     pub const MATCHED: Self = Self::Cone(6.0 * PI / 180.0);
-    /// Figure 8, twice as wide: 24° across.
+    /// Kernel of the report's Figure 8, twice as wide as patches: 24° across.
     pub const WIDE: Self = Self::Cone(12.0 * PI / 180.0);
 }
 
-/// A kernel and what it is used on.
+/// Kernel and the part of an indicatrix that it is used on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Filter {
-    /// Which.
+    /// Kernel of the filter.
     pub kernel: Kernel,
-    /// Lobes alone, as is better; false: the whole indicatrix, as in the report.
+    /// Whether lobes alone are filtered, which is better; otherwise the whole indicatrix, as in the report.
     pub sharp_only: bool,
 }
 
-/// Luminance on the cells of `target` from the illuminance \[lx\] through the patches of the data's lattice. \[cd/m²\]
-/// `None` when the data's directions are no lattice of patches.
+/// Computes the luminance on the cells of `target` from the illuminance \[lx\] through the patches of the data's
+/// lattice. \[cd/m²\] `None` if the data's directions are not a lattice of patches.
 pub fn diffuse(model: &Model, filter: Filter, target: &Grid, illuminance: &[f64]) -> Option<Vec<f64>> {
     let spreader = Spreader::new(model, filter, target)?;
     // In fixed portions, added in order: the same bits for any number of threads.
@@ -66,25 +66,25 @@ pub fn diffuse(model: &Model, filter: Filter, target: &Grid, illuminance: &[f64]
     Some(luminance)
 }
 
-/// Filters the indicatrices of one model onto one set of cells.
+/// Filter of the indicatrices of one model onto one set of cells.
 pub struct Spreader<'a> {
     model: &'a Model,
     filter: Filter,
     target: &'a Grid,
     patches: &'a RingBasis,
-    /// From the data's cells to the target's.
+    /// Resampling from the data's cells to the target's.
     resampling: Resampling,
 }
 
 impl<'a> Spreader<'a> {
-    /// `None` when the data's directions are no lattice of patches.
+    /// Creates the filter; `None` if the data's directions are not a lattice of patches.
     pub fn new(model: &'a Model, filter: Filter, target: &'a Grid) -> Option<Self> {
         let patches = model.data.lattice()?;
         let resampling = Resampling::new(model.grid.basis(), target.basis());
         Some(Self { model, filter, target, patches, resampling })
     }
 
-    /// The filtered indicatrix of one direction; its flux is τ. \[1/sr\]
+    /// Returns the filtered indicatrix of one direction; its flux is τ. \[1/sr\]
     pub fn indicatrix(&self, incident: usize) -> Vec<f64> {
         let model = self.model;
         let mut sum = vec![0.0; self.target.centre.len()];
@@ -130,7 +130,7 @@ impl<'a> Spreader<'a> {
         }
     }
 
-    /// Points of light spread by a kernel, by cell means. Few points make sharp edges, which need more directions a
+    /// Spreads points of light by a kernel, as cell means. Few points make sharp edges, which need more directions per
     /// cell.
     fn spread(&self, kernel: Kernel, patch: &Cell, points: &[(DVec3, f64)], turn: DMat2) -> Vec<f64> {
         let directions = match points.len() {
@@ -155,7 +155,7 @@ impl<'a> Spreader<'a> {
         out
     }
 
-    /// A base moved over the kernel and averaged.
+    /// Returns a base moved over the kernel and averaged.
     fn smoothed(&self, kernel: Kernel, patch: &Cell, base: &[f64]) -> Vec<f64> {
         let grid = &self.model.grid;
         let offsets = offsets(kernel, patch);
@@ -182,7 +182,7 @@ impl<'a> Spreader<'a> {
     }
 }
 
-/// The turn or mirror nearest to a response: shifts patches without changing their size.
+/// Returns the rotation or reflection nearest to a response, which shifts patches without changing their size.
 fn turn_of(response: DMat2) -> DMat2 {
     let (a, b, c, d) = (response.x_axis.x, response.x_axis.y, response.y_axis.x, response.y_axis.y);
     if response.determinant() >= 0.0 {
@@ -193,16 +193,19 @@ fn turn_of(response: DMat2) -> DMat2 {
     }
 }
 
-/// A kernel placed: where it is not zero, about a point of light.
+/// Kernel about a point of light: the region where it is not zero.
 struct Footprint {
     kernel: Kernel,
     cos_reach: f64,
-    /// Furthest that it spreads: as a chord when round, in direction cosines as a patch.
+    /// Largest distance that the kernel spreads: as a chord when round, in direction cosines as a patch.
     reach: f64,
-    /// The patch's direction, its limits in sin²θ and half its width in azimuth.
+    /// Direction of the patch, as direction cosines.
     own: DVec2,
+    /// Limits of the patch in sin²θ.
     limits: [f64; 2],
+    /// Direction of the patch's middle in azimuth.
     axis: DVec2,
+    /// Half the patch's width in azimuth. \[rad\]
     half: f64,
 }
 
@@ -222,7 +225,7 @@ impl Footprint {
         Self { kernel, cos_reach, reach, own, limits, axis: DVec2::from_angle(patch.phi), half }
     }
 
-    /// Distance in the measure of `reach`.
+    /// Returns the distance in the measure of `reach`.
     fn distance(&self, a: DVec3, b: DVec3) -> f64 {
         match self.kernel {
             Kernel::Patch => (a - b).truncate().length(),
@@ -230,7 +233,7 @@ impl Footprint {
         }
     }
 
-    /// Weight in direction `d` of light at `p`.
+    /// Returns the weight in direction `d` of light at `p`.
     #[inline]
     fn at(&self, d: DVec3, p: DVec3, back: DMat2) -> f64 {
         match self.kernel {
@@ -252,7 +255,7 @@ enum Offset {
     Angle(DVec2),
 }
 
-/// Steps that stand for a kernel where the picture is smooth: 16 of equal weight.
+/// Returns 16 steps of equal weight that represent a kernel where the picture is smooth.
 fn offsets(kernel: Kernel, patch: &Cell) -> Vec<Offset> {
     let pairs = (0..16).map(|k| ((f64::from(k / 4) + 0.5) / 4.0, (f64::from(k % 4) + 0.5) / 4.0));
     let own = patch.centre().vector().truncate();

@@ -2,29 +2,30 @@
 //! neighbours say so, and with a kink where slopes from both sides meet inside an edge.
 //!
 //! On an edge from a to b a cubic with given slopes differs from the straight line by −t(1 − t)·(A(1 − t) + Bt), where
-//! A and B are what the slope at either end leaves unexplained at the other. A blind's direct share or a panel's deflected share has kinks instead, which a 12° lattice does not resolve: there the slopes on both sides
-//! are followed into the edge until they meet (subcell resolution, Harten 1989). Over a triangle the three edges'
-//! bumps add up, each as a form of second degree in the weights, so that the whole is continuous across edges.
+//! A and B are what the slope at either end leaves unexplained at the other. A blind's direct share or a panel's
+//! deflected share has kinks instead, which a 12° lattice does not resolve: there the slopes on both sides are followed
+//! into the edge until they meet (subcell resolution, Harten 1989). Over a triangle the three edges' bumps add up, each
+//! as a form of second degree in the weights, so that the whole is continuous across edges.
 
 use super::lattice::{Lattice, tangent_step};
 use super::response::gradient;
 use glam::DVec2;
 
-/// Cosine between two steps that go opposite ways: within 37°. As with the limits of [`bump`],
+/// Cosine between two steps up to which they count as opposite: within 37°. As with the limits of [`bump`],
 /// `tests/compute/incidence_schemes` prints what is misplaced with it; no table of other values is kept.
 const BEHIND: f64 = -0.8;
 
-/// What an edge adds to linear interpolation.
+/// Term that an edge adds to linear interpolation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bump {
-    /// −t(1 − t)·(`[0]`(1 − t) + `[1]`t).
+    /// Cubic term −t(1 − t)·(`[0]`(1 − t) + `[1]`t).
     Cubic([f64; 2]),
-    /// Follows `[0]`·t from the first end and `[1]`·(1 − t) from the second, whichever is nearer to the line.
+    /// Kink that follows `[0]`·t from the first end and `[1]`·(1 − t) from the second, whichever is nearer to the line.
     Tent([f64; 2]),
 }
 
 impl Bump {
-    /// Over a triangle, for the weights of the edge's two ends.
+    /// Returns the term over a triangle, for the weights of the edge's two ends.
     pub fn at(self, wa: f64, wb: f64) -> f64 {
         match self {
             Self::Cubic([a, b]) => {
@@ -39,13 +40,14 @@ impl Bump {
     }
 }
 
-/// A scalar at the incident directions, following one lobe from each to its neighbours where it exists.
+/// Scalar at the incident directions, following one lobe from each to its neighbours where it exists.
 pub trait Field {
-    /// Its value for a lobe of a vertex.
+    /// Returns the value for a lobe of a vertex.
     fn value(&self, vertex: usize, lobe: usize) -> f64;
-    /// The same lobe at a neighbour (given by its place in the lattice's list), if it is there.
+    /// Returns the lobe at a neighbour (given by its place in the lattice's list) that continues `lobe`, if it is
+    /// there.
     fn partner(&self, vertex: usize, lobe: usize, neighbour: usize) -> Option<usize>;
-    /// Its value at θ = 90° beyond a vertex of the border.
+    /// Returns the value at θ = 90° beyond a vertex of the border.
     fn at_grazing(&self, vertex: usize, lobe: usize) -> Option<f64>;
 }
 
@@ -54,11 +56,12 @@ pub trait Field {
 pub struct Slopes {
     /// Gradient over all neighbours times the step; `None` where neighbours are on one side only.
     pub centred: Vec<Option<f64>>,
-    /// The same from the neighbours that lie away from the one it points to.
+    /// Gradient over the neighbours that lie away from the one it points to, times the step; `None` where none lies
+    /// opposite.
     pub one_sided: Vec<Option<f64>>,
 }
 
-/// Slopes towards every neighbour.
+/// Computes the slopes towards every neighbour.
 pub fn slopes(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Slopes {
     let here = lattice.points()[vertex];
     let neighbours = lattice.neighbours(vertex);
@@ -90,8 +93,9 @@ pub fn slopes(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize)
     Slopes { centred: steps.iter().map(|step| centre.map(|g| g.dot(*step))).collect(), one_sided }
 }
 
-/// The bump of the edge from `a` (towards its neighbour number `ab`) to `b` (towards its neighbour number `ba`).
-/// `behind`: what the slope one edge further back misses at each end; smooth functions miss as much there as here.
+/// Returns the term of the edge from `a` (towards its neighbour number `ab`) to `b` (towards its neighbour number
+/// `ba`). `behind`: what the slope one edge further back misses at each end; smooth functions miss as much there as
+/// here.
 pub fn bump(values: [f64; 2], towards: [(&Slopes, usize); 2], behind: [Option<f64>; 2]) -> Bump {
     let difference = values[1] - values[0];
     let [(a, ab), (b, ba)] = towards;
@@ -118,7 +122,7 @@ pub fn bump(values: [f64; 2], towards: [(&Slopes, usize); 2], behind: [Option<f6
     })
 }
 
-/// What the slope behind a vertex, followed from the neighbour that lies most exactly behind it, misses there.
+/// Returns the error at a vertex of the slope behind it, followed from the neighbour that lies most exactly behind it.
 pub fn missed_behind(
     lattice: &Lattice,
     field: &impl Field,
@@ -150,7 +154,7 @@ fn surrounded(samples: &[(DVec2, f64)]) -> bool {
     angles.len() >= 4 && (0..angles.len()).all(|k| gap(k) < 0.75 * std::f64::consts::PI)
 }
 
-/// The gradient along the only direction that there is.
+/// Returns the gradient along the only direction of the samples.
 pub fn along_one_line(samples: &[(DVec2, f64)]) -> Option<DVec2> {
     let weight: f64 = samples.iter().map(|(step, _)| step.length_squared()).sum();
     (weight > 0.0).then(|| samples.iter().map(|&(step, change)| step * change).sum::<DVec2>() / weight)

@@ -1,26 +1,28 @@
-//! Beyond the most grazing row of incident directions.
+//! Transmittance beyond the most grazing row of incident directions.
 
 use super::lattice::Lattice;
 use std::f64::consts::FRAC_PI_2;
 
-/// How τ goes on from a direction on the border to θ = 90°. What falls steeply towards the border goes to zero, as
-/// Fresnel's equations have it for everything behind a smooth surface; what is level goes on (open slats).
+/// Continuation of τ from a direction on the border to θ = 90°. What falls steeply towards the border goes to zero, as
+/// Fresnel's equations have it for everything behind a smooth surface; what is constant there continues (open slats).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grazing {
-    /// Slopes and distances in units of the border's τ and of the way to 90°.
+    /// Slope of τ at the border, in units of the border's τ and of the angle from there to 90°.
     slope: f64,
+    /// Bend of the parabola that falls to zero at 90°, in the units of `slope`.
     bend: f64,
-    /// 0 fades to zero, 1 goes straight on.
+    /// Weight of the straight continuation: 0 fades to zero, 1 follows the slope.
     straight: f64,
 }
 
-/// τ at 90°, followed in a straight line, as a share of the border's: below the first it fades, above the second it
-/// goes on.
+/// τ at 90°, extrapolated in a straight line, as a share of the border's, below which it fades to zero.
 const FADES_BELOW: f64 = 0.65;
+/// τ at 90°, extrapolated in a straight line, as a share of the border's, above which it follows that line.
 const GOES_ON_ABOVE: f64 = 0.8;
 
 impl Grazing {
-    /// At a vertex of the border; `None` elsewhere, and where nothing gets through or no row lies further in.
+    /// Creates the continuation at a vertex of the border; `None` elsewhere, and where nothing gets through or no row
+    /// lies further in.
     pub fn new(lattice: &Lattice, tau: &[f64], vertex: usize) -> Option<Self> {
         let theta = |v: usize| lattice.points()[v].z.clamp(-1.0, 1.0).acos();
         let own = theta(vertex);
@@ -42,7 +44,7 @@ impl Grazing {
         Some(Self { slope, bend, straight: s * s * (3.0 - 2.0 * s) })
     }
 
-    /// τ over the border's, `beyond` from 0 (the border) to 1 (θ = 90°).
+    /// Returns τ over the border's, `beyond` from 0 (the border) to 1 (θ = 90°).
     pub fn factor(self, beyond: f64) -> f64 {
         let on = (1.0 + self.slope * beyond).max(0.0);
         let fading = (1.0 - beyond + self.bend * beyond * (beyond - 1.0)).max(0.0);

@@ -1,28 +1,28 @@
-//! A ring basis as a picture: neighbours of cells, smoothing over tens of degrees, values between cell centres.
+//! Ring basis as a picture: neighbours of cells, smoothing over tens of degrees, values between cell centres.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What the splitting of indicatrices needs to know of their cells.
+/// Emergent cells with the neighbours, weights and centres that the splitting of indicatrices needs.
 #[derive(Debug, Clone)]
 pub struct Grid {
     basis: RingBasis,
-    /// Own ring numbers by rising θ.
+    /// Ring numbers of the basis by rising θ.
     order: Vec<usize>,
-    /// Solid angle and projected solid angle of every cell. \[sr\]
+    /// Solid angle of every cell. \[sr\]
     pub solid: Vec<f64>,
-    /// ∫cosθ dω of every cell. \[sr\]
+    /// Projected solid angle ∫cosθ dω of every cell. \[sr\]
     pub projected: Vec<f64>,
-    /// Direction that stands for every cell.
+    /// Direction that represents every cell.
     pub centre: Vec<DVec3>,
-    /// Cells that touch.
+    /// Cells that touch each cell.
     pub neighbours: Vec<Vec<u32>>,
 }
 
 impl Grid {
-    /// Looks at a basis.
+    /// Creates the grid of a basis.
     pub fn new(basis: &RingBasis) -> Self {
         let mut order: Vec<usize> = (0..basis.rings().len()).collect();
         order.sort_by(|&a, &b| basis.rings()[a].theta_min.total_cmp(&basis.rings()[b].theta_min));
@@ -38,7 +38,7 @@ impl Grid {
         grid
     }
 
-    /// The cells.
+    /// Returns the cells.
     pub fn basis(&self) -> &RingBasis {
         &self.basis
     }
@@ -78,7 +78,7 @@ impl Grid {
         list
     }
 
-    /// Mean with the cells around, the own value counting half.
+    /// Returns the mean of every cell with the cells around it, the own value counting half.
     pub fn blurred(&self, values: &[f64]) -> Vec<f64> {
         let mean = |i: usize| {
             let around = &self.neighbours[i];
@@ -90,14 +90,15 @@ impl Grid {
         (0..values.len()).map(mean).collect()
     }
 
-    /// The ring that holds a polar angle, by its place from the normal outwards.
+    /// Returns the ring that holds a polar angle, by its place from the normal outwards.
     fn ring_place(&self, theta: f64) -> usize {
         let rings = self.basis.rings();
         self.order.partition_point(|&ring| rings[ring].theta_max <= theta).min(self.order.len() - 1)
     }
 
-    /// The four cells around a direction as (own ring, sector, sectors of the ring, weight), weights of sum 1: linear in θ between the middles of two rings, and
-    /// in φ along each. Directions beyond the middles of the outermost rings take these rings' values.
+    /// Returns the four cells around a direction as (own ring, sector, sectors of the ring, weight), weights of sum 1:
+    /// linear in θ between the middles of two rings, and in φ along each. Directions beyond the middles of the
+    /// outermost rings take these rings' values.
     pub fn around_rings(&self, d: DVec3) -> [(usize, usize, usize, f64); 4] {
         let theta = d.truncate().length().atan2(d.z).min(FRAC_PI_2);
         let own = self.basis.azimuth().own_phi(d.y.atan2(d.x));
@@ -123,7 +124,7 @@ impl Grid {
         [(a, a0, na, (1.0 - t) * (1.0 - s)), (a, a1, na, (1.0 - t) * s), (b, b0, nb, t * (1.0 - u)), (b, b1, nb, t * u)]
     }
 
-    /// Mean of a function over a cell by projected solid angle, from `points`² directions.
+    /// Returns the mean of a function over a cell by projected solid angle, from `points`² directions.
     pub fn cell_mean(&self, cell: usize, points: usize, f: impl Fn(DVec3) -> f64) -> f64 {
         if points <= 1 {
             return f(self.centre[cell]);
@@ -181,13 +182,14 @@ impl Grid {
 pub struct Opening {
     coarse_of: Vec<u32>,
     near: Vec<Vec<u32>>,
-    /// For every fine cell the coarse cells around it and their weights, sum 1.
+    /// Coarse cells around every fine cell, with their weights, sum 1.
     spread: Vec<Vec<(u32, f64)>>,
     coarse: usize,
 }
 
 impl Opening {
-    /// Lowest value within ±`reach`, then a Gaussian of standard deviation `sigma`. \[rad\]
+    /// Creates an opening that takes the lowest value within ±`reach`, then a Gaussian of standard deviation `sigma`.
+    /// \[rad\]
     pub fn new(grid: &Grid, reach: f64, sigma: f64) -> Self {
         let coarse = RingBasis::equal_area(11);
         let centre: Vec<DVec3> = coarse.cells().map(|cell| cell.centre().vector()).collect();
@@ -214,7 +216,7 @@ impl Opening {
         Self { coarse_of: grid.centre.iter().map(|&d| nearest(d)).collect(), near, spread, coarse: coarse.len() }
     }
 
-    /// The grey opening of a picture, nowhere above it.
+    /// Returns the grey opening of a picture, nowhere above it.
     pub fn of(&self, values: &[f64]) -> Vec<f64> {
         let mut lowest = vec![f64::INFINITY; self.coarse];
         for (value, &k) in values.iter().zip(&self.coarse_of) {

@@ -1,5 +1,5 @@
-//! How far two indicatrices are apart: by the flux that lies elsewhere, on cells of 7.5°, lightly blurred on both sides,
-//! so that a lobe off by a fraction of its width counts in part.
+//! Difference of two indicatrices by the flux that lies elsewhere, on cells of 7.5°, lightly blurred on both sides, so
+//! that a lobe off by a fraction of its width counts in part.
 
 use super::grid::Grid;
 use super::superpose::sub_patches;
@@ -7,16 +7,16 @@ use super::superpose::sub_patches;
 /// Size of the cells on which flux is compared. \[°\]
 const CELLS: f64 = 7.5;
 
-/// Compares indicatrices that are given on the same cells.
+/// Comparison of indicatrices that are given on the same cells.
 #[derive(Debug, Clone)]
 pub struct Judge {
     compare: Grid,
-    /// Of every cell its projected solid angle \[sr\], and what it gives to four cells of the comparison.
+    /// Projected solid angle of every cell \[sr\], and its shares in four cells of the comparison.
     shares: Vec<(f64, [(usize, f64); 4])>,
 }
 
 impl Judge {
-    /// For indicatrices on these cells.
+    /// Creates the comparison for indicatrices on these cells.
     pub fn new(cells: &Grid) -> Self {
         let compare = Grid::new(&sub_patches(CELLS.to_radians()));
         let first = |ring| compare.basis().first_cell(ring);
@@ -25,7 +25,7 @@ impl Judge {
         Self { compare, shares }
     }
 
-    /// q as means over the cells of the comparison, blurred. \[1/sr\]
+    /// Returns q as means over the cells of the comparison, blurred. \[1/sr\]
     fn picture(&self, q: &[f64]) -> Vec<f64> {
         let mut mean = vec![0.0; self.compare.projected.len()];
         for (q, (projected, around)) in q.iter().zip(&self.shares) {
@@ -35,7 +35,7 @@ impl Judge {
         self.compare.blurred(&mean)
     }
 
-    /// ½∫|q − q₀|cosθ dω / τ₀ for the true indicatrix q₀; `None` where it lets nothing through.
+    /// Returns ½∫|q − q₀|cosθ dω / τ₀ for the true indicatrix q₀; `None` where it lets nothing through.
     pub fn misplaced(&self, q: &[f64], truth: &[f64]) -> Option<f64> {
         let (q, truth) = (self.picture(q), self.picture(truth));
         let weights = &self.compare.projected;

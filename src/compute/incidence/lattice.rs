@@ -1,4 +1,4 @@
-//! The triangles between incident directions, and where in them a direction lies.
+//! Triangles between incident directions, and the place of a direction in them.
 //!
 //! Planar Delaunay triangulation of the stereographic projection, which is the spherical one: 258 triangles for the
 //! 145 directions of Tregenza's lattice. Four directions of two rows with equal counts lie on a circle; the tie is
@@ -17,24 +17,25 @@ const TIE: f64 = 1e-7;
 pub struct Lattice {
     points: Vec<DVec3>,
     triangles: Vec<[usize; 3]>,
-    /// Border edges, and for each vertex its neighbours in rising order.
+    /// Edges on the border.
     border: Vec<[usize; 2]>,
+    /// Neighbours of each vertex, in rising order.
     neighbours: Vec<Vec<usize>>,
     on_border: Vec<bool>,
-    /// A direction without part in the triangles.
+    /// Direction that is left out of the triangles.
     left_out: Option<usize>,
 }
 
-/// A direction between at most three incident directions.
+/// Place of a direction between at most three incident directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// The triangle's number; `None` beyond the border.
+    /// Number of the triangle; `None` beyond the border.
     pub triangle: Option<usize>,
-    /// The vertices; the same one may appear twice, with weight 0.
+    /// Vertices of the triangle; the same one may appear twice, with weight 0.
     pub vertices: [usize; 3],
-    /// Their weights, not negative, sum 1.
+    /// Weights of the vertices, not negative, sum 1.
     pub weights: [f64; 3],
-    /// How far the direction lies beyond the border towards grazing: 0 on it, 1 at θ = 90°.
+    /// Distance of the direction beyond the border towards grazing: 0 on it, 1 at θ = 90°.
     pub beyond: f64,
 }
 
@@ -51,12 +52,12 @@ impl HasPosition for Node {
 }
 
 impl Lattice {
-    /// Triangulates. Fewer than three directions, or all on one circle through the pole, have no triangles.
+    /// Triangulates incident directions. Fewer than three, or all on one circle through the pole, have no triangles.
     pub fn new(incident: &[Incident]) -> Self {
         Self::without(incident, None)
     }
 
-    /// The same as if one direction were not there; it keeps its number, without neighbours.
+    /// Triangulates as if the direction `left_out` were not there; it keeps its number, without neighbours.
     pub fn without(incident: &[Incident], left_out: Option<usize>) -> Self {
         let points: Vec<DVec3> = incident.iter().map(|d| d.0.vector()).collect();
         let mut delaunay: DelaunayTriangulation<Node> = DelaunayTriangulation::new();
@@ -95,17 +96,17 @@ impl Lattice {
         Self { points, triangles, border, neighbours, on_border, left_out }
     }
 
-    /// The directions as unit vectors, façade frame.
+    /// Returns the directions as unit vectors, façade frame.
     pub fn points(&self) -> &[DVec3] {
         &self.points
     }
 
-    /// Vertices of all triangles.
+    /// Returns the vertices of all triangles.
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }
 
-    /// The directions joined to one by an edge, in rising order.
+    /// Returns the directions joined to one by an edge, in rising order.
     pub fn neighbours(&self, vertex: usize) -> &[usize] {
         &self.neighbours[vertex]
     }
@@ -115,8 +116,8 @@ impl Lattice {
         self.on_border[vertex]
     }
 
-    /// Where a direction lies. Great-circle barycentric weights; beyond the border those of the nearest place on it,
-    /// so that weights are continuous everywhere.
+    /// Returns the place of a direction. Great-circle barycentric weights; beyond the border those of the nearest place
+    /// on it, so that weights are continuous everywhere.
     pub fn locate(&self, direction: Dir<Facade>) -> Place {
         let d = direction.vector();
         for (number, &[a, b, c]) in self.triangles.iter().enumerate() {
@@ -130,7 +131,7 @@ impl Lattice {
         self.beyond(d)
     }
 
-    /// The place on the border nearest to a direction outside it.
+    /// Returns the place on the border nearest to a direction outside it.
     fn beyond(&self, d: DVec3) -> Place {
         let nearest = |best: Option<(f64, Place)>, (cosine, place): (f64, Place)| match best {
             Some((other, _)) if other >= cosine => best,
@@ -164,8 +165,8 @@ impl Lattice {
     }
 }
 
-/// The step from one direction to another in the plane that touches the sphere at the first, in a frame of its own:
-/// length the angle. \[rad\]
+/// Returns the step from one direction to another in the plane that touches the sphere at the first, in a frame of its
+/// own: length the angle. \[rad\]
 pub fn tangent_step(from: DVec3, to: DVec3) -> DVec2 {
     let (x, y) = from.any_orthonormal_pair();
     let flat = DVec2::new(to.dot(x), to.dot(y));

@@ -1,10 +1,10 @@
-//! What interpolation between the directions is worth, found by leaving out: every direction is foretold from those
-//! around it without it, with responses and fluxes fitted anew, and compared with what was measured there. The report
+//! Accuracy of interpolation between the directions, found by leaving out: every direction is predicted from those
+//! around it without it, with responses and fluxes fitted again, and compared with what was measured there. The report
 //! left the choice between its schemes open (§3.2).
 //!
 //! Predicting across a gap doubles the spacing; at the true spacing a scheme of second order is expected to misplace a
-//! quarter as much, one of first order (nearest) half. It takes seconds, and no result hangs on it. Where another
-//! scheme foretells a direction better than responses, it is named: one wide lobe alone is moved as well in one piece.
+//! quarter as much, one of first order (nearest) half. It takes seconds, and no result depends on it. Where another
+//! scheme predicts a direction better than responses, it is named: one wide lobe alone is moved as well in one piece.
 
 use super::judge::Judge;
 use super::lattice::{Lattice, Place};
@@ -17,35 +17,35 @@ use std::sync::Arc;
 
 /// Share of τ's mean below which a direction lets too little through to judge shapes by.
 const DARK: f64 = 1e-4;
-/// What is stated over what is expected, and what is stated at least: single directions scatter about the expectation,
-/// and moving a lobe across cells costs some thousandths. Together they hold for eight of ten directions or more of every
-/// analytic system, as `tests/compute/incidence_schemes` prints.
+/// Ratio of the stated to the expected error: single directions scatter about the expectation. With [`STATED_AT_LEAST`]
+/// it holds for eight of ten directions or more of every analytic system, as `tests/compute/incidence_schemes` prints.
 const STATED: f64 = 2.6;
+/// Minimum stated share of misplaced flux: moving a lobe across cells costs some thousandths.
 const STATED_AT_LEAST: f64 = 4.5e-3;
-/// How far from the direction left out anything is fitted anew, in edges of the lattice.
+/// Distance from the direction left out within which lobes are fitted again, in edges of the lattice.
 const REACH: usize = 3;
-/// Points a side of a cell at which a lobe is taken.
+/// Points per side of a cell at which a lobe is evaluated.
 const POINTS: usize = 2;
 
 /// Shares of the flux that the schemes misplace, in the order of [`SunScheme::ALL`].
 pub type Errors = [f64; SunScheme::ALL.len()];
 
-/// A direction foretold without itself.
+/// Incident direction predicted without its own data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Foretold {
-    /// Which (towards the source).
+    /// Incident direction, towards the source.
     pub direction: Dir<Facade>,
-    /// What every scheme misplaces of its flux, at doubled spacing.
+    /// Share of its flux that every scheme misplaces, at doubled spacing.
     pub errors: Errors,
 }
 
 impl Foretold {
-    /// What a scheme misplaces.
+    /// Returns the share of flux that a scheme misplaces.
     pub fn error(&self, scheme: SunScheme) -> f64 {
         self.errors[scheme as usize]
     }
 
-    /// The scheme that foretells this direction better than responses, and by how much.
+    /// Returns the scheme that predicts this direction better than responses, and by how much.
     pub fn better(&self) -> Option<(SunScheme, f64)> {
         let own = self.error(SunScheme::Responses);
         let gains = SunScheme::ALL.into_iter().map(|scheme| (scheme, own - self.error(scheme)));
@@ -53,12 +53,12 @@ impl Foretold {
     }
 }
 
-/// What leaving out each direction has shown.
+/// Results of leaving out each direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
-    /// By direction of the data; `None` where no light gets through or no ring is left.
+    /// Prediction of every direction of the data; `None` where no light gets through or no ring is left.
     foretold: Vec<Option<Foretold>>,
-    /// The same errors, at least the mean of the neighbours': a direction may be foretold well by chance.
+    /// Errors of every direction, at least the mean of the neighbours': a direction may be predicted well by chance.
     around: Vec<Option<Errors>>,
 }
 
@@ -72,20 +72,20 @@ impl LeftOut {
         Self { foretold, around }
     }
 
-    /// The directions that could be foretold.
+    /// Returns the directions that could be predicted.
     pub fn directions(&self) -> impl Iterator<Item = &Foretold> {
         self.foretold.iter().flatten()
     }
 
-    /// Mean over the directions of what a scheme misplaces; 0 without any.
+    /// Returns the mean over the directions of the share that a scheme misplaces; 0 without any.
     pub fn mean(&self, scheme: SunScheme) -> f64 {
         let sum: f64 = self.directions().map(|one| one.error(scheme)).sum();
         sum / self.directions().count().max(1) as f64
     }
 
-    /// Share of flux stated to be misplaced at a place of the lattice, at the data's own spacing: 2.6 times what is
-    /// expected of the directions around, at least 0.45 %. Beyond the border the spacing's advantage is lost step by step, up to
-    /// the full error of doubled spacing at θ = 90°. Continuous in the place.
+    /// Returns the share of flux stated to be misplaced at a place of the lattice, at the data's own spacing: 2.6 times
+    /// what is expected of the directions around, at least 0.45 %. Beyond the border the spacing's advantage is lost
+    /// step by step, up to the full error of doubled spacing at θ = 90°. Continuous in the place.
     pub fn stated(&self, scheme: SunScheme, place: &Place) -> f64 {
         let order = if scheme.is_continuous() { 0.25 } else { 0.5 };
         let factor = order + (1.0 - order) * place.beyond;
@@ -95,7 +95,7 @@ impl LeftOut {
     }
 }
 
-/// Errors of all schemes in one direction, foretold without it.
+/// Computes the errors of all schemes in one direction, predicted without it.
 fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Foretold> {
     let tau = model.data.tau_by_direction();
     let mean = tau.iter().sum::<f64>() / tau.len() as f64;
@@ -122,7 +122,7 @@ fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Foretold> {
     Some(Foretold { direction, errors })
 }
 
-/// Errors of a direction, none below the mean over its neighbours.
+/// Returns the errors of a direction, none below the mean over its neighbours.
 fn at_least_around(lattice: &Lattice, foretold: &[Option<Foretold>], vertex: usize) -> Option<Errors> {
     let ring: Vec<Errors> = lattice.neighbours(vertex).iter().filter_map(|&n| Some(foretold[n]?.errors)).collect();
     let own = foretold[vertex].map(|one| one.errors).or(ring.first().copied())?;
@@ -130,7 +130,7 @@ fn at_least_around(lattice: &Lattice, foretold: &[Option<Foretold>], vertex: usi
     Some(std::array::from_fn(|k| own[k].max(mean(k))))
 }
 
-/// Vertices within some edges of one.
+/// Returns the vertices within `edges` edges of one.
 fn within(lattice: &Lattice, vertex: usize, edges: usize) -> BTreeSet<usize> {
     let mut near = BTreeSet::from([vertex]);
     for _ in 0..edges {

@@ -1,41 +1,43 @@
-//! An indicatrix as a smooth base and a few lobes: what moves with the incidence and what stays.
+//! Indicatrix as a smooth base and a few lobes: what moves with the incidence and what stays.
 
 use super::grid::{Grid, Opening};
 use glam::DVec3;
 
-/// Reach and blur of the opening that finds the base. \[rad\]
+/// Reach of the opening that finds the base. \[rad\]
 const REACH: f64 = 15.0 * std::f64::consts::PI / 180.0;
+/// Blur of the opening that finds the base, as a standard deviation. \[rad\]
 const BLUR: f64 = 7.5 * std::f64::consts::PI / 180.0;
-/// Peaks lower than this share of the highest, and lobes with less than this share of the lobes' flux, are none.
+/// Share of the highest peak below which a peak is merged into its neighbour, and share of the lobes' flux below which
+/// a lobe is dropped.
 const LEAST: f64 = 0.006;
-/// Most lobes of an indicatrix: what is more is noise, and following it would cost without end.
+/// Maximum number of lobes of an indicatrix: what is more is noise, and following it would cost without end.
 const MOST: usize = 6;
-/// A lobe's peak holds at least this share of the luminance there.
+/// Minimum share of the luminance at a lobe's peak that is above the base.
 const STANDS_OUT: f64 = 0.4;
-/// Cells below this share of a lobe's peak belong to the base: they need not move.
+/// Share of a lobe's peak below which cells belong to the base: they need not move.
 const EDGE: f64 = 2e-3;
-/// Steps of [`Lobe::sharpened`].
+/// Number of steps of [`Lobe::sharpened`].
 const SHARPENING: usize = 3;
-/// Two peaks are one lobe when the saddle between them reaches this share of the lower one.
+/// Share of the lower of two peaks that the saddle between them reaches when they are one lobe.
 const SADDLE: f64 = 0.9;
 
 /// One lobe: some cells of an indicatrix and what they hold above the base.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lobe {
-    /// Mean direction weighted by luminance and solid angle (through-name).
+    /// Mean direction weighted by luminance and solid angle (through direction).
     pub centre: DVec3,
     /// Share of the incident flux, ∫q cosθ dω.
     pub flux: f64,
     /// Angle from the centre that holds all its cells. \[rad\]
     pub radius: f64,
-    /// Ring by ring (own ring number): first sector and values. \[1/sr\]
+    /// Values ring by ring: own ring number, first sector, values. \[1/sr\]
     rows: Vec<(usize, usize, Vec<f64>)>,
-    /// Of the first ring number to the place in `rows`.
+    /// Ring number of the first entry of `rows`.
     first_ring: usize,
 }
 
 impl Lobe {
-    /// Value in a cell given by own ring and sector; 0 outside the lobe. \[1/sr\]
+    /// Returns the value in a cell given by own ring and sector; 0 outside the lobe. \[1/sr\]
     #[inline]
     pub fn value(&self, ring: usize, sector: usize, sectors: usize) -> f64 {
         let Some((_, first, values)) = ring.checked_sub(self.first_ring).and_then(|k| self.rows.get(k)) else {
@@ -45,7 +47,7 @@ impl Lobe {
         values.get(k).copied().unwrap_or(0.0)
     }
 
-    /// Cells and values. \[1/sr\]
+    /// Returns the cells and their values. \[1/sr\]
     pub fn cells<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = (usize, f64)> + 'a {
         self.rows.iter().flat_map(move |(ring, first, values)| {
             let (start, sectors) = (grid.basis().first_cell(*ring), grid.basis().rings()[*ring].sectors);
@@ -53,8 +55,8 @@ impl Lobe {
         })
     }
 
-    /// Values at points such that linear interpolation between them has the lobe's means over its cells: undoes the
-    /// blur that means and interpolation bring, so that a lobe can be moved by parts of a cell without widening.
+    /// Returns values at points such that linear interpolation between them has the lobe's means over its cells: undoes
+    /// the blur that means and interpolation bring, so that a lobe can be moved by parts of a cell without widening.
     pub fn sharpened(&self, grid: &Grid) -> Self {
         let mut points = self.clone();
         for _ in 0..SHARPENING {
@@ -79,13 +81,13 @@ impl Lobe {
         points
     }
 
-    /// Width of the data's cells around it: the root of their mean solid angle. \[rad\]
+    /// Returns the width of the data's cells around the lobe: the root of their mean solid angle. \[rad\]
     pub fn cell_width(&self, grid: &Grid) -> f64 {
         let (sum, count) = self.cells(grid).fold((0.0, 0), |(sum, count), (i, _)| (sum + grid.solid[i], count + 1));
         (sum / f64::from(count.max(1))).sqrt()
     }
 
-    /// Value in a direction, linear between cells. \[1/sr\]
+    /// Returns the value in a direction, linear between cells. \[1/sr\]
     pub fn at(&self, grid: &Grid, d: DVec3) -> f64 {
         if d.z <= 0.0 {
             return 0.0;
@@ -134,19 +136,19 @@ impl Lobe {
     }
 }
 
-/// Finds base and lobes.
+/// Splitter of indicatrices into base and lobes.
 #[derive(Debug, Clone)]
 pub struct Splitter {
     opening: Opening,
 }
 
 impl Splitter {
-    /// For indicatrices on the cells of a grid.
+    /// Creates a splitter for indicatrices on the cells of a grid.
     pub fn new(grid: &Grid) -> Self {
         Self { opening: Opening::new(grid, REACH, BLUR) }
     }
 
-    /// The lobes of an indicatrix, brightest flux first. What is left is the base.
+    /// Returns the lobes of an indicatrix, largest flux first. What is left is the base.
     pub fn lobes(&self, grid: &Grid, q: &[f64]) -> Vec<Lobe> {
         let base = self.opening.of(q);
         let sharp: Vec<f64> = q.iter().zip(&base).map(|(q, b)| (q - b).max(0.0)).collect();
@@ -184,7 +186,7 @@ impl Splitter {
 
 const NONE: u32 = u32::MAX;
 
-/// For every cell the peak that steepest ascent leads to; peaks without a real saddle between them are one.
+/// Returns for every cell the peak that steepest ascent leads to; peaks without a real saddle between them are one.
 fn basins(grid: &Grid, values: &[f64]) -> Vec<u32> {
     let highest = values.iter().copied().fold(0.0, f64::max);
     let mut rank: Vec<u32> = (0..values.len() as u32).filter(|&i| values[i as usize] > 1e-4 * highest).collect();

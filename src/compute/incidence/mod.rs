@@ -1,4 +1,4 @@
-//! Between incident directions: from indicatrices at single directions to any sun and any sky.
+//! Interpolation between incident directions: from indicatrices at single directions to any sun and any sky.
 //!
 //! The report's indicatrices move and change shape between incident directions 12° apart. Here each is split into a
 //! smooth base and a few lobes; every lobe is followed to the neighbouring directions, which tells how it moves and
@@ -17,10 +17,10 @@
 //! | `filter` | the matched filter for diffuse light |
 //! | `model` | the indicatrix of any incident direction |
 //! | `superpose` | sky and sun through it |
-//! | `schemes` | the report's ways between the directions beside it |
-//! | `judge` | how far two indicatrices are apart |
-//! | `left_out` | what each way is worth, by leaving directions out |
-//! | `ways` | what becomes of the lobes between three directions |
+//! | `schemes` | the report's schemes of interpolation beside it |
+//! | `judge` | the difference of two indicatrices |
+//! | `left_out` | accuracy of each scheme, by leaving directions out |
+//! | `ways` | treatment of the lobes between three directions |
 
 pub mod filter;
 pub mod flux;

@@ -1,4 +1,4 @@
-//! The indicatrix of any incident direction from those of a lattice.
+//! Indicatrix of any incident direction from those of a lattice.
 
 use super::flux::{Bump, Field, Slopes, along_one_line, bump, missed_behind, slopes};
 use super::grazing::Grazing;
@@ -14,61 +14,61 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// A lobe of the data, moved and scaled.
+/// Lobe of the data, moved and scaled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Copy {
-    /// Incident direction that it comes from.
+    /// Incident direction that the lobe comes from.
     pub vertex: usize,
-    /// Number of the lobe there.
+    /// Number of the lobe at that direction.
     pub lobe: usize,
-    /// Where its centre goes (through-name).
+    /// Centre of the moved lobe (through direction).
     pub centre: DVec3,
-    /// Its share of the incident flux; more than 0.
+    /// Share of the incident flux; more than 0.
     pub flux: f64,
-    /// The share by linear interpolation alone.
+    /// Share of the incident flux by linear interpolation alone.
     pub linear: f64,
 }
 
-/// A base of the data and its weight.
+/// Base of the data and its weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Base {
-    /// Incident direction that it comes from.
+    /// Incident direction that the base comes from.
     pub vertex: usize,
-    /// Its weight, fluxes interpolated as well as can be.
+    /// Weight of the base, with its flux interpolated to second order.
     pub factor: f64,
-    /// Its weight by linear interpolation alone.
+    /// Weight of the base by linear interpolation alone.
     pub linear: f64,
 }
 
-/// An indicatrix as a recipe: bases of the data with factors, and copies of lobes.
+/// Indicatrix as a recipe: bases of the data with factors, and copies of lobes.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Recipe {
-    /// Bases.
+    /// Bases with their weights.
     pub bases: Vec<Base>,
-    /// Lobes.
+    /// Copies of lobes.
     pub copies: Vec<Copy>,
 }
 
-/// Everything that interpolation between incident directions needs.
+/// Model for interpolation between incident directions.
 pub struct Model {
     pub(super) data: Arc<Indicatrices>,
     pub(super) grid: Arc<Grid>,
     pub(super) lattice: Lattice,
     pub(super) lobes: Vec<Vec<Lobe>>,
     pub(super) responses: Responses,
-    /// The lobes as pictures.
+    /// Pictures of the lobes.
     pub(super) rasters: Vec<Vec<Raster>>,
     /// Share of the incident flux in the base of every incident direction.
     pub(super) base_flux: Vec<f64>,
-    /// By vertex, lobe (the base behind the last) and neighbour: what the edge adds to linear interpolation of the
-    /// flux, where the lobe is at both ends.
+    /// Terms that edges add to linear interpolation of the flux, where the lobe is at both ends; by vertex, lobe (the
+    /// base behind the last) and neighbour.
     bumps: Vec<Vec<Vec<Option<Bump>>>>,
-    /// By vertex, lobe and neighbour: flux that its slope predicts at a neighbour without the lobe.
+    /// Flux that a lobe's slope predicts at a neighbour without the lobe; by vertex, lobe and neighbour.
     followed: Vec<Vec<Vec<f64>>>,
     grazing: Vec<Option<Grazing>>,
 }
 
-/// Fluxes of lobes.
+/// Field of the fluxes of lobes.
 struct LobeFlux<'a>(&'a [Vec<Lobe>], &'a Responses, &'a [Option<Grazing>]);
 
 impl Field for LobeFlux<'_> {
@@ -83,7 +83,7 @@ impl Field for LobeFlux<'_> {
     }
 }
 
-/// Fluxes of bases; every direction has one.
+/// Field of the fluxes of bases; every direction has one.
 struct BaseFlux<'a>(&'a [f64], &'a [Option<Grazing>]);
 
 impl Field for BaseFlux<'_> {
@@ -98,7 +98,7 @@ impl Field for BaseFlux<'_> {
     }
 }
 
-/// Bumps of all edges that begin at a lobe of a vertex.
+/// Returns the terms of all edges that begin at a lobe of a vertex.
 fn bumps_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Vec<Option<Bump>> {
     let own = slopes(lattice, field, vertex, lobe);
     let of = |v: usize, l: usize| slopes(lattice, field, v, l);
@@ -117,8 +117,8 @@ fn bumps_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -
         .collect()
 }
 
-/// Flux that a lobe's slope, seen from the neighbours on the other side, leaves at each neighbour; at most 0, and 0
-/// where the lobe is there again behind the neighbour (it only touches zero, as a panel's share does).
+/// Returns the flux that a lobe's slope, seen from the neighbours on the other side, leaves at each neighbour; at most
+/// 0, and 0 where the lobe is there again behind the neighbour (it only touches zero, as a panel's share does).
 fn followed_of(
     lattice: &Lattice,
     field: &impl Field,
@@ -197,22 +197,22 @@ impl Model {
         Self { data, grid, lattice, lobes, responses, rasters: Vec::new(), base_flux, bumps, followed, grazing }
     }
 
-    /// The emergent cells.
+    /// Returns the emergent cells.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// The division of the hemisphere that the incident directions stand for, where they are one.
+    /// Returns the division of the hemisphere that the incident directions stand for, where they are one.
     pub fn lattice_cells(&self) -> Option<&RingBasis> {
         self.data.lattice()
     }
 
-    /// The lattice.
+    /// Returns the lattice of the incident directions.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// The indicatrix for an incident direction, every lobe moved by its own response.
+    /// Returns the indicatrix for an incident direction, every lobe moved by its own response.
     pub fn recipe(&self, incident: Dir<Facade>) -> Recipe {
         let place = self.lattice.locate(incident);
         let used: Vec<(usize, f64)> =
@@ -228,7 +228,7 @@ impl Model {
         recipe
     }
 
-    /// No more light than arrives, unless the data themselves have more.
+    /// Limits the light to what arrives, unless the data themselves have more.
     fn limit(&self, used: &[(usize, f64)], recipe: &mut Recipe) {
         let most = used.iter().map(|&(v, _)| self.data.tau_by_direction()[v]).fold(1.0, f64::max);
         let bases: f64 = recipe.bases.iter().map(|base| base.factor * self.base_flux[base.vertex]).sum();
@@ -240,7 +240,7 @@ impl Model {
         }
     }
 
-    /// Bases blended, their flux interpolated to second order.
+    /// Blends the bases, their flux interpolated to second order.
     fn bases(&self, used: &[(usize, f64)]) -> Vec<Base> {
         let linear: f64 = used.iter().map(|&(v, w)| w * self.base_flux[v]).sum();
         let mut flux = linear;
@@ -254,17 +254,17 @@ impl Model {
         used.iter().map(|&(vertex, w)| Base { vertex, factor: w * factor, linear: w }).collect()
     }
 
-    /// Place of `to` in the neighbours of `from`.
+    /// Returns the place of `to` in the neighbours of `from`.
     fn neighbour(&self, from: usize, to: usize) -> Option<usize> {
         self.lattice.neighbours(from).binary_search(&to).ok()
     }
 
-    /// Partner at `to` of a lobe at `from`.
+    /// Returns the partner at `to` of a lobe at `from`.
     fn partner(&self, from: usize, lobe: usize, to: usize) -> Option<usize> {
         self.responses.partner[from][self.neighbour(from, to)?][lobe]
     }
 
-    /// Lobes of up to three vertices that are the same one: at each vertex a lobe, or none.
+    /// Returns the lobes of up to three vertices that are the same one: at each vertex a lobe, or none.
     fn families(&self, used: &[(usize, f64)]) -> Vec<[Option<usize>; 3]> {
         let mut families: Vec<[Option<usize>; 3]> = Vec::with_capacity(4);
         for (k, &(v, _)) in used.iter().enumerate() {
@@ -291,8 +291,9 @@ impl Model {
         families
     }
 
-    /// Copies of one family at a direction. Vertices without the lobe are taken for where its flux, followed from the
-    /// others, has fallen to or below zero: this puts the end of a lobe (a blind's cut-off) where its slope says.
+    /// Adds the copies of one family at a direction. Vertices without the lobe are taken for where its flux, followed
+    /// from the others, has fallen to or below zero: this puts the end of a lobe (a blind's cut-off) where its slope
+    /// says.
     fn family(&self, used: &[(usize, f64)], family: &[Option<usize>; 3], d: DVec3, copies: &mut Vec<Copy>) {
         let points = self.lattice.points();
         let present: Vec<(usize, f64, usize)> =
@@ -329,7 +330,7 @@ impl Model {
         }
     }
 
-    /// Beyond the border everything follows the border's τ.
+    /// Scales everything beyond the border by the border's τ.
     fn fade(&self, place: &Place, recipe: &mut Recipe) {
         let factor: f64 = (0..3)
             .map(|k| place.weights[k] * self.grazing[place.vertices[k]].map_or(1.0, |g| g.factor(place.beyond)))
@@ -342,13 +343,13 @@ impl Model {
         recipe.copies.iter_mut().for_each(|copy| (copy.flux, copy.linear) = (copy.flux * factor, copy.linear * factor));
     }
 
-    /// Diameter of the narrowest lobe; infinite without lobes. \[rad\]
+    /// Returns the diameter of the narrowest lobe; infinite without lobes. \[rad\]
     pub fn narrowest_lobe(&self) -> f64 {
         self.lobes.iter().flatten().map(|lobe| 2.0 * lobe.radius).fold(f64::INFINITY, f64::min)
     }
 
-    /// A moved lobe on the emergent cells: turned from its own centre to the copy's, its flux kept exactly. `points`²
-    /// directions a cell.
+    /// Draws a moved lobe on the emergent cells: turned from its own centre to the copy's, its flux kept exactly.
+    /// `points`² directions per cell.
     pub fn moved(&self, copy: &Copy, target: &Grid, points: usize, out: &mut Vec<(u32, f64)>) {
         out.clear();
         let lobe = &self.lobes[copy.vertex][copy.lobe];
@@ -366,7 +367,7 @@ impl Model {
         }
     }
 
-    /// The base of one incident direction on the emergent cells. \[1/sr\]
+    /// Returns the base of one incident direction on the emergent cells. \[1/sr\]
     pub fn base(&self, vertex: usize) -> Vec<f64> {
         let mut row = self.data.row(vertex).into_owned();
         for lobe in &self.lobes[vertex] {

@@ -1,19 +1,23 @@
-//! A lobe as a small picture about its own centre, so that moving it costs two scalar products a direction.
+//! Lobe as a small picture about its own centre, so that moving it costs two scalar products per direction.
 
 use super::grid::Grid;
 use super::lobes::Lobe;
 use glam::DVec3;
 
-/// A lobe's values on a square grid of direction cosines about its centre.
+/// Values of a lobe on a square grid of direction cosines about its centre.
 #[derive(Debug, Clone)]
 pub struct Raster {
-    /// Axes of the picture and the lobe's centre.
+    /// First axis of the picture.
     x: DVec3,
+    /// Second axis of the picture.
     y: DVec3,
+    /// Centre of the lobe.
     z: DVec3,
-    /// Points a side, their spacing, and half the side. \[direction cosine\]
+    /// Number of points per side.
     count: usize,
+    /// Spacing of the points. \[direction cosine\]
     spacing: f64,
+    /// Half the side. \[direction cosine\]
     half: f64,
     values: Vec<f64>,
 }
@@ -42,18 +46,18 @@ impl Raster {
         Self { x, y, z: lobe.centre, count, spacing, half, values }
     }
 
-    /// The picture turned to another centre.
+    /// Returns the picture turned to another centre.
     pub fn turned(&self, centre: DVec3) -> Turned<'_> {
         self.turned_by(glam::DQuat::from_rotation_arc(self.z, centre))
     }
 
-    /// The picture turned.
+    /// Returns the picture rotated by `turn`.
     pub fn turned_by(&self, turn: glam::DQuat) -> Turned<'_> {
         Turned { raster: self, x: turn * self.x, y: turn * self.y, z: turn * self.z }
     }
 }
 
-/// A lobe's picture about another centre.
+/// Picture of a lobe about another centre.
 pub struct Turned<'a> {
     raster: &'a Raster,
     x: DVec3,
@@ -62,7 +66,7 @@ pub struct Turned<'a> {
 }
 
 impl Turned<'_> {
-    /// Value in a direction. \[1/sr\]
+    /// Returns the value in a direction. \[1/sr\]
     #[inline]
     pub fn at(&self, d: DVec3) -> f64 {
         let raster = self.raster;

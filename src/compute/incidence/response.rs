@@ -1,37 +1,38 @@
-//! How the lobes of neighbouring incident directions belong together: which lobe is the same one, and how it moves
-//! with the incidence.
+//! Correspondence of the lobes of neighbouring incident directions: which lobe is the same one, and how it moves with
+//! the incidence.
 //!
-//! A lobe moves by its own response, a 2 × 2 matrix between direction cosines: the unit matrix for light that goes
-//! straight on, diag(1, −1) for light mirrored in the vertical, anything else for rolled panels and prisms. Plane
-//! layers and gratings shift direction cosines, so that for them the matrix is constant and the move exact.
+//! A lobe moves by its own response, a 2 × 2 matrix between direction cosines: the unit matrix for undeviated light,
+//! diag(1, −1) for light mirrored in the vertical, anything else for rolled panels and prisms. Plane layers and
+//! gratings shift direction cosines, so that for them the matrix is constant and the move exact.
 
 use super::lattice::{Lattice, tangent_step};
 use super::lobes::Lobe;
 use glam::{DMat2, DVec2, DVec3};
 
-/// Two lobes further apart than this after the move are two lobes. \[chord\] What responses misplace with this and what
-/// stands below is printed by `tests/compute/incidence_schemes`; no table of other values is kept.
+/// Distance after the move above which two lobes are different. \[chord\] What responses misplace with this and
+/// [`FLUX_COST`] is printed by `tests/compute/incidence_schemes`; no table of other values is kept.
 const GATE: f64 = 0.12;
-/// What disagreement in flux costs, as a chord per unit of ln(f/f′).
+/// Cost of disagreement in flux, as a chord per unit of ln(f/f′).
 const FLUX_COST: f64 = 0.035;
 
 /// Responses and partners of the lobes of every incident direction.
 #[derive(Debug, Clone)]
 pub struct Responses {
-    /// d(u, v of the lobe's centre) / d(u, v of the incidence), by direction and lobe.
+    /// Derivative d(u, v of the lobe's centre) / d(u, v of the incidence), by direction and lobe.
     pub jacobian: Vec<Vec<DMat2>>,
-    /// By direction, neighbour (as listed by the lattice) and lobe: the same lobe over there.
+    /// Number of the same lobe at a neighbour, by direction, neighbour (as listed by the lattice) and lobe; `None` if
+    /// absent.
     pub partner: Vec<Vec<Vec<Option<usize>>>>,
 }
 
-/// A point of the disk of direction cosines, lifted to the hemisphere.
+/// Returns a point of the disk of direction cosines, lifted to the hemisphere.
 pub fn lift(p: DVec2) -> DVec3 {
     let r = p.length();
     if r < 1.0 { p.extend((1.0 - r * r).sqrt()) } else { (p / r).extend(0.0) }
 }
 
 impl Responses {
-    /// Fits all.
+    /// Fits the responses of all lobes, and finds their partners.
     pub fn new(lattice: &Lattice, lobes: &[Vec<Lobe>]) -> Self {
         let alone: Vec<Vec<DMat2>> = (0..lobes.len())
             .map(|v| lobes[v].iter().map(|lobe| jacobian(lattice, lobes, v, lobe, &[])).collect())
@@ -64,7 +65,7 @@ impl Responses {
     }
 }
 
-/// The same lobes at two neighbours: each the best for the other.
+/// Returns the partners at the neighbour `n` of the lobes of `v`: each the best for the other.
 fn partners(
     lattice: &Lattice,
     lobes: &[Vec<Lobe>],
@@ -96,7 +97,7 @@ fn cost(target: DVec3, flux: f64, lobe: &Lobe) -> f64 {
     (target - lobe.centre).length() + FLUX_COST * (flux / lobe.flux).ln().abs()
 }
 
-/// The response that most neighbours agree on.
+/// Returns the response that most neighbours agree on.
 fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, shared: &[DMat2]) -> DMat2 {
     let centre = lobe.centre.truncate();
     let around: Vec<(usize, DVec2)> = lattice
@@ -160,13 +161,13 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, share
     refined(best.1, &around, &nearest, centre).unwrap_or(best.1)
 }
 
-/// How far a matrix is from a turn or a mirror, squared.
+/// Returns the squared deviation of a matrix from a rotation or reflection.
 fn unlike_a_turn(j: DMat2) -> f64 {
     let excess = j.transpose() * j - DMat2::IDENTITY;
     excess.x_axis.length_squared() + excess.y_axis.length_squared()
 }
 
-/// Least squares over the neighbours that agree.
+/// Refines a response by least squares over the neighbours that agree.
 fn refined(
     start: DMat2,
     around: &[(usize, DVec2)],
@@ -196,8 +197,9 @@ fn refined(
     Some(mixed * square.inverse())
 }
 
-/// Least-squares gradient of differences over steps; `None` when they lie on one line. Weights fall with the cube of
-/// the step, so that two steps of unequal length to either side give the slope of the parabola through them.
+/// Returns the least-squares gradient of differences over steps; `None` when they lie on one line. Weights fall with
+/// the cube of the step, so that two steps of unequal length to either side give the slope of the parabola through
+/// them.
 pub fn gradient(samples: &[(DVec2, f64)]) -> Option<DVec2> {
     let (mut square, mut mixed) = (DMat2::ZERO, DVec2::ZERO);
     for &(step, change) in samples {

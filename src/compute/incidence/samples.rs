@@ -1,4 +1,4 @@
-//! Systems with a closed form at every incident direction, for tests: what was measured of them, and the truth between.
+//! Systems with a closed form at every incident direction, for tests: their measured data, and the truth between.
 
 use super::grid::Grid;
 use super::judge::Judge;
@@ -16,9 +16,9 @@ type Parts = (Vec<(f64, DVec3, f64)>, f64);
 
 /// A system and its emergent cells.
 pub struct Sample {
-    /// The cells.
+    /// Emergent cells.
     pub grid: Grid,
-    /// What a direction becomes.
+    /// Lobes and diffuse share of an incident direction.
     pub parts: fn(DVec3) -> Parts,
 }
 
@@ -26,7 +26,7 @@ fn pane(z: f64) -> f64 {
     0.9 * (1.0 - (1.0 - z).powi(5))
 }
 
-/// 4° cells.
+/// Returns emergent cells of 4°.
 fn cells() -> Grid {
     Grid::new(&sub_patches(4_f64.to_radians()))
 }
@@ -70,7 +70,7 @@ pub fn half_blind() -> Sample {
 }
 
 impl Sample {
-    /// q on the cells, the flux of every part exact. \[1/sr\]
+    /// Returns q on the cells, the flux of every part exact. \[1/sr\]
     pub fn row(&self, d: DVec3) -> Vec<f64> {
         let (lobes, diffuse) = (self.parts)(d);
         let mut row = vec![diffuse / PI; self.grid.centre.len()];
@@ -86,20 +86,20 @@ impl Sample {
         row
     }
 
-    /// Share of flux misplaced by an indicatrix on the cells.
+    /// Returns the share of flux misplaced by an indicatrix on the cells.
     pub fn misplaced(&self, d: DVec3, q: &[f64]) -> f64 {
         Judge::new(&self.grid).misplaced(q, &self.row(d)).unwrap()
     }
 }
 
-/// What a goniophotometer with 145 directions sees of it.
+/// Returns the data that a goniophotometer with 145 directions measures of a sample.
 pub fn data(sample: &Sample) -> Indicatrices {
     let incident: Vec<Incident> = RingBasis::tregenza().cells().map(|cell| Incident(cell.centre())).collect();
     let values = incident.iter().flat_map(|d| sample.row(d.0.vector())).collect();
     Indicatrices::new(incident, sample.grid.basis().clone(), values).unwrap()
 }
 
-/// The model over it.
+/// Returns the model of a sample's data.
 pub fn model(sample: &Sample) -> Model {
     Model::new(Arc::new(data(sample)))
 }

@@ -1,9 +1,9 @@
 //! Light through interpolated indicatrices: diffuse light (eq 12) in sub-patches finer than the incident lattice,
 //! the sun (eq 16) at its own place.
 //!
-//! Beside the luminance stand doubts of it: what the same light would be with fluxes interpolated in straight lines;
-//! under the sun, also on the data's own cells, and with lobes a little to the right and a little higher, each less what
-//! it is. Their integrals at a sensor tell how much the answer there hangs on what lies between the data.
+//! Beside the luminance stand its uncertainties: what the same light would be with fluxes interpolated in straight
+//! lines; under the sun, also on the data's own cells, and with lobes a little to the right and a little higher, each
+//! less what it is. Their integrals at a sensor show how much the result there depends on what lies between the data.
 
 use super::grid::Grid;
 use super::model::{Copy, Model};
@@ -13,35 +13,35 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Luminance on emergent cells and the doubts of it. \[cd/m²\]
+/// Luminance on emergent cells and its uncertainties. \[cd/m²\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellLuminance {
-    /// By cell.
+    /// Luminance by cell. \[cd/m²\]
     pub luminance: Vec<f64>,
-    /// Signed difference to the simpler interpolation.
+    /// Signed difference to the simpler interpolation, by cell. \[cd/m²\]
     pub doubt: Vec<f64>,
-    /// Under the sun: what the lobes' own places are worth (signed differences for lobes moved along x_F and along
-    /// y_F), and what else may be off. Empty for diffuse light, where such moves cancel.
+    /// Uncertainties under the sun, by cell: from the lobes' own places (signed differences for lobes moved along x_F
+    /// and along y_F), and from everything else. \[cd/m²\] Empty for diffuse light, where such moves cancel.
     pub shifts: Vec<Vec<f64>>,
 }
 
-/// How well a lobe's place is known, in widths of the data's cells. `examples/incidence_errors` prints what this and
-/// the three below make of stated against true errors on analytic systems, for a range of each.
+/// Uncertainty of a lobe's place, in widths of the data's cells. `examples/incidence_errors` prints what this,
+/// [`SUN_REST`], [`BEYOND`] and [`REST`] make of stated against true errors on analytic systems, for a range of each.
 pub const PLACE: f64 = 0.06;
-/// What else the sun's light may be off, relative: anywhere ...
+/// Relative uncertainty of the sun's light from everything else, in any direction.
 pub const SUN_REST: f64 = 0.012;
-/// ... and at θ = 90° beyond the last row.
+/// Additional relative uncertainty of the sun's light at θ = 90° beyond the last row.
 pub const BEYOND: f64 = 0.4;
-/// What interpolation between the incident directions leaves after its own doubts, of sky and sun, relative.
+/// Relative error that interpolation between the incident directions leaves beside its uncertainties, of sky and sun.
 pub const REST: f64 = 5e-3;
 
 impl CellLuminance {
-    /// No light.
+    /// Creates luminances of 0 on `cells` cells.
     pub fn dark(cells: usize) -> Self {
         Self { luminance: vec![0.0; cells], doubt: vec![0.0; cells], shifts: Vec::new() }
     }
 
-    /// The same on cells that lie within these.
+    /// Returns the luminance on the cells `target`, which lie within the cells `own`.
     pub fn on(self, own: &Grid, target: &Grid) -> Self {
         if own.basis() == target.basis() {
             return self;
@@ -57,13 +57,13 @@ impl CellLuminance {
     }
 }
 
-/// The cell of `own` that holds each cell of `target`.
+/// Returns the cell of `own` that holds each cell of `target`.
 fn parents(own: &Grid, target: &Grid) -> Vec<usize> {
     target.centre.iter().map(|&d| own.basis().index(Dir::from_unit(d)).unwrap_or(0)).collect()
 }
 
-/// Sub-patches of about `step` \[rad\]: rings of equal height, in sectors whose borders fall on right, up, left and down,
-/// so that the horizon of a façade runs between them.
+/// Creates sub-patches of about `step` \[rad\]: rings of equal height, in sectors whose borders fall on right, up, left
+/// and down, so that the horizon of a façade runs between them.
 pub fn sub_patches(step: f64) -> RingBasis {
     let count = (0.5 * PI / step).round().max(1.0) as usize;
     let step = 0.5 * PI / count as f64;
@@ -78,10 +78,11 @@ pub fn sub_patches(step: f64) -> RingBasis {
     RingBasis::new("sub-patches", rings, AzimuthMap::FACADE).expect("equal steps rise from 0 to 90°")
 }
 
-/// Sub-patches that one thread adds up at a time: fixed, so that the sum does not depend on the number of threads.
+/// Number of sub-patches that one thread adds up at a time: fixed, so that the sum does not depend on the number of
+/// threads.
 const CHUNK: usize = 256;
 
-/// Luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.
+/// Computes the luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.
 pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellLuminance {
     // Lobes of sub-patches that bring nothing to the sum are not worth moving.
     let least = 1e-9 * illuminance.iter().sum::<f64>();
@@ -106,8 +107,8 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellL
     light
 }
 
-/// Light of the lobes from the sub-patches `first` and following; for every base the illuminance that it answers to,
-/// and the doubt of it.
+/// Computes the light of the lobes from the sub-patches `first` and following; for every base also the illuminance that
+/// it answers to, and its uncertainty.
 fn chunk_of_diffuse(
     model: &Model,
     patches: &RingBasis,
@@ -139,7 +140,8 @@ fn chunk_of_diffuse(
     (light, bases)
 }
 
-/// Luminance of the cells of `target` (which lie within the data's own) from the sun. `points`² directions a cell.
+/// Computes the luminance of the cells of `target` (which lie within the data's own) from the sun. `points`² directions
+/// per cell.
 pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> CellLuminance {
     let mut light = CellLuminance::dark(target.basis().len());
     let parent = parents(model.grid(), target);

@@ -10,12 +10,12 @@ use std::sync::Arc;
 /// Lobes as (share of the incident flux, centre, standard deviation \[rad\]) and a Lambertian share.
 pub type System = fn(DVec3) -> (Vec<(f64, DVec3, f64)>, f64);
 
-/// A system at Tregenza's 145 directions on emergent rings of `step` degrees.
+/// Returns the indicatrices of a system at Tregenza's 145 directions on emergent rings of `step` degrees.
 pub fn measured(step: usize, system: System) -> Arc<Indicatrices> {
     measured_at(RingBasis::tregenza().cells().map(|cell| Incident(cell.centre())).collect(), step, system)
 }
 
-/// The same at other directions.
+/// Returns the indicatrices of a system at given directions on emergent rings of `step` degrees.
 pub fn measured_at(incident: Vec<Incident>, step: usize, system: System) -> Arc<Indicatrices> {
     let emergent = rings(step);
     let grid = Grid::new(&emergent);
@@ -34,7 +34,7 @@ pub fn measured_at(incident: Vec<Incident>, step: usize, system: System) -> Arc<
     Arc::new(Indicatrices::new(incident, emergent, values).expect("a row was made for every direction"))
 }
 
-/// Rings of equal height with cells about as wide as high.
+/// Returns rings of equal height with cells about as wide as high.
 fn rings(step: usize) -> RingBasis {
     use crate::compute::basis::{AzimuthMap, Ring};
     let list = (0..90 / step)
@@ -52,7 +52,7 @@ fn rings(step: usize) -> RingBasis {
     RingBasis::new("rings", list, AzimuthMap::FACADE).expect("rings of equal height rise")
 }
 
-/// Share of light that gets through a pane.
+/// Returns the share of light that gets through a pane.
 fn pane(d: DVec3) -> f64 {
     0.9 * (1.0 - (1.0 - d.z).powi(5))
 }

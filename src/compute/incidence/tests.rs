@@ -47,8 +47,8 @@ fn at_the_measured_directions_the_data_come_back() {
 
 #[test]
 fn between_them_light_goes_where_the_system_sends_it() {
-    // Share misplaced, mean and worst of 60 suns. Lobes are narrower than the 4° cells that hold them, which alone costs
-    // 3 %; blending of unmoved neighbours misplaces a third.
+    // Share misplaced, mean and worst of 60 suns. Lobes are narrower than the 4° cells that hold them, which alone
+    // costs 3 %; blending of unmoved neighbours misplaces a third.
     let limits = [("clear", 0.045, 0.07), ("panel", 0.05, 0.12), ("slats", 0.05, 0.15), ("opal", 0.004, 0.02)];
     for ((name, model, system), (_, mean, worst)) in SYSTEMS.iter().zip(limits) {
         let errors: Vec<f64> = (0..60)

@@ -1,4 +1,4 @@
-//! How the indicatrices within each triangle of the lattice are made, and the figures that decide it.
+//! Method by which the indicatrices within each triangle of the lattice are made, and the figures that decide it.
 
 use super::left_out::{Errors, LeftOut};
 use super::model::Model;
@@ -7,47 +7,48 @@ use crate::compute::direction::Dir;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Lobes that carry less than this share of the corners' flux do not decide. One in a thousand is not seen.
+/// Share of the corners' flux below which lobes do not decide. One in a thousand is not seen.
 const LEAST: f64 = 1e-3;
 
-/// What happens to the lobes within a triangle.
+/// Treatment of the lobes within a triangle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Way {
-    /// Every lobe of a corner is found at the two others, and moved between them.
+    /// Moved lobes: every lobe of a corner is found at the two others, and moved between them.
     Moved,
-    /// Some lobe is missing at a corner: the others are moved, this one fades on its way there.
+    /// Fading lobes: some lobe is missing at a corner; the others are moved, this one fades on its way there.
     Faded,
-    /// No corner has a lobe: the bases are blended.
+    /// Blended bases: no corner has a lobe.
     Blended,
-    /// Nothing gets through at any corner.
+    /// No light: nothing gets through at any corner.
     Dark,
 }
 
 impl Way {
-    /// All, in the order of a legend.
+    /// All treatments, in the order of a legend.
     pub const ALL: [Self; 4] = [Self::Moved, Self::Faded, Self::Blended, Self::Dark];
 }
 
-/// A triangle of the lattice, and what decides how light is interpolated in it.
+/// Triangle of the lattice, with the figures that decide how light is interpolated in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triangle {
     /// Incident directions at its corners, façade frame.
     pub corners: [DVec3; 3],
-    /// What is done.
+    /// Treatment of the lobes.
     pub way: Way,
-    /// Lobes at the corners.
+    /// Number of lobes at each corner.
     pub lobes: [usize; 3],
     /// Share of the scattered flux of the corners that is in lobes.
     pub in_lobes: f64,
     /// Share of that flux whose lobe is found at both other corners.
     pub followed: f64,
-    /// How far a lobe moves at most from one corner to another. \[rad\]
+    /// Largest movement of a lobe from one corner to another. \[rad\]
     pub travel: f64,
-    /// Flux that each scheme is stated to misplace in its middle, in the order of [`SunScheme::ALL`].
+    /// Share of flux that each scheme is stated to misplace in the triangle's middle, in the order of
+    /// [`SunScheme::ALL`].
     pub stated: Errors,
 }
 
-/// All triangles of a model, in the order of its lattice.
+/// Returns all triangles of a model, in the order of its lattice.
 pub fn triangles(model: &Model, left_out: &LeftOut) -> Vec<Triangle> {
     model.lattice.triangles().par_iter().map(|vertices| triangle(model, left_out, *vertices)).collect()
 }

@@ -8,34 +8,34 @@ use std::f64::consts::PI;
 /// One beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamLight {
-    /// Where it goes, by through-name.
+    /// Through direction of the beam.
     pub to: Dir<Facade>,
-    /// Flux that leaves the aperture with it, per area. \[lm/m²\]
+    /// Flux that leaves the aperture with the beam, per area. \[lm/m²\]
     pub exitance: f64,
-    /// Illuminance that it gives across itself where nothing hides any part of its disc. \[lx\]
+    /// Illuminance on a plane perpendicular to the beam where nothing hides any part of its disc. \[lx\]
     pub normal: f64,
-    /// Straight on: what hides a part of the sun hides the same part of it.
+    /// Whether the beam is undeviated: what hides a part of the sun hides the same part of the beam.
     pub straight: bool,
-    /// Error of its strength, a share of it.
+    /// Estimated relative error of the beam's strength.
     pub error: f64,
-    /// What is not known of its strength, a share of it: how far the data tell apart neighbouring suns.
+    /// Relative uncertainty of the beam's strength, because the data do not resolve neighbouring sun positions.
     pub doubt: f64,
 }
 
 impl BeamLight {
-    /// The same with its light times a factor.
+    /// Returns the beam with its light multiplied by `factor`.
     pub fn scaled(self, factor: f64) -> Self {
         Self { exitance: factor * self.exitance, normal: factor * self.normal, ..self }
     }
 
-    /// Where it goes as a whole: straight on by the middle of what is seen of the sun. `None` where that is not through
-    /// the aperture.
+    /// Returns the through direction of the beam as a whole; an undeviated beam goes by the middle of the visible part
+    /// of the sun. `None` where that direction does not lead through the aperture.
     pub fn entering(&self, facing: &Facing<'_>) -> Option<Dir<Facade>> {
         let to = if self.straight { facing.unhidden(self.to)? } else { self.to };
         (to.vector().z > 0.0).then_some(to)
     }
 
-    /// What a regular transmittance makes of the sun; `None` without sun.
+    /// Computes the sun's beam through a regular transmittance; `None` without sun.
     pub fn regular(tau: Option<&AngularTransmittance>, facing: &Facing<'_>) -> Option<Self> {
         let incident = facing.sun_illuminance();
         let (sun, to) = (facing.sun?, facing.sun_direction()?);

@@ -1,6 +1,6 @@
 //! The luminous-intensity distribution as luminaire files hold it: C-planes and γ angles (photometry of type C).
 //!
-//! Two ways to aim, both with C counted counter-clockwise seen from above and γ from the nadir:
+//! Two orientations, both with C counted counter-clockwise seen from above and γ from the nadir:
 //!
 //! ```text
 //!  Mounted (façade as built): nadir = −y_F, C0 = −z_F (into the room), C90 = −x_F
@@ -25,17 +25,17 @@ use crate::compute::estimate::Estimate;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// How the aperture's frame stands in the luminaire's.
+/// Orientation of the aperture's frame in the luminaire's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aim {
-    /// As built into a façade: nadir down the façade, C0 into the room.
+    /// Orientation as built into a façade: nadir down the façade, C0 into the room.
     Mounted,
-    /// The outward normal turned up: the opening is horizontal and shines down.
+    /// Orientation with the outward normal up: the opening is horizontal and emits downwards.
     Down,
 }
 
 impl Aim {
-    /// The real orientation of an aperture in this surface.
+    /// Returns the real orientation of an aperture in this surface.
     pub fn of(surface: Surface) -> Self {
         match surface {
             Surface::Facade => Self::Mounted,
@@ -43,7 +43,7 @@ impl Aim {
         }
     }
 
-    /// Direction of propagation in the aperture's frame for C and γ. \[rad\]
+    /// Returns the direction of propagation in the aperture's frame for C and γ. \[rad\]
     pub fn direction(self, c: f64, gamma: f64) -> Emergent {
         let (sin_c, cos_c) = c.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
@@ -53,7 +53,7 @@ impl Aim {
         }))
     }
 
-    /// C (0 ≤ C < 2π) and γ of a direction of propagation. \[rad\]
+    /// Returns C (0 ≤ C < 2π) and γ of a direction of propagation. \[rad\]
     pub fn angles(self, emergent: Emergent) -> (f64, f64) {
         let v = emergent.0.vector();
         // Components along C0, along C90 and along the nadir.
@@ -76,17 +76,17 @@ pub struct Step {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("step {degrees}° does not divide 90° or lies outside 1° to 15° (try 5, 2.5 or 1)")]
 pub struct StepError {
-    /// What was asked for. \[°\]
+    /// Requested step. \[°\]
     pub degrees: f64,
 }
 
 impl Step {
-    /// 2.5°: 144 planes of 73 angles.
+    /// Step of 2.5°: 144 planes of 73 angles.
     pub const NORMAL: Self = Self { per_quarter: 36 };
-    /// 1°: 360 planes of 181 angles, the most that readers of EULUMDAT take.
+    /// Step of 1°: 360 planes of 181 angles, the most that readers of EULUMDAT take.
     pub const FINE: Self = Self { per_quarter: 90 };
 
-    /// A step of 1° to 15° that divides 90°.
+    /// Creates a step of 1° to 15° that divides 90°.
     pub fn from_degrees(degrees: f64) -> Result<Self, StepError> {
         let parts = 90.0 / degrees;
         let whole = parts.round();
@@ -96,8 +96,8 @@ impl Step {
         Ok(Self { per_quarter: whole as usize })
     }
 
-    /// Chosen from the data: fine for a beam and for cells narrower than 5° (seen from the middle of their ring),
-    /// normal otherwise.
+    /// Chooses the step from the data: fine for a beam and for cells narrower than 5° (seen from the middle of their
+    /// ring), normal otherwise.
     pub fn for_lid(lid: &Lid) -> Self {
         let narrow = lid.parts.iter().any(|part| match part {
             EmergentLuminance::Cells { basis, .. } => basis
@@ -109,7 +109,7 @@ impl Step {
         if narrow || lid.beam_flux() > 0.0 { Self::FINE } else { Self::NORMAL }
     }
 
-    /// \[°\]
+    /// Returns the step. \[°\]
     pub fn degrees(self) -> f64 {
         90.0 / self.per_quarter as f64
     }
@@ -122,15 +122,15 @@ impl Step {
 /// Luminous intensities at C = 0, step, … < 360° and γ = 0, step, … 180°, and at more of them where narrow beams go.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CGammaTable {
-    /// How the aperture stands in it.
+    /// Orientation of the aperture in the table.
     pub aim: Aim,
     /// Step in C and γ, away from beams.
     pub step: Step,
-    /// The planes, from 0, 2π not repeated. \[rad\]
+    /// C of the planes, from 0, 2π not repeated. \[rad\]
     pub c: Vec<f64>,
-    /// The angles in a plane, from 0 to π. \[rad\]
+    /// Angles γ in a plane, from 0 to π. \[rad\]
     pub gamma: Vec<f64>,
-    /// Plane by plane, γ rising. \[cd\]
+    /// Luminous intensities, plane by plane, γ rising. \[cd\]
     pub intensity: Vec<f64>,
     /// Flux of the aperture: exact for uniform light, cells and bands, integrated for functions. \[lm\]
     pub flux: Estimate,
@@ -141,45 +141,45 @@ pub struct CGammaTable {
     pub beam_flux: f64,
     /// The part of `intensity` that is unscattered beams; empty without any. \[cd\]
     pub beams: Vec<f64>,
-    /// How these beams are widened; `None`: every beam is spread over the four nodes round it.
+    /// Widening of these beams; `None`: every beam is spread over the four nodes round it.
     pub widened: Option<Widened>,
 }
 
 /// Beams that are as wide as what they light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Widened {
-    /// Size of what is lit, largest of all beams. \[m\]
+    /// Size of the lit area, largest of all beams. \[m\]
     pub size: [f64; 2],
-    /// Distance where that holds, from the nearest to the farthest. \[m\]
+    /// Distance at which that size holds, from the nearest to the farthest. \[m\]
     pub distance: [f64; 2],
     /// Finest distance of the nodes in C, on the sphere, and in γ. \[rad\]
     pub step: [f64; 2],
 }
 
-/// The largest intensity of a table and where it goes.
+/// Largest intensity of a table and its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// Mean over the solid angle that belongs to the table's node. \[cd\]
     pub intensity: f64,
-    /// The plane, 0 ≤ C < 2π. \[rad\]
+    /// Angle C of the plane, 0 ≤ C < 2π. \[rad\]
     pub c: f64,
-    /// From the nadir. \[rad\]
+    /// Angle γ from the nadir. \[rad\]
     pub gamma: f64,
 }
 
-/// How strong the light of an aperture is at most, as its luminaire file holds it.
+/// Largest intensities of an aperture, as its luminaire file holds them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peaks {
     /// Scattered light alone; `None` where there is none.
     pub scattered: Option<Peak>,
     /// The strongest beam with the scattered light at its place; `None` without beams.
     pub beam: Option<Peak>,
-    /// Step of the table that they are of: a beam is as strong as this spreads it.
+    /// Step of the table of these intensities; that of a beam depends on it, because the table spreads the beam.
     pub step: Step,
 }
 
 impl Peaks {
-    /// Of the table that a luminaire file of this aperture holds.
+    /// Returns the largest intensities in the table that a luminaire file of this aperture holds.
     pub fn of(lid: &Lid) -> Self {
         CGammaTable::new(lid, Aim::of(lid.surface), Step::for_lid(lid)).peaks()
     }
@@ -206,12 +206,12 @@ impl CGammaTable {
         &self.intensity[plane * self.angles()..][..self.angles()]
     }
 
-    /// As a reader takes it.
+    /// Returns the intensities as a reader of luminaire files takes them.
     pub fn intensities(&self) -> Intensities {
         Intensities { c: self.c.clone(), gamma: self.gamma.clone(), values: self.intensity.clone() }
     }
 
-    /// The same with other nodes, the old ones among them: what a reader makes of it does not change.
+    /// Replaces the nodes by others, the old ones among them; what a reader interpolates does not change.
     fn at_nodes(&mut self, c: Vec<f64>, gamma: Vec<f64>) {
         let known = Intensities {
             c: std::mem::take(&mut self.c),
@@ -222,7 +222,7 @@ impl CGammaTable {
         (self.c, self.gamma) = (c, gamma);
     }
 
-    /// Makes the flux that a reader finds the table's flux again.
+    /// Scales the intensities so that the zonal sum is the table's flux again.
     fn close(&mut self) {
         let read = self.zonal_flux();
         if read != 0.0 && self.flux.value != 0.0 {
@@ -230,7 +230,7 @@ impl CGammaTable {
         }
     }
 
-    /// The strongest scattered light and the strongest beam.
+    /// Returns the strongest scattered light and the strongest beam.
     pub fn peaks(&self) -> Peaks {
         let beam = |node: usize| self.beams.get(node).copied().unwrap_or(0.0);
         let strongest = |value: &dyn Fn(usize) -> f64| {
@@ -252,8 +252,8 @@ impl CGammaTable {
         }
     }
 
-    /// The flux that a reader finds: each zone between two γ with the mean of its two intensities, each plane for half the
-    /// way to its neighbours. \[lm\]
+    /// Returns the flux that a reader finds: each zone between two γ with the mean of its two intensities, each plane
+    /// for half the distance to its neighbours. \[lm\]
     pub fn zonal_flux(&self) -> f64 {
         let (planes, zones) = weights(&self.c, &self.gamma);
         let of = |(plane, weight): (usize, &f64)| {
@@ -263,7 +263,7 @@ impl CGammaTable {
     }
 }
 
-/// What planes and angles count for in a zonal sum.
+/// Returns the weights of planes and angles in a zonal sum.
 fn weights(c: &[f64], gamma: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let planes = c.len();
     let turn = 2.0 * PI;

@@ -1,4 +1,4 @@
-//! The very sun's beams behind a system that answers for single directions, as means over the disc.
+//! Beams of direct sun behind a system that is computed for single directions, as means over the disc.
 
 use super::{BeamLight, Facing};
 use crate::compute::direction::{Dir, Facade};
@@ -10,37 +10,39 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Names closer than this are the same. \[rad\]
+/// Distance below which two directions are the same. \[rad\]
 const SAME: f64 = 1e-9;
-/// Longest piece of a fan that is one beam: a fraction of the sun's own width. \[rad\]
+/// Maximum length of a piece of a fan that is one beam: a fraction of the sun's own width. \[rad\]
 const PIECE: f64 = 0.15 * PI / 180.0;
-/// Pieces of fans that fall together within this are one. \[rad\]
+/// Distance within which pieces of fans are merged. \[rad\]
 const TOGETHER: f64 = 0.1 * PI / 180.0;
-/// What is left of their errors, relative: of what flat faces turn, whose share has kinks within the disc, and of fans by their
-/// pieces; seen against closed forms of 12 rooms behind flat and curved mirror slats.
+/// Remaining relative errors of redirected beams: from flat faces, whose share has kinks within the disc, and in pieces
+/// of fans; seen against closed forms of 12 rooms behind flat and curved mirror slats.
 const TURNED: [f64; 2] = [6e-4, 1.5e-3];
-/// Pairs of directions over the disc for the straight beam through what is no structure along an axis, one number after
-/// the other until its share stands ...
+/// Numbers of pairs of directions over the disc for the straight beam through what is not a structure along an axis,
+/// tried in this order until the beam's share changes by no more than [`STANDS`].
 const SEEDS: [usize; 4] = [16, 64, 256, MOST_SEEDS];
-/// Most of them.
+/// Maximum number of pairs of directions over the disc.
 const MOST_SEEDS: usize = 1024;
-/// ... to this, relative to it and what little matters.
+/// Change at which the straight share counts as converged, relative to the share plus the first of [`LITTLE`].
 const STANDS: f64 = 1e-4;
-/// Pairs of directions that take the place of the disc's middle where that cannot stand for it.
+/// Number of pairs of directions that replace the disc's middle where that does not represent the disc.
 const PARTS: usize = 64;
-/// A few of them: what tells whether anything is turned, and what scattered light is a mean over at grazing incidence.
+/// Number of pairs of directions that show whether anything is redirected, and that scattered light is averaged over at
+/// grazing incidence.
 pub(super) const FEW: usize = 3;
-/// Where all hangs on a profile angle, strips of the disc and pairs of directions in all of them together: ever more until the
-/// middles of strips stand for these.
+/// Numbers of strips of the disc, and of pairs of directions in all of them together, for systems that depend on a
+/// profile angle alone: tried in this order until the middles of strips represent the strips.
 const STRIPS: [[usize; 2]; 3] = [[5, 192], [11, 192], [24, 768]];
-/// Shares that go straight on and that are turned stand if known so well, relative to themselves and ...
+/// Maximum errors of the undeviated and of the redirected share, relative to the share plus [`LITTLE`].
 const LINEAR: [f64; 2] = [2e-4, 1e-3];
-/// ... so much of the light.
+/// Shares of the light, undeviated and redirected, beside which errors do not matter.
 const LITTLE: [f64; 2] = [0.005, 0.05];
-/// Directions as near as this may share what mirrors make of them: a tenth of the disc. \[rad\]
+/// Angle within which directions may share what mirrors make of them: a tenth of the disc. \[rad\]
 const ABOUT: f64 = 0.05 * PI / 180.0;
 
-/// Directions evenly over the disc that nothing hides: a sunflower of so many seeds, each with its opposite.
+/// Returns directions spread evenly over the visible part of the disc: a sunflower of `seeds` points, each with its
+/// opposite.
 pub(super) fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
     let (u, v) = sun.vector().any_orthonormal_pair();
     let edges = facing.sun_edges();
@@ -56,7 +58,7 @@ pub(super) fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<D
         .collect()
 }
 
-/// Places of the seeds of a sunflower whose first n fill a disc of radius √n.
+/// Returns the places of the seeds of a sunflower whose first n fill a disc of radius √n.
 fn sunflower() -> &'static [[f64; 2]] {
     static SEEDS_OF_ONE: OnceLock<Vec<[f64; 2]>> = OnceLock::new();
     SEEDS_OF_ONE.get_or_init(|| {
@@ -69,7 +71,7 @@ fn sunflower() -> &'static [[f64; 2]] {
     })
 }
 
-/// Is nothing of the disc hidden?
+/// Whether no part of the disc is hidden.
 fn is_whole(facing: &Facing<'_>, sun: Dir<Facade>) -> bool {
     // An edge that touches it, or hides 10⁻⁵ of it, takes nothing.
     let free =
@@ -77,7 +79,7 @@ fn is_whole(facing: &Facing<'_>, sun: Dir<Facade>) -> bool {
     facing.sun_edges().iter().all(free)
 }
 
-/// Opposite directions on the disc's rim.
+/// Returns two opposite directions on the disc's rim.
 fn rim(sun: Dir<Facade>, aside: DVec3) -> [Dir<Facade>; 2] {
     let aside = SUN_HALF_ANGLE.tan() * aside;
     [aside, -aside].map(|aside| Dir::new(sun.vector() + aside).unwrap_or(sun))
@@ -87,12 +89,12 @@ pub(super) fn cosine(name: Dir<Facade>) -> f64 {
     name.vector().z.max(0.0)
 }
 
-/// A part of the disc: where, its share of the disc as seen, and its cosine times that.
+/// Part of the disc: its direction, its share of the disc as seen, and that share times its cosine.
 struct Part {
     name: Dir<Facade>,
     weight: f64,
     flux: f64,
-    /// What goes straight on of it.
+    /// Share of the part's light that is transmitted undeviated.
     straight: f64,
     turned: Vec<Beam>,
 }
@@ -115,7 +117,8 @@ impl Part {
     }
 }
 
-/// The disc by strips of about the same profile angle, each by its middle: x and y exchanged where `upright`.
+/// Divides the disc into strips of about the same profile angle, each given by its middle; `upright`: x and y
+/// exchanged.
 fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade>, f64, f64)> {
     let angle = |name: &Dir<Facade>| {
         let v = name.vector();
@@ -134,7 +137,7 @@ fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade
     sums.into_iter().filter_map(|(sum, count, cosines)| Some((Dir::new(sum)?, count, cosines))).collect()
 }
 
-/// The sun's beams behind a system, as means over the disc.
+/// Computes the sun's beams behind a system, as means over the disc.
 pub(super) fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
     let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
     if let Structure::Along { upright } = specimen.structure() {
@@ -166,9 +169,9 @@ pub(super) fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<Bea
     beams
 }
 
-/// The whole disc by its middle and by opposite points of its rim beside it, `asides` across each other, where shares are as
-/// good as linear between them; else what was asked for. Weighted so a mean holds for polynomials of the third degree, and
-/// the rim tells what begins to pass there.
+/// Computes the beams of the whole disc by its middle and by opposite points of its rim along `asides`, which are
+/// perpendicular to each other. Where shares are not as good as linear between them, returns the parts instead.
+/// Weighted so a mean holds for polynomials of the third degree, and the rim shows what begins to pass there.
 fn by_middle(
     specimen: &dyn Specimen,
     facing: &Facing<'_>,
@@ -192,12 +195,12 @@ fn by_middle(
     Ok(straight(facing, sun, &parts, true, bent[0]).into_iter().chain(turned).collect())
 }
 
-/// Are shares known to errors that do not matter?
+/// Whether shares are known to errors that do not matter.
 fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
     (0..2).all(|k| errors[k] <= LINEAR[k] * (shares[k] + LITTLE[k]))
 }
 
-/// Where all hangs on a profile angle.
+/// Computes the sun's beams behind a system that depends on a profile angle alone, by strips of the disc.
 fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
     // Across the planes of equal profile angles.
     let across = (if upright { DVec3::Y } else { DVec3::X }).cross(sun.vector()).try_normalize();
@@ -241,14 +244,14 @@ fn mean(parts: &[Part], of: impl Fn(&Part) -> f64) -> f64 {
     parts.iter().map(|part| part.flux * of(part)).sum::<f64>() / flux.max(f64::MIN_POSITIVE)
 }
 
-/// The straight beam of a disc by its parts; `whole`: nothing hides any; `off`: error of the share.
+/// Returns the straight beam of a disc by its parts; `whole`: nothing hides any; `off`: error of the share.
 fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, off: f64) -> Option<BeamLight> {
     let normal = facing.sun?.direct_normal;
     let share = mean(parts, |part| part.straight);
     let weight: f64 = parts.iter().map(|part| part.weight).sum();
     let seen = parts.iter().map(|part| part.weight * part.straight).sum::<f64>() / weight;
-    // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is hidden in
-    // part is cut by what hides it, later.
+    // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is hidden
+    // in part is cut by what hides it, later.
     let centre: DVec3 = parts.iter().map(|part| part.weight * part.straight * part.name.vector()).sum();
     (share > 0.0).then(|| BeamLight {
         to: if whole { Dir::new(centre).unwrap_or(sun) } else { sun },
@@ -260,7 +263,7 @@ fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, 
     })
 }
 
-/// The same by more and more directions until its share stands.
+/// Computes the straight beam by rising numbers of directions until its share converges.
 fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
     let mut found: Option<BeamLight> = None;
     for (round, seeds) in SEEDS.into_iter().enumerate() {
@@ -288,7 +291,7 @@ fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Faca
     found
 }
 
-/// The beams that do not go straight on.
+/// Returns the redirected beams; `error`: relative error of their share.
 fn turned(facing: &Facing<'_>, parts: &[Part], error: f64) -> Vec<BeamLight> {
     let flux: f64 = parts.iter().map(|part| part.flux).sum();
     let mut pieces = Pieces::default();
@@ -299,7 +302,8 @@ fn turned(facing: &Facing<'_>, parts: &[Part], error: f64) -> Vec<BeamLight> {
     pieces.beams(error)
 }
 
-/// Turned beams, those that fall together as one: sum of directions times flux, flux, and whether it is a piece of a fan.
+/// Redirected beams, merged where they fall together: sum of directions times flux, flux, whether it is a piece of a
+/// fan.
 #[derive(Default)]
 struct Pieces(BTreeMap<[i64; 2], (DVec3, f64, bool)>);
 
@@ -340,8 +344,8 @@ mod tests {
 
     use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
 
-    /// Level flat slats, as far apart as 0.9 of their width, let 1 − tanψ/0.9 pass. Of a disc whose middle lies beyond that by
-    /// a part of its radius the rest is seen through them, down to a sliver at the rim.
+    /// Level flat slats, as far apart as 0.9 of their width, let 1 − tanψ/0.9 pass. Of a disc whose middle lies beyond
+    /// that by a part of its radius the rest is seen through them, down to a sliver at the rim.
     #[test]
     fn what_begins_to_pass_at_the_rim_counts() {
         let flat = SlatProfile::Flat { width: 0.08 };

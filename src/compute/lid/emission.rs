@@ -1,7 +1,7 @@
-//! What the room side of an aperture emits under a given outside: the report's eq 8 as parts that the near field can
-//! integrate each in its own exact way.
+//! Light that the room side of an aperture emits under a given outside: the report's eq 8 as parts that the near field
+//! can integrate each in its own exact way.
 //!
-//! Linear data on cells (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
+//! Patch-averaged data (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
 //! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
 
 use super::Facing;
@@ -18,47 +18,47 @@ use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Luminance on emergent cells, diffuse light and sun apart. \[cd/m²\]
+/// Luminance on emergent cells, separately for diffuse light and sun. \[cd/m²\]
 #[derive(Debug, Clone)]
 pub struct CellLight {
-    /// Emergent cells, by through-name.
+    /// Emergent cells, by through direction.
     pub basis: Arc<RingBasis>,
-    /// From sky, ground and skyline.
+    /// Luminance by light from sky, ground and skyline. \[cd/m²\]
     pub diffuse: Vec<f64>,
-    /// From the sun's scattered light.
+    /// Luminance by the sun's scattered light. \[cd/m²\]
     pub sun: Vec<f64>,
-    /// Doubts of the sum of both, each signed and by cell: what a simpler interpolation between the data would add, what
-    /// the place of a lobe is worth. Independent of one another. \[cd/m²\]
+    /// Uncertainties of `diffuse` plus `sun`, each signed and by cell: difference to a simpler interpolation between
+    /// the data, uncertainty of the place of a lobe. Independent of one another. \[cd/m²\]
     pub doubts: Vec<Vec<f64>>,
-    /// Error of the luminances, relative.
+    /// Estimated relative error of the luminances.
     pub relative_error: f64,
 }
 
 /// Luminance by profile angle: q times illuminance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandLight {
-    /// Per illuminance.
+    /// Luminance coefficients q by profile angle.
     pub light: ProfileLight,
-    /// Of the aperture's outside. \[lx\]
+    /// Illuminance of the aperture's outside, a factor of `light`. \[lx\]
     pub illuminance: f64,
 }
 
-/// Where the sun's beams come from.
+/// Source of the sun's beams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BeamSource {
-    /// There are none to be had: no sun, or nothing that keeps light together.
+    /// No beams: no sun, or nothing that transmits light as beams.
     #[default]
     None,
-    /// The description of the system, or a regular transmittance.
+    /// Description of the system, or a regular transmittance.
     Described,
-    /// Taken out of data on cells.
+    /// Extraction from patch-averaged data.
     Extracted,
-    /// Left on cells.
+    /// No extraction: direct sun stays in the patch-averaged data.
     Cells,
 }
 
 impl BeamSource {
-    /// The word for it.
+    /// Returns the key of the source.
     pub fn word(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -69,18 +69,18 @@ impl BeamSource {
     }
 }
 
-/// Everything that an aperture emits.
+/// Light that an aperture emits on its room side.
 #[derive(Debug, Clone)]
 pub struct Emission {
-    /// Lambertian part. \[cd/m²\]
+    /// Luminance of the Lambertian part. \[cd/m²\]
     pub uniform: Estimate,
-    /// Parts on cells, each on its own.
+    /// Parts on emergent cells, each with its own basis.
     pub cells: Vec<CellLight>,
-    /// Scattered light where it depends on a profile angle alone: the same bands in all parts.
+    /// Scattered light that depends on a profile angle alone, on the same bands in all parts.
     pub bands: Vec<BandLight>,
-    /// The outside seen straight through, with this transmittance.
+    /// Regular transmittance, through which the outside is seen.
     pub regular: Option<AngularTransmittance>,
-    /// The sun's light that goes on as beams.
+    /// Beams of the sun's light.
     pub beams: Vec<BeamLight>,
     /// Luminaires in the aperture's place, which light the room whatever the outside.
     pub lamps: Option<Arc<Lamps>>,
@@ -88,14 +88,14 @@ pub struct Emission {
     pub incident_diffuse: Estimate,
     /// Illuminance of the outside face by the sun. \[lx\]
     pub incident_sun: f64,
-    /// Where the beams come from.
+    /// Source of the beams.
     pub beam_source: BeamSource,
-    /// How it was found where there was a choice, in sentences.
+    /// Sentences on the method where there was a choice.
     pub notes: Vec<String>,
 }
 
 impl Emission {
-    /// No light at all.
+    /// Creates an emission without any light.
     pub fn dark() -> Self {
         Self {
             uniform: Estimate::default(),
@@ -111,7 +111,7 @@ impl Emission {
         }
     }
 
-    /// Luminaires in the aperture's place: nothing of the outside comes in.
+    /// Creates the emission of luminaires in the aperture's place: nothing of the outside comes in.
     pub fn lamps(lamps: Arc<Lamps>) -> Self {
         let note = format!(
             "luminaire files: {} of them, each cut into parts of a quarter of the distance, as a host takes them; sky and \
@@ -222,7 +222,7 @@ impl Emission {
         emission
     }
 
-    /// Flux that leaves into the room per area, beam included. \[lm/m²\]
+    /// Returns the flux that leaves into the room per area, beams included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
         for bands in &self.bands {
@@ -257,33 +257,34 @@ impl Emission {
         sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
     }
 
-    /// Is there an uncertainty of the data?
+    /// Whether the data cause an uncertainty.
     pub fn is_uncertain(&self) -> bool {
         self.cells.iter().any(|light| !light.doubts.is_empty())
             || self.regular.as_ref().is_some_and(AngularTransmittance::is_estimated)
             || self.beams.iter().any(|beam| beam.doubt > 0.0)
     }
 
-    /// What the data leave open of [`Self::exitance`]. \[lm/m²\]
+    /// Returns the uncertainty of [`Self::exitance`] that the data cause. \[lm/m²\]
     pub fn exitance_doubt(&self) -> f64 {
         let flux = |light: &CellLight, doubt: &Vec<f64>| -> f64 {
             light.basis.cells().zip(doubt).map(|(cell, l)| cell.projected_solid_angle() * l).sum()
         };
         let on_cells = |light: &CellLight| light.doubts.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
         let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.doubt).sum();
-        // By degrees, as an even outside sends it.
+        // By degrees, as a uniform outside sends it.
         let even = |degree: usize| (2.0 * (degree as f64 + 0.5).to_radians()).sin() * PI / 180.0;
         let even = std::array::from_fn(|degree| self.incident_diffuse.value * even(degree));
         let through = self.regular.as_ref().map_or(0.0, |tau| tau.uncertainty_of_light(&even));
         self.cells.iter().map(on_cells).sum::<f64>() + through + beams
     }
 
-    /// As a luminous-intensity distribution (eq 5).
+    /// Returns the luminous-intensity distribution (eq 5) of an aperture of this size. \[m\]
     pub fn lid(&self, facing: &Facing<'_>, size: [f64; 2]) -> Lid {
         self.lid_through(facing, size, vec![(1.0, facing.outside.clone())])
     }
 
-    /// The same where the outside that is seen straight through is the mean of several, with their shares.
+    /// Returns the luminous-intensity distribution where the outside seen through regular transmission is the mean of
+    /// several (`seen`, with their shares).
     pub fn lid_through(&self, facing: &Facing<'_>, size: [f64; 2], seen: Vec<(f64, Outside)>) -> Lid {
         let mut parts = Vec::new();
         if self.uniform.value > 0.0 {
@@ -324,12 +325,12 @@ impl Emission {
     }
 }
 
-/// What straightening the skewed cells of the Shirley–Chiu square costs at a sensor, relative; seen on the slat and
+/// Relative error at a sensor from straightening the skewed cells of the Shirley–Chiu square; seen on the slat and
 /// fabric trees of the reference kit.
 const TREE_CELL_ERROR: f64 = 5e-3;
 
-/// Illuminance through every finest incident cell of a tree, by midpoints of equal projected solid angle; and the
-/// error of the total, from half the density. \[lx\]
+/// Computes the illuminance through every finest incident cell of a tree, by midpoints of equal projected solid angle,
+/// and the error of the total, from half the density. \[lx\]
 fn tree_illuminances(tree: &TensorTree, facing: &Facing<'_>) -> (Vec<f64>, f64) {
     let grid = tree.incident_grid();
     let fine = (128 / tree.incident_resolution()).max(2);
@@ -347,10 +348,10 @@ fn relative(e: Estimate) -> f64 {
     if e.value > 0.0 { e.error / e.value } else { 0.0 }
 }
 
-/// Gauss points for τ across a ring.
+/// Number of Gauss points for τ across a ring.
 const ACROSS: usize = 3;
 
-/// Rings of equal width in θ, undivided in φ.
+/// Returns a basis of `count` rings of equal width in θ, undivided in φ.
 fn bands(count: usize) -> RingBasis {
     let step = 0.5 * PI / count as f64;
     let rings = (0..count)

@@ -8,34 +8,35 @@ use glam::DVec3;
 /// Outside as one aperture faces it.
 #[derive(Debug, Clone, Copy)]
 pub struct Facing<'a> {
-    /// Sky, ground, skyline.
+    /// Sky, ground and skyline.
     pub outside: &'a Outside,
-    /// The disc, if it shines at all.
+    /// Sun's disc; `None` if it does not shine.
     pub sun: Option<&'a Sun>,
-    /// Turns the room to the compass.
+    /// Orientation of the room to the compass.
     pub orientation: Orientation,
-    /// The aperture's surface.
+    /// Surface that the aperture lies in.
     pub surface: Surface,
 }
 
 impl Facing<'_> {
-    /// Luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
+    /// Returns the luminance of the outside in a direction of the aperture's frame. \[cd/m²\]
     pub fn luminance(&self, d: Dir<Facade>) -> f64 {
         self.outside.luminance(self.orientation.world_from_room(self.surface.room_dir(d)))
     }
 
-    /// Direction of the sun in the aperture's frame; `None` when no part of the disc is in front of it.
+    /// Returns the direction of the sun in the aperture's frame; `None` without sun.
     pub fn sun_direction(&self) -> Option<Dir<Facade>> {
         self.sun.map(|sun| self.surface.facade_dir(self.orientation.room_from_world(sun.direction)))
     }
 
-    /// Direction from which the light of the disc comes as a whole, in the aperture's frame: the middle of what neither
-    /// horizon nor the aperture's own plane hides; `None` when nothing of it is in front.
+    /// Returns the direction from which the light of the disc comes as a whole, in the aperture's frame: the middle of
+    /// what neither horizon nor the aperture's own plane hides; `None` when nothing of it is in front.
     pub fn sun_entering(&self) -> Option<Dir<Facade>> {
         self.unhidden(self.sun_direction()?)
     }
 
-    /// The same of a disc about another direction.
+    /// Returns the middle of what neither horizon nor the aperture's own plane hides of a sun's disc about the
+    /// direction `disc`, in the aperture's frame; `None` when nothing of it is in front.
     pub fn unhidden(&self, disc: Dir<Facade>) -> Option<Dir<Facade>> {
         match sun_disc::middle(disc.vector(), self.sun_edges())? {
             middle if middle == disc.vector() => Some(disc),
@@ -43,9 +44,9 @@ impl Facing<'_> {
         }
     }
 
-    /// Edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own plane; in
-    /// the aperture's frame. Boxes are not among them: they hide it from some points. Where a skyline has a corner before
-    /// the disc, a straight edge stands for it that leaves the same share of the disc.
+    /// Returns the edges that hide the sun from anything in this surface: horizon or skyline, and the aperture's own
+    /// plane; in the aperture's frame. Boxes are not among them: they hide it from some points. Where a skyline has a
+    /// corner in front of the disc, a straight edge stands for it that leaves the same share of the disc.
     pub fn sun_edges(&self) -> [Edge; 2] {
         let skyline = self.outside.surroundings().and_then(|surroundings| surroundings.skyline.as_ref());
         if let (Some(skyline), Some(sun)) = (skyline, self.sun) {
@@ -60,7 +61,7 @@ impl Facing<'_> {
         [Edge { normal: zenith, offset }, Edge::great_circle(DVec3::Z)]
     }
 
-    /// Illuminance of the aperture's outside by the sun's disc. \[lx\]
+    /// Returns the illuminance of the aperture's outside by the sun's disc. \[lx\]
     pub fn sun_illuminance(&self) -> f64 {
         match (self.sun, self.sun_direction()) {
             (Some(sun), Some(direction)) => {

@@ -7,12 +7,12 @@ pub struct Intensities {
     pub c: Vec<f64>,
     /// Angles in a plane, rising. \[rad\]
     pub gamma: Vec<f64>,
-    /// Plane by plane. \[cd\]
+    /// Luminous intensities, plane by plane. \[cd\]
     pub values: Vec<f64>,
 }
 
 impl Intensities {
-    /// Linear between the nodes; none beyond the first and the last γ. \[cd\]
+    /// Returns the luminous intensity, linear between the nodes; 0 beyond the first and the last γ. \[cd\]
     pub fn at(&self, c: f64, gamma: f64) -> f64 {
         let (Some(first), Some(last)) = (self.gamma.first(), self.gamma.last()) else { return 0.0 };
         // Rounding must not make the nadir dark.

@@ -1,5 +1,5 @@
-//! What an aperture emits when the data are known at single incident directions only: sky and ground in sub-patches
-//! finer than these directions, the sun exactly where it is, each through an interpolated indicatrix.
+//! Light that an aperture emits when the data are known at single incident directions only: sky and ground in
+//! sub-patches finer than these directions, the sun exactly where it is, each through an interpolated indicatrix.
 
 use super::{BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
@@ -15,17 +15,17 @@ use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Widths of the sub-patches of sky and ground: as lobes' standard deviations (a lobe is 7 of them across), within these
-/// limits. Wider ones would show as rings behind narrow lobes. \[rad\]
+/// Minimum and maximum width of the sub-patches of sky and ground, which are as wide as lobes' standard deviations (a
+/// lobe is 7 of them across). Wider ones would show as rings behind narrow lobes. \[rad\]
 const SUB_PATCH: [f64; 2] = [1.25 * PI / 180.0, 2.5 * PI / 180.0];
-/// Emergent cells under the sun are cut where a lobe has fewer than this across ...
+/// Number of emergent cells across a lobe below which cells under the sun are divided, down to [`SUN_CELL`].
 const ACROSS: f64 = 14.0;
-/// ... but not below this width. \[rad\]
+/// Minimum width of divided emergent cells under the sun. \[rad\]
 const SUN_CELL: f64 = 1.3 * PI / 180.0;
-/// Points a side of a cell at which a lobe of the sun is taken.
+/// Points per side of a cell at which a lobe of the sun is evaluated.
 const SUN_POINTS: usize = 2;
 
-/// The emergent cells that the sun's light is put on: the data's own, cut where they are wide.
+/// Returns the emergent cells for the sun's light: the data's own, divided where they are wide.
 fn sun_grid(model: &Model) -> Grid {
     let basis = model.grid().basis();
     let mean = (2.0 * PI / basis.len() as f64).sqrt();
@@ -35,7 +35,7 @@ fn sun_grid(model: &Model) -> Grid {
     if parts == 1 { model.grid().clone() } else { Grid::new(&basis.refined(parts)) }
 }
 
-/// What stays the same for one set of indicatrices whatever shines on it.
+/// Model of one set of indicatrices, independent of sky and sun.
 pub struct Interpolator {
     model: Model,
     sun_grid: Grid,
@@ -48,17 +48,17 @@ impl Interpolator {
         Self { sun_grid: sun_grid(&model), model }
     }
 
-    /// The cells that the sun's light is put on.
+    /// Returns the emergent cells for the sun's light.
     pub fn sun_grid(&self) -> &Grid {
         &self.sun_grid
     }
 
-    /// The model of the indicatrices.
+    /// Returns the model of the indicatrices.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// Sky and ground by a scheme, and what to say of it.
+    /// Computes the light of sky and ground by a scheme, with a note on the method.
     fn diffuse(&self, scheme: DiffuseScheme, facing: &Facing<'_>) -> (Estimate, CellLuminance, String) {
         let model = self.model();
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
@@ -96,7 +96,7 @@ impl Interpolator {
         (total, superpose::diffuse(model, &patches, &values), note)
     }
 
-    /// The sun by a scheme, and what to say of it.
+    /// Computes the light of the sun by a scheme, with a note on the method.
     fn sun(&self, scheme: SunScheme, direction: Dir<Facade>, illuminance: f64) -> (CellLuminance, String) {
         let model = self.model();
         let mut light = superpose::sun(model, direction, illuminance, &self.sun_grid, SUN_POINTS);
@@ -117,7 +117,7 @@ impl Interpolator {
 }
 
 impl Emission {
-    /// What the room side of a system emits, interpolated between its incident directions.
+    /// Computes what the room side of a system emits, interpolated between its incident directions.
     pub fn interpolated(
         btdf: &Btdf,
         interpolator: &Interpolator,

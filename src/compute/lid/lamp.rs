@@ -1,4 +1,4 @@
-//! A luminaire as other programs take it: a luminous area, cut into parts of at most a quarter of their distance, each of
+//! Luminaire as other programs take it: a luminous area, cut into parts of at most a quarter of their distance, each of
 //! them a point with the whole distribution; intensities between the nodes by interpolation in C and γ.
 
 use super::c_gamma::Aim;
@@ -8,29 +8,30 @@ use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// A luminous area in the room.
+/// Luminous area in the room.
 #[derive(Debug, Clone)]
 pub struct Lamp {
-    /// Where it is and how large.
+    /// Position and size of the area.
     pub tile: Tile,
-    /// The surface that it lies in.
+    /// Surface that the area lies in.
     pub surface: Surface,
-    /// How its table stands in that.
+    /// Orientation of the table in the surface.
     pub aim: Aim,
-    /// Its flux. \[lm\]
+    /// Luminous flux of the luminaire. \[lm\]
     pub flux: f64,
-    /// The distribution.
+    /// Luminous-intensity distribution.
     pub table: Arc<Intensities>,
 }
 
 impl Lamp {
-    /// Luminous intensity in a direction of propagation. \[cd\]
+    /// Returns the luminous intensity in a direction of propagation. \[cd\]
     pub fn intensity(&self, emergent: Emergent) -> f64 {
         let (c, gamma) = self.aim.angles(emergent);
         self.table.at(c, gamma)
     }
 
-    /// Illuminance at a point that faces `normal`, room frame. \[lx\] Nothing reaches points in or behind its plane.
+    /// Returns the illuminance at a point that faces `normal`, room frame. \[lx\] Nothing reaches points in or behind
+    /// its plane.
     pub fn illuminance(&self, position: DVec3, normal: DVec3) -> f64 {
         let Tile { centre, size } = self.tile;
         let to = self.surface.facade_from_room(position - centre);
@@ -56,27 +57,27 @@ impl Lamp {
     }
 }
 
-/// The luminaires that stand for an aperture.
+/// Luminaires that replace an aperture.
 #[derive(Debug, Clone)]
 pub struct Lamps {
-    /// All of them.
+    /// All luminaires of the aperture.
     pub list: Vec<Lamp>,
     /// Area of the aperture. \[m²\]
     pub area: f64,
 }
 
 impl Lamps {
-    /// Flux of all. \[lm\]
+    /// Returns the luminous flux of all luminaires. \[lm\]
     pub fn flux(&self) -> f64 {
         self.list.iter().map(|lamp| lamp.flux).sum()
     }
 
-    /// Illuminance at a point that faces `normal`, room frame. \[lx\]
+    /// Returns the illuminance at a point that faces `normal`, room frame. \[lx\]
     pub fn illuminance(&self, position: DVec3, normal: DVec3) -> f64 {
         self.list.iter().map(|lamp| lamp.illuminance(position, normal)).sum()
     }
 
-    /// Mean luminance of the aperture by through-name. \[cd/m²\]
+    /// Returns the mean luminance of the aperture by through direction. \[cd/m²\]
     pub fn luminance(&self, twin: Dir<Facade>) -> f64 {
         let cosine = twin.vector().z;
         if cosine <= 1e-9 {

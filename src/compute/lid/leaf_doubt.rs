@@ -1,5 +1,5 @@
-//! How far a tensor tree leaves open what the sun makes: within a leaf nothing is known, and beyond its border it may be
-//! another thing altogether.
+//! Uncertainty of the sun's light through a tensor tree: within a leaf nothing is known, and beyond its border the data
+//! may differ completely.
 
 use super::{Emission, Facing};
 use crate::compute::btdf::TensorTree;
@@ -7,14 +7,14 @@ use crate::compute::direction::{Dir, Incident};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// How far the sun is moved: as far as the middles of neighbouring finest incident cells lie apart. \[rad\]
+/// Returns how far the sun is moved: the distance between the middles of neighbouring finest incident cells. \[rad\]
 fn spacing(tree: &TensorTree) -> f64 {
     (PI / (tree.incident_resolution() * tree.incident_resolution()) as f64).sqrt()
 }
 
 impl Emission {
-    /// Doubts of the sun's light through a tree: half of what it changes by from a neighbour on one side to that on the
-    /// other, along both axes of the disk.
+    /// Adds the uncertainties of the sun's light through a tree: half of the larger change to the neighbour on either
+    /// side, along both axes of the façade frame.
     pub fn doubt_leaves(&mut self, tree: &TensorTree, facing: &Facing<'_>) {
         let illuminance = self.incident_sun;
         let (Some(sun), Some(light)) = (facing.sun_entering(), self.cells.first_mut()) else { return };

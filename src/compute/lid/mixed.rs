@@ -1,4 +1,4 @@
-//! Emissions times a factor, and means of several: what parts of an aperture make of it together.
+//! Emissions times a factor, and weighted sums of several, for an aperture made of different parts.
 
 use super::Emission;
 use super::emission::{BandLight, CellLight};
@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 impl Emission {
-    /// The same with all light times a factor: a frame, dirt. What falls on the outside stays.
+    /// Returns the emission with all light multiplied by `factor`, for a frame or dirt. The incident illuminances stay.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.uniform = self.uniform * factor;
         for light in &mut self.cells {
@@ -20,8 +20,8 @@ impl Emission {
         self
     }
 
-    /// Weighted sum of the scattered light of several emissions of one system, whose parts are of the same kinds; what
-    /// goes straight on, as light of the sky or as beams, is left out.
+    /// Returns the weighted sum of the scattered light of several emissions of one system, whose parts are of the same
+    /// kinds; undeviated light, of the sky or as beams, is left out.
     ///
     /// Weights may be below 0, as those of an extrapolation are; light is not.
     pub fn mixed(parts: &[(f64, &Self)]) -> Self {
@@ -70,7 +70,8 @@ impl Emission {
         sum
     }
 
-    /// Scattered light by where it goes, as fluxes per area: to compare emissions of one system.
+    /// Returns the scattered light as fluxes per area by emergent cell or band, to compare emissions of one system.
+    /// \[lm/m²\]
     pub fn fluxes(&self) -> Vec<f64> {
         let mut fluxes = vec![PI * self.uniform.value];
         for light in &self.cells {
@@ -86,7 +87,7 @@ impl Emission {
         fluxes
     }
 
-    /// Flux of what is scattered alone, per area. \[lm/m²\]
+    /// Returns the flux of the scattered light alone, per area. \[lm/m²\]
     pub fn scattered_exitance(&self) -> Estimate {
         let mut sum = self.uniform * PI;
         for light in &self.cells {

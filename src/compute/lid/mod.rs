@@ -1,4 +1,4 @@
-//! The luminous-intensity distribution of an aperture: what the room side emits, as a luminaire would.
+//! Luminous-intensity distribution of an aperture: the light that its room side emits, as a luminaire would.
 
 mod beams;
 pub mod c_gamma;
@@ -34,24 +34,24 @@ use crate::compute::system::measure::ProfileLight;
 use std::fmt;
 use std::sync::Arc;
 
-/// A luminance as a function of the through-name. \[cd/m²\]
+/// Luminance as a function of the through direction. \[cd/m²\]
 pub type LuminanceFunction = Arc<dyn Fn(Dir<Facade>) -> f64 + Send + Sync>;
 
 /// One part of the luminance of an aperture's room side. Parts add up.
 #[derive(Clone)]
 pub enum EmergentLuminance {
-    /// The same in every direction. \[cd/m²\]
+    /// Constant luminance in all directions. \[cd/m²\]
     Uniform(f64),
-    /// A value for every emergent cell, by through-name. \[cd/m²\]
+    /// Luminance per emergent cell, by through direction. \[cd/m²\]
     Cells {
-        /// The cells.
+        /// Emergent cells.
         basis: Arc<RingBasis>,
-        /// Luminance of each. \[cd/m²\]
+        /// Luminance of each cell. \[cd/m²\]
         luminance: Vec<f64>,
     },
-    /// By the profile angle of the through-name; the values are luminances. \[cd/m²\]
+    /// Luminance by the profile angle of the through direction; `q` holds luminances. \[cd/m²\]
     Bands(ProfileLight),
-    /// A continuous function: the outside seen through a system that keeps directions (eq 20).
+    /// Continuous function: the outside seen through a system that keeps directions (eq 20).
     Function(LuminanceFunction),
 }
 
@@ -67,7 +67,7 @@ impl fmt::Debug for EmergentLuminance {
 }
 
 impl EmergentLuminance {
-    /// Luminance seen against an emergent direction. \[cd/m²\]
+    /// Returns the luminance seen against an emergent direction. \[cd/m²\]
     pub fn at(&self, emergent: Emergent) -> f64 {
         let twin = emergent.through_name();
         if twin.vector().z <= 0.0 {
@@ -82,48 +82,48 @@ impl EmergentLuminance {
     }
 }
 
-/// Sunlight that went through without being scattered: a parallel beam (but for the disc's 0.53°), straight on, deflected
-/// or mirrored.
+/// Sunlight transmitted without scattering: a parallel beam (but for the disc's 0.53°), undeviated, deflected or
+/// mirrored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunBeam {
-    /// Where it goes.
+    /// Direction in which the beam leaves.
     pub direction: Emergent,
     /// Luminous flux of the whole aperture's beam. \[lm\]
     pub flux: f64,
-    /// It goes straight on: the sun itself is seen along it.
+    /// Whether the beam is undeviated: the sun itself is seen along it.
     pub straight: bool,
 }
 
-/// The luminous-intensity distribution of one aperture (eq 5): I(ω_a) = L(ω_a) · A · cosθ_a.
+/// Luminous-intensity distribution of one aperture (eq 5): I(ω_a) = L(ω_a) · A · cosθ_a.
 #[derive(Debug, Clone)]
 pub struct Lid {
-    /// Where the aperture lies; fixes how the façade frame stands in the room.
+    /// Surface that the aperture lies in; fixes the orientation of the façade frame in the room.
     pub surface: Surface,
     /// Size along x_F and along y_F. \[m\]
     pub size: [f64; 2],
-    /// The parts of the emergent luminance.
+    /// Parts of the emergent luminance.
     pub parts: Vec<EmergentLuminance>,
-    /// Unscattered sun.
+    /// Beams of unscattered sunlight.
     pub beams: Vec<SunBeam>,
 }
 
 impl Lid {
-    /// Luminance of the room side against an emergent direction, beam left out. \[cd/m²\]
+    /// Returns the luminance of the room side against an emergent direction, beams left out. \[cd/m²\]
     pub fn luminance(&self, emergent: Emergent) -> f64 {
         self.parts.iter().map(|part| part.at(emergent)).sum()
     }
 
-    /// Luminous intensity in an emergent direction, beam left out. \[cd\]
+    /// Returns the luminous intensity in an emergent direction, beams left out. \[cd\]
     pub fn intensity(&self, emergent: Emergent) -> f64 {
         self.luminance(emergent) * self.area() * (-emergent.0.vector().z).max(0.0)
     }
 
-    /// Flux of all beams. \[lm\]
+    /// Returns the flux of all beams. \[lm\]
     pub fn beam_flux(&self) -> f64 {
         self.beams.iter().map(|beam| beam.flux).sum()
     }
 
-    /// Area of the aperture. \[m²\]
+    /// Returns the area of the aperture. \[m²\]
     pub fn area(&self) -> f64 {
         self.size[0] * self.size[1]
     }

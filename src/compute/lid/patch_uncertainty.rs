@@ -1,19 +1,20 @@
-//! Uncertainty of diffuse light on patches: a luminance that changes from patch to patch changes within them, too, and a
-//! sensor sees only a part of those at the edge of an aperture.
+//! Uncertainty of diffuse light on patches: a luminance that changes from patch to patch changes within them, too, and
+//! a sensor sees only a part of those at the edge of an aperture.
 
 use super::Emission;
 use crate::compute::direction::Dir;
 use glam::DVec3;
 
-/// Deviation of half a patch from its mean, as a share of the difference between the patches on both sides; and of its middle,
-/// as a share of the difference to the mean of its neighbours. With these 65 of 66 sensor points behind foils with forward
-/// lobes of 4 to 15° half width are within the uncertainty (`tests/scenes/sky_in_cells.rs`).
+/// Deviation of half a patch from its mean, as a share of the difference between the patches on both sides. With this
+/// and [`MIDDLE`] 65 of 66 sensor points behind foils with forward lobes of 4 to 15° half width are within the
+/// uncertainty (`tests/scenes/sky_in_cells.rs`).
 const HALVES: f64 = 0.2;
+/// Deviation of a patch's middle, as a share of the difference to the mean of its neighbours.
 const MIDDLE: f64 = 0.5;
 
 impl Emission {
-    /// Adds the uncertainty of the diffuse light on the data's patches, from its change along both axes of the façade frame.
-    /// Beyond the last patches the luminance counts as constant.
+    /// Adds the uncertainty of the diffuse light on the data's patches, from its change along both axes of the façade
+    /// frame. Beyond the last patches the luminance counts as constant.
     pub fn estimate_patch_uncertainty(&mut self) {
         let Some(light) = self.cells.first_mut() else { return };
         let value = |d: DVec3| Dir::new(d).filter(|_| d.z > 0.0).and_then(|d| light.basis.index(d));

@@ -1,5 +1,4 @@
-//! [`SkyThrough`] as a linear map: what light through single patches of the outside becomes, for skies of which there are
-//! thousands.
+//! [`SkyThrough`] as a linear map from light through single patches of the outside, for thousands of skies.
 
 use super::SkyThrough;
 use super::sky_through::{BIN_ERROR, CELL_ERROR, POINTS, Scattered, Turned, band_of};
@@ -11,30 +10,31 @@ use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::{Arc, OnceLock};
 
-/// What an illuminance of 1 lx through one patch becomes.
+/// Emergent light per illuminance of 1 lx through one patch.
 #[derive(Debug, Clone, Default)]
 pub struct PatchLight {
-    /// Emergent cells of [`SkyThrough::basis`] and their luminance by straight and turned light. \[cd/m²\]
+    /// Emergent cells of [`SkyThrough::basis`] and their luminance by straight and redirected light. \[cd/m²\]
     pub cells: Vec<(usize, f64)>,
     /// Rows of [`SkyThrough::rows`], with the illuminance that each stands for. \[lx\]
     pub rows: Vec<(usize, f64)>,
 }
 
-/// Of every patch rows of incidence, with the shares of its light that they stand for.
+/// Rows of incidence of every patch, with the shares of its light that they stand for.
 type Shares = Vec<Vec<(usize, f64)>>;
 
-/// What is scattered, by rows of incidence: q per illuminance.
+/// Scattered light by rows of incidence: q per illuminance.
 #[derive(Clone, Copy)]
 pub enum ScatteredRows<'a> {
-    /// Nothing.
+    /// No scattered light.
     None,
-    /// By profile angle.
+    /// Rows by profile angle.
     Bands(&'a [ProfileLight]),
-    /// On the cells of [`SkyThrough::basis`].
+    /// Rows on the cells of [`SkyThrough::basis`].
     Cells(&'a [Vec<f64>]),
 }
 
-/// Between which rows by profile angle light of a name lies, and how near it is to the second, 0 … 1. `rows`: how many.
+/// Returns the first of the two rows by profile angle between which a direction lies, and how near it is to the second,
+/// 0 … 1. `rows`: number of rows.
 pub fn between_rows(upright: bool, name: Dir<Facade>, rows: usize) -> (usize, f64) {
     let last = rows.max(2) - 2;
     let at = (angles(upright, name).1 + FRAC_PI_2) / PI * (rows.max(2) - 1) as f64;
@@ -43,12 +43,12 @@ pub fn between_rows(upright: bool, name: Dir<Facade>, rows: usize) -> (usize, f6
 }
 
 impl SkyThrough {
-    /// The patches of the outside, and the emergent cells.
+    /// Returns the cells, which are both the patches of the outside and the emergent cells.
     pub fn basis(&self) -> &Arc<RingBasis> {
         &self.cells
     }
 
-    /// What is scattered.
+    /// Returns the scattered light by rows of incidence.
     pub fn rows(&self) -> ScatteredRows<'_> {
         match &self.scattered {
             Scattered::None => ScatteredRows::None,
@@ -57,8 +57,8 @@ impl SkyThrough {
         }
     }
 
-    /// Patch by patch, the shares of its light by row: `kind` 0 and 1 by profile angle, upright or not, 2 by the incident cells,
-    /// which are the same for all systems. On the usual cells each is found once.
+    /// Returns, patch by patch, the shares of its light by row: `kind` 0 and 1 by profile angle, upright or not, 2 by
+    /// the incident cells, which are the same for all systems. On the usual cells each is found once.
     fn rows_of_patches(&self, kind: usize, row_of: impl Fn(Dir<Facade>) -> Option<usize>) -> Arc<Shares> {
         static KEPT: [OnceLock<Arc<Shares>>; 3] = [const { OnceLock::new() }; 3];
         let find = || {
@@ -78,7 +78,8 @@ impl SkyThrough {
         if Arc::ptr_eq(&self.cells, sun_cells()) { Arc::clone(KEPT[kind].get_or_init(find)) } else { find() }
     }
 
-    /// Patch by patch. Turned light takes the mean luminance of the patch that it comes from.
+    /// Returns the emergent light of every patch. Redirected light takes the mean luminance of the patch that it comes
+    /// from.
     pub fn by_patch(&self) -> Vec<PatchLight> {
         let weights = self.cells.projected_solid_angles();
         let mut patches = vec![PatchLight::default(); self.cells.len()];
@@ -117,7 +118,7 @@ impl SkyThrough {
         patches
     }
 
-    /// Error of all light by these columns, relative, under an even outside.
+    /// Returns the relative error of all light by these columns, under a uniform outside.
     pub fn relative_error(&self) -> f64 {
         let weights = self.cells.projected_solid_angles();
         let straight: f64 = self.straight.iter().zip(&weights).map(|(share, weight)| share * weight).sum();

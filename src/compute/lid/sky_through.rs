@@ -1,10 +1,13 @@
-//! Sky and ground through a system that answers for single directions: what does not depend on the sky is found once.
+//! Sky and ground through a system that is computed for single directions: what does not depend on the sky is found
+//! once.
 //!
 //! | part | how |
 //! | --- | --- |
-//! | straight on | the flux of every patch stays in its own cell, by the mean share of the patch |
-//! | turned beams | backwards: a cell's luminance is that of the outside where its light comes from, times the share (reciprocity) |
-//! | scattered | by profile angle where it depends on that alone; else on cells, an answer an incident cell |
+//! | undeviated | the flux of every patch stays in its own cell, by the mean share of the patch |
+//! | redirected | backwards: a cell's luminance is that of the outside where its light comes from, times its share |
+//! | scattered | by profile angle where it depends on that alone; else on cells, one result per incident cell |
+//!
+//! Redirected light relies on reciprocity.
 
 use super::structure::{angles, name_of};
 use super::sun_through::sun_cells;
@@ -19,63 +22,63 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// Directions a side of a cell for its mean share.
+/// Number of directions per side of a cell for its mean share.
 pub(super) const POINTS: usize = 3;
-/// Bands of the profile angle of incidence: 1°.
+/// Number of bands of the profile angle of incidence, 1° each.
 const BANDS: usize = 181;
-/// Steps of the angle along a structure, to 90°.
+/// Number of steps of the angle along a structure, to 90°.
 const ALONG: usize = 16;
-/// Turned light is gathered in bins of this width. \[rad\]
+/// Width of the bins that gather redirected light by profile angle. \[rad\]
 const BIN: f64 = PI / 180.0;
-/// Directions as near as this may share what mirrors make of them: a twelfth of a cell. \[rad\]
+/// Angle within which directions may share what mirrors make of them: a twelfth of a cell. \[rad\]
 const ABOUT: f64 = 0.25 * PI / 180.0;
-/// Shares below this are not worth a luminance.
+/// Share below which a redirected beam is dropped.
 const FAINT: f64 = 1e-5;
-/// Names closer than this are the same. \[rad\]
+/// Distance below which two directions are the same. \[rad\]
 const SAME: f64 = 1e-9;
 /// Relative accuracy of the illuminance through every patch.
 const PATCH: f64 = 1e-4;
-/// What the width of the cells and bands costs, relative; seen against cells half as wide, in the tests below.
+/// Relative error from the width of the cells and bands; seen against cells half as wide, in the tests below.
 pub(super) const CELL_ERROR: f64 = 2e-3;
-/// The same of what mirrors turn, whose profile angles are gathered in bins, more.
+/// Additional relative error of redirected light, whose profile angles are gathered in bins; seen as [`CELL_ERROR`].
 pub(super) const BIN_ERROR: f64 = 8e-3;
 
-/// Answers of a system for diffuse light from outside.
+/// Response of a system to diffuse light from outside.
 pub struct SkyThrough {
     pub(super) cells: Arc<RingBasis>,
-    /// Mean straight share, a cell.
+    /// Mean undeviated share per cell.
     pub(super) straight: Vec<f64>,
     pub(super) turned: Turned,
     pub(super) scattered: Scattered,
 }
 
-/// Where the light of emergent directions comes from by turned beams.
+/// Sources of the redirected light in emergent directions.
 pub(super) enum Turned {
     None,
-    /// For every cell.
+    /// Sources of every emergent cell.
     ByCell(Vec<Vec<Source>>),
-    /// By profile angle of the emergent name, `BANDS` of them; sources are profile angles of the same direction cosine
-    /// along the structure.
+    /// Sources by profile angle of the through direction, `BANDS` of them: profile angle and share of each source,
+    /// which has the same direction cosine along the structure.
     ByProfile {
         upright: bool,
         sources: Vec<Vec<(f64, f64)>>,
     },
 }
 
-/// Light of a direction outside, as a share of its luminance.
+/// Direction outside that light comes from, and share of its luminance.
 pub(super) struct Source {
     pub name: Dir<Facade>,
     pub share: f64,
 }
 
-/// q of what is scattered, and the error of its share.
+/// Luminance coefficients q of scattered light, and the error of its share.
 pub(super) enum Scattered {
     None,
     ByProfile { upright: bool, rows: Vec<ProfileLight> },
     ByCells { incident: RingBasis, rows: Vec<Vec<f64>>, error: f64 },
 }
 
-/// Middle of a band. \[rad\]
+/// Returns the middle of a band. \[rad\]
 fn middle(band: usize) -> f64 {
     // The outermost bands end at ±90°, where nothing comes from.
     let psi = PI * (band as f64 / (BANDS - 1) as f64) - FRAC_PI_2;
@@ -86,13 +89,13 @@ pub(super) fn band_of(psi: f64) -> usize {
     (((psi + FRAC_PI_2) / PI * (BANDS - 1) as f64).round().max(0.0) as usize).min(BANDS - 1)
 }
 
-/// Beams of light from inside that are transmitted other than straight on.
+/// Returns the beams of light from inside that are transmitted in another direction than undeviated.
 fn turned_back(specimen: &dyn Specimen, name: Dir<Facade>) -> impl Iterator<Item = Beam> {
     let beams = specimen.beams_about(name, Side::Back, ABOUT).into_iter();
     beams.filter(move |beam| beam.transmitted && !is_straight(beam, name) && beam.share > FAINT)
 }
 
-/// Share of light from outside that goes straight on.
+/// Returns the share of light from outside that is transmitted undeviated.
 fn straight_about(specimen: &dyn Specimen, name: Dir<Facade>) -> f64 {
     let beams = specimen.beams_about(name, Side::Front, ABOUT).into_iter();
     beams.filter(|beam| beam.transmitted && is_straight(beam, name)).map(|beam| beam.share).sum()
@@ -106,16 +109,17 @@ fn centre(beam: &Beam) -> DVec3 {
     beam.names[0].vector() + beam.names[1].vector()
 }
 
-/// The straight share of systems whose structure is endless along an axis, in layers that are the same to both sides:
-/// sharp in the profile angle, even along the structure.
+/// Undeviated share of systems whose structure is endless along an axis, in layers that are the same to both sides:
+/// sharp in the profile angle, smooth along the structure.
 struct StraightLattice {
     upright: bool,
-    /// By angle along the structure and band of the profile angle.
+    /// Undeviated shares by angle along the structure and band of the profile angle.
     rows: Vec<Vec<f64>>,
 }
 
 impl StraightLattice {
-    /// `None` where it does not suit, or single directions are told by the profile angle alone, which is quick.
+    /// Creates the lattice; `None` where it does not suit, or where results depend on the profile angle alone, which is
+    /// quick.
     fn new(specimen: &dyn Specimen) -> Option<Self> {
         let Structure::Along { upright } = specimen.structure() else { return None };
         if specimen.by_profile_alone().is_some() {
@@ -147,12 +151,12 @@ impl StraightLattice {
 }
 
 impl SkyThrough {
-    /// Asks a system, in parallel; its light is put on [`sun_cells`].
+    /// Computes the response of a system, in parallel; its light is put on [`sun_cells`].
     pub fn new(specimen: &dyn Specimen) -> Self {
         Self::on(specimen, Arc::clone(sun_cells()))
     }
 
-    /// On other cells.
+    /// Computes the response of a system on given cells.
     fn on(specimen: &dyn Specimen, cells: Arc<RingBasis>) -> Self {
         // What is made once for all directions is made before many threads ask side by side, and would wait for it.
         let ahead = name_of(false, 0.0, 0.0);
@@ -172,7 +176,7 @@ impl SkyThrough {
         Self { cells, straight, turned, scattered }
     }
 
-    /// What an aperture emits under the diffuse light of an outside.
+    /// Computes the light that an aperture emits under the diffuse light of an outside.
     pub fn emission(&self, facing: &Facing<'_>) -> Emission {
         let cells = &self.cells;
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
@@ -225,7 +229,7 @@ impl SkyThrough {
     }
 }
 
-/// Lays the illuminance of every patch evenly on its directions.
+/// Distributes the illuminance of every patch uniformly over its directions.
 fn spread(cells: &RingBasis, illuminance: &[f64], mut lay: impl FnMut(Dir<Facade>, f64)) {
     for (cell, e) in cells.cells().zip(illuminance).filter(|(_, e)| **e > 0.0) {
         let each = e / (POINTS * POINTS) as f64;
@@ -233,7 +237,7 @@ fn spread(cells: &RingBasis, illuminance: &[f64], mut lay: impl FnMut(Dir<Facade
     }
 }
 
-/// Bands of emergent light from illuminance by bands of incidence.
+/// Computes bands of emergent light from illuminance by bands of incidence.
 fn through_bands(upright: bool, rows: &[ProfileLight], cells: &RingBasis, illuminance: &[f64]) -> Option<BandLight> {
     let mut incident = vec![0.0; BANDS];
     spread(cells, illuminance, |name, e| incident[band_of(angles(upright, name).1)] += e);
@@ -277,7 +281,7 @@ impl Turned {
         if sources.iter().any(|list| !list.is_empty()) { Self::ByCell(sources) } else { Self::None }
     }
 
-    /// Of every cell. \[cd/m²\]
+    /// Computes the luminance of every cell by redirected light. \[cd/m²\]
     fn luminance(&self, cells: &RingBasis, facing: &Facing<'_>) -> Vec<f64> {
         let list: Vec<_> = cells.cells().collect();
         list.par_iter()
@@ -357,7 +361,7 @@ mod tests {
         Outside::new(sky, 12_000.0).unwrap().with_ground(0.2, 40_000.0).unwrap()
     }
 
-    /// At points on the work plane, under the ceiling and beside the window.
+    /// Returns the illuminances at points on the work plane, under the ceiling and beside the window.
     fn at_sensors(emission: &Emission, facing: &Facing<'_>) -> Vec<Estimate> {
         let window = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 1.0), size: [3.0, 1.6] };
         let places = [

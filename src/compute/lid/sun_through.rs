@@ -1,4 +1,4 @@
-//! The very sun through a system that answers for single directions: its beams, and what it scatters.
+//! Direct sun through a system that is computed for single directions: its beams, and its scattered light.
 
 use super::disc_beams::{FEW, cosine, disc, sun_beams};
 use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
@@ -9,26 +9,27 @@ use crate::compute::system::measure::{ProfileLight, ScatteredLight, Side, Specim
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-/// Width of the cells that scattered sunlight is put on. \[rad\]
+/// Width of the cells for scattered sunlight. \[rad\]
 const CELL: f64 = 3.0 * PI / 180.0;
-/// What their size costs, relative, on planes across the room. Seen on matt slats against strips in closed form: 0.1 %
-/// there, up to 0.8 % where the opening is seen at grazing angles.
+/// Relative error from the size of these cells of 3°, on planes across the room. Seen on matt slats against strips in
+/// closed form: 0.1 % there, up to 0.8 % where the opening is seen at grazing angles.
 const CELL_ERROR: f64 = 3e-3;
-/// Below this cosine of incidence the disc covers a range of profile angles that scatters unevenly.
+/// Cosine of incidence below which the disc covers a range of profile angles that scatters unevenly.
 const GRAZING: f64 = 0.3;
 
-/// The cells that light of described systems is put on: the same for all systems, so that what sensors see of them is found once.
+/// Returns the cells for the light of described systems: the same for all systems, so that what sensors see of them is
+/// found once.
 pub fn sun_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
     CELLS.get_or_init(|| Arc::new(sub_patches(CELL)))
 }
 
-/// Directions of the disc that what is scattered is a mean over.
+/// Returns the directions of the disc over which scattered light is averaged.
 fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
     if sun.vector().z < GRAZING { disc(facing, sun, FEW) } else { vec![sun] }
 }
 
-/// What a system scatters of the sun where that depends on a profile angle alone.
+/// Computes the sunlight that a system scatters, where that depends on a profile angle alone.
 fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight> {
     let illuminance = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
@@ -51,7 +52,7 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
     Some(BandLight { light, illuminance })
 }
 
-/// q on [`sun_cells`] of what a system scatters of light of a name, and its error, relative.
+/// Returns q on [`sun_cells`] of the light that a system scatters from the direction `name`, and its relative error.
 pub fn scattered_of(specimen: &dyn Specimen, name: Dir<Facade>) -> (Vec<f64>, f64) {
     let light = specimen.scattered_through(name, Side::Front, sun_cells());
     let share: f64 = light.transmitted.iter().zip(sun_cells().projected_solid_angles()).map(|(q, w)| q * w).sum();
@@ -59,7 +60,7 @@ pub fn scattered_of(specimen: &dyn Specimen, name: Dir<Facade>) -> (Vec<f64>, f6
     (light.transmitted, relative + CELL_ERROR)
 }
 
-/// What a system scatters of the sun, on [`sun_cells`]; `None` where it scatters nothing.
+/// Computes the sunlight that a system scatters, on [`sun_cells`]; `None` where it scatters nothing.
 fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> {
     let incident = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
@@ -85,7 +86,7 @@ fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> 
     })
 }
 
-/// What a system makes of one very sun: worth keeping as long as the sun stays.
+/// Light of the sun in one position behind a system; can be kept as long as the sun stays there.
 pub struct SunThrough {
     illuminance: f64,
     beams: Vec<BeamLight>,
@@ -94,20 +95,20 @@ pub struct SunThrough {
 }
 
 impl SunThrough {
-    /// Asks a system.
+    /// Computes the beams and the scattered light of a system.
     pub fn new(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
         let bands = by_profile(specimen, facing);
         let cells = if bands.is_none() { scattered(specimen, facing) } else { None };
         Self { illuminance: facing.sun_illuminance(), beams: sun_beams(specimen, facing), bands, cells }
     }
 
-    /// What it makes of beams alone.
+    /// Computes the beams of a system alone, without its scattered light.
     pub fn beams_alone(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
         let beams = sun_beams(specimen, facing);
         Self { illuminance: facing.sun_illuminance(), beams, bands: None, cells: None }
     }
 
-    /// Directions of the disc that what is scattered is a mean over, with their shares of the illuminance.
+    /// Returns the directions of the disc over which scattered light is averaged, with their shares of the illuminance.
     pub fn standing_for(facing: &Facing<'_>) -> Vec<(Dir<Facade>, f64)> {
         let Some(sun) = facing.sun_direction() else { return Vec::new() };
         let names = standing_for(facing, sun);
@@ -115,24 +116,24 @@ impl SunThrough {
         names.into_iter().map(|name| (name, cosine(name) / cosines.max(f64::MIN_POSITIVE))).collect()
     }
 
-    /// What goes on as beams.
+    /// Returns the beams of the sun.
     pub fn beams(&self) -> &[BeamLight] {
         &self.beams
     }
 
-    /// What is scattered where that is a matter of a profile angle alone.
+    /// Returns the scattered light where it depends on a profile angle alone.
     pub fn bands(&self) -> Option<&BandLight> {
         self.bands.as_ref()
     }
 
-    /// What is scattered otherwise, on [`sun_cells`].
+    /// Returns the scattered light on [`sun_cells`], where it does not depend on a profile angle alone.
     pub fn cells(&self) -> Option<&CellLight> {
         self.cells.as_ref()
     }
 }
 
 impl Emission {
-    /// Adds what a system makes of the very sun. `self` is what it makes of the diffuse light alone.
+    /// Adds the sun's light through a system to `self`, which is the system's diffuse light alone.
     pub fn add_sun_through(&mut self, through: &SunThrough) {
         self.incident_sun = through.illuminance;
         self.beams.clone_from(&through.beams);

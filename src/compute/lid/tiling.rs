@@ -1,62 +1,64 @@
-//! An aperture cut into tiles, each a luminaire of its own: other programs light a room by points, and a beam that falls
-//! from one point as narrow as the sun lights a spot where the tile lights its own outline.
+//! An aperture cut into tiles, each a luminaire of its own: other programs light a room by points, and a beam that
+//! falls from one point as narrow as the sun lights a spot where the tile lights its own outline.
 //!
 //! A host cuts a luminous area into parts of at most a quarter of their distance ([`parts`]) and takes each as a point
 //! with the tile's whole distribution. A beam is therefore widened to what such a part subtends at working distance
-//! ([`Panel`](super::c_gamma::Panel)): seen from the points, what their beams light there lies side by side and adds up to
-//! the outline. Sky and scattered light are wide already and stay as they are.
+//! ([`Panel`](super::c_gamma::Panel)): seen from the points, what their beams light there lies side by side and adds up
+//! to the outline. Sky and scattered light are wide already and stay as they are.
 
 use crate::compute::direction::Surface;
 use glam::DVec3;
 
-/// A host cuts an area into parts of this fraction of their distance at most.
+/// Maximum size of the parts into which a host program cuts an area, as a fraction of their distance.
 pub const PART: f64 = 0.25;
-/// Parts along a side of an area beyond which no host goes.
+/// Maximum number of parts along a side of an area in host programs.
 const MOST_PARTS: f64 = 40.0;
-/// What is nearer to an aperture is not examined: there every host computes differently. \[m\]
+/// Distance from an aperture below which nothing is examined: there every host program computes differently. \[m\]
 pub const NEAREST: f64 = 1.0;
-/// Height of the plane that people work on. \[m\]
+/// Height of the work plane. \[m\]
 pub const WORK_PLANE: f64 = 0.85;
 
-/// Columns along x_F and rows along y_F.
+/// Division of an aperture into columns along x_F and rows along y_F.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tiling {
-    /// Along x_F.
+    /// Number of columns along x_F.
     pub columns: usize,
-    /// Along y_F.
+    /// Number of rows along y_F.
     pub rows: usize,
 }
 
-/// One tile.
+/// One tile of an aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tile {
-    /// Its centre in the room's frame. \[m\]
+    /// Centre of the tile in the room's frame. \[m\]
     pub centre: DVec3,
-    /// Along x_F and along y_F. \[m\]
+    /// Size along x_F and along y_F. \[m\]
     pub size: [f64; 2],
 }
 
 impl Tiling {
-    /// The aperture as a whole.
+    /// Whole aperture as one tile.
     pub const WHOLE: Self = Self { columns: 1, rows: 1 };
 
-    /// How many.
+    /// Returns the number of tiles.
     pub const fn count(self) -> usize {
         self.columns * self.rows
     }
 
-    /// Size of one of them, for an aperture of this size. \[m\]
+    /// Returns the size of one tile, for an aperture of this size. \[m\]
     pub fn tile(self, size: [f64; 2]) -> [f64; 2] {
         [size[0] / self.columns as f64, size[1] / self.rows as f64]
     }
 
-    /// So many that none is longer than `longest` in either direction. \[m\]
+    /// Creates the coarsest tiling of an area of this size whose tiles are no longer than `longest` in either
+    /// direction. \[m\]
     pub fn no_longer_than(size: [f64; 2], longest: f64) -> Self {
         let count = |length: f64| ((length / longest - 1e-9).ceil().max(1.0)) as usize;
         Self { columns: count(size[0]), rows: count(size[1]) }
     }
 
-    /// Row by row from the lower left, seen from outside; `corner` is the aperture's lower left in the room's frame.
+    /// Returns the tiles row by row from the lower left, seen from outside; `corner` is the aperture's lower left in
+    /// the room's frame.
     pub fn tiles(self, surface: Surface, corner: DVec3, size: [f64; 2]) -> Vec<Tile> {
         let own = self.tile(size);
         let centre = |k: usize| {
@@ -67,13 +69,14 @@ impl Tiling {
     }
 }
 
-/// Parts along each side into which a host cuts an area seen from this distance. \[m\]
+/// Returns the number of parts along each side into which a host program cuts an area seen from this distance. \[m\]
 pub fn parts(size: [f64; 2], distance: f64) -> usize {
     (size[0].max(size[1]) / (PART * distance.max(0.05))).ceil().clamp(1.0, MOST_PARTS) as usize
 }
 
-/// Where light from a point of the room ends: how far away, and across which axis the surface lies; from above that is the
-/// work plane instead of the floor. `room`: its width, depth and height. \[m\]
+/// Returns the distance \[m\] that light from a point of the room travels, and the axis across which the surface lies
+/// that it meets; from above that is the work plane instead of the floor. `room`: width, depth and height of the room.
+/// \[m\]
 pub fn landing(room: DVec3, from: DVec3, direction: DVec3) -> (f64, usize) {
     let mut nearest = (f64::INFINITY, 0);
     for axis in 0..3 {

@@ -1,28 +1,29 @@
 //! The Pareto front of figures with errors.
 //!
-//! A dominates B when it is surely better in one objective and surely worse in none. The front are those that nobody
-//! dominates. Of them those are grey that another one equals or excels in every figure as it comes out: only the errors keep
-//! them on the front.
+//! A dominates B when it is surely better in one objective and surely worse in none. The front consists of those that
+//! no other dominates. Of them those are grey that another one equals or excels in every figure by its value: only the
+//! errors keep them on the front.
 //!
-//! The relation is no order: with large errors it may run in a circle, in which everybody is dominated. Who is dominated by
-//! nobody but members of such circles, and by what these dominate, is grey too: it cannot be told who of them is behind.
+//! The relation is not an order: with large errors it may run in a circle, in which all are dominated. A candidate that
+//! is dominated only by members of such circles, or by those that these dominate, is grey too: it is undecided which of
+//! them are behind.
 
 use super::objective::Objective;
 use crate::compute::estimate::Estimate;
 
-/// Where somebody stands.
+/// Place of a candidate relative to the Pareto front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// On the front.
+    /// Candidate on the front.
     Front,
-    /// Not to be told from the front.
+    /// Candidate that cannot be distinguished from the front.
     Grey,
-    /// Dominated.
+    /// Dominated candidate.
     Behind,
 }
 
 impl Place {
-    /// The word in tables; nothing for those behind.
+    /// Returns the key of the place in tables; empty for those behind.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -32,7 +33,7 @@ impl Place {
     }
 }
 
-/// Surely better in one, surely worse in none.
+/// Whether `a` is surely better than `b` in one objective and surely worse in none.
 fn dominates(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     let mut better = false;
     for ((objective, a), b) in objectives.iter().zip(a).zip(b) {
@@ -44,7 +45,7 @@ fn dominates(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     better
 }
 
-/// As they come out: at least as good in all, better in one.
+/// Whether `a` is at least as good as `b` in all objectives and better in one, by the values without errors.
 fn excels(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     let mut better = false;
     for ((objective, a), b) in objectives.iter().zip(a).zip(b) {
@@ -56,7 +57,7 @@ fn excels(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     better
 }
 
-/// Places of all; every one has a figure for every objective, in their order.
+/// Returns the places of all candidates; each has a figure for every objective, in their order.
 pub fn front(objectives: &[Objective], all: &[&[Estimate]]) -> Vec<Place> {
     let n = all.len();
     let below: Vec<Vec<usize>> =
@@ -118,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_circle_leaves_nobody_behind_that_it_cannot_tell() {
-        // In every objective one is surely better than the next and not to be told from the third.
+        // In every objective one is surely better than the next and within the uncertainty of the third.
         let row = |a: f64, b: f64, c: f64| vec![Estimate::new(a, 0.2), Estimate::new(b, 0.2), Estimate::new(c, 0.2)];
         let circle = vec![row(0.75, 0.5, 0.25), row(0.25, 0.25, 0.5), row(0.5, 0.75, 0.75)];
         assert_eq!(places(&circle), [Place::Grey; 3]);

@@ -1,17 +1,17 @@
-//! Which of many is best, as far as figures with errors tell: utilities, ranges of ranks, the Pareto front, and why.
+//! Ranking of candidates whose figures have errors: utilities, ranges of ranks, the Pareto front, and the reasons.
 //!
-//! | file | what |
+//! | file | content |
 //! | --- | --- |
-//! | `objective` | what counts: anchors, weights, utilities |
+//! | `objective` | objectives: scale limits, weights, utilities |
 //! | `order` | ranges of ranks |
 //! | `front` | the Pareto front |
 //! | `why` | a difference in parts that add up to it |
 //! | `ranking` | all of it for a list |
 //!
-//! Utilities are linear between two anchors that are given: worst and best of what happens to be there would make ranks
-//! depend on who else is in. One is better than another only where the interval of their difference excludes 0: an interval
-//! order (Fishburn 1970), in which "cannot be told apart" is not transitive. So there are ranges of ranks, never one rank with
-//! decimals.
+//! Utilities are linear between two scale limits that are given: worst and best of the present candidates would make
+//! ranks depend on which others are ranked. One is better than another only where the interval of their difference
+//! excludes 0: an interval order (Fishburn 1970), in which "within the uncertainty" is not transitive. So there are
+//! ranges of ranks, never one rank with decimals.
 
 mod front;
 mod objective;

@@ -1,43 +1,44 @@
-//! What counts in a ranking: a figure, which way is better, between which anchors, and how much.
+//! Objectives of a ranking: a figure, its better direction, scale limits and weight.
 
 use crate::compute::estimate::Estimate;
 
-/// Which way a figure is better.
+/// Direction in which a figure is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Better {
-    /// The less the better.
+    /// Smaller values are better.
     Less,
-    /// The more the better.
+    /// Larger values are better.
     More,
 }
 
-/// One objective. Anchors are in the unit of its figure.
+/// Objective of a ranking. Scale limits are in the unit of its figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Objective {
-    /// Which way is better.
+    /// Direction in which the figure is better.
     pub better: Better,
-    /// Where the utility is 0.
+    /// Worst value of the scale, whose utility is 0.
     pub worst: f64,
-    /// Where the utility is 1; on the better side of `worst`, and not equal to it.
+    /// Best value of the scale, whose utility is 1; on the better side of `worst`, and not equal to it.
     pub best: f64,
-    /// Above 0; counts relative to the sum of all.
+    /// Weight of the objective, above 0, relative to the sum of all weights.
     pub weight: f64,
 }
 
 impl Objective {
-    /// Linear between the anchors, clipped: 0 … 1.
+    /// Returns the utility of a value: linear between the scale limits, limited to 0 … 1.
     pub fn utility(&self, value: f64) -> f64 {
         ((value - self.worst) / (self.best - self.worst)).clamp(0.0, 1.0)
     }
 
-    /// The same with an error: the larger distance of the utilities at the ends of the figure's interval.
+    /// Returns the utility of a figure with its error: the larger distance of the utilities at the ends of the figure's
+    /// interval.
     pub fn utility_of(&self, figure: Estimate) -> Estimate {
         let own = self.utility(figure.value);
         let at = |value: f64| (self.utility(value) - own).abs();
         Estimate { value: own, error: at(figure.value - figure.error).max(at(figure.value + figure.error)) }
     }
 
-    /// Is `a` the better value, however little?
+    /// Whether `a` is the better value, by however little.
     pub fn prefers(&self, a: f64, b: f64) -> bool {
         match self.better {
             Better::Less => a < b,
@@ -45,14 +46,14 @@ impl Objective {
         }
     }
 
-    /// Is `a` better than `b` whatever their errors leave open: does the interval of the difference exclude 0?
+    /// Whether `a` is better than `b` beyond their uncertainty: the interval of the difference excludes 0.
     pub fn surely_prefers(&self, a: Estimate, b: Estimate) -> bool {
         self.prefers(a.value, b.value) && (a.value - b.value).abs() > a.error + b.error
     }
 }
 
-/// The weighted mean of the utilities; errors are added as if all had the worse sign. `figures` in the order of the
-/// objectives.
+/// Computes the weighted mean of the utilities; errors are added as if all had the worse sign. `figures` are in the
+/// order of the objectives.
 pub fn utility(objectives: &[Objective], figures: &[Estimate]) -> Estimate {
     let weights: f64 = objectives.iter().map(|one| one.weight).sum();
     let mut sum = Estimate { value: 0.0, error: 0.0 };

@@ -2,21 +2,21 @@
 
 use crate::compute::estimate::Estimate;
 
-/// The ranks that one may have, both included, from 1.
+/// Range of the possible ranks of a candidate, both ends included, counted from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
-    /// 1 and those that are surely better.
+    /// Best possible rank: 1 plus the number of candidates that are surely better.
     pub first: usize,
-    /// All but those that are surely worse.
+    /// Worst possible rank: the number of candidates minus those that are surely worse.
     pub last: usize,
 }
 
-/// Lies the whole interval of `a` above that of `b`? Errors are the own ones of each, which is why they add up.
+/// Whether the whole interval of `a` lies above that of `b`. The errors are independent, which is why they add up.
 pub fn surely_above(a: Estimate, b: Estimate) -> bool {
     a.value - a.error > b.value + b.error
 }
 
-/// Ranges of ranks, the greatest value first: \[1 + number surely better, n − number surely worse\].
+/// Returns the ranges of ranks, the greatest value first: \[1 + number surely better, n − number surely worse\].
 pub fn ranges(values: &[Estimate]) -> Vec<Range> {
     let sorted = |of: fn(&Estimate) -> f64| {
         let mut list: Vec<f64> = values.iter().map(of).collect();
@@ -46,7 +46,7 @@ mod tests {
             ranges(&values).iter().map(|range| [range.first, range.last]).collect()
         };
         assert_eq!(of(&[(0.9, 0.01), (0.5, 0.01), (0.1, 0.01)]), [[1, 1], [2, 2], [3, 3]]);
-        // The middle one cannot be told from either of the others, which are told from one another.
+        // The middle one is within the uncertainty of both others, which differ surely from one another.
         assert_eq!(of(&[(0.6, 0.06), (0.5, 0.06), (0.4, 0.06)]), [[1, 2], [1, 3], [2, 3]]);
         assert_eq!(of(&[(0.5, 0.0), (0.5, 0.0)]), [[1, 2], [1, 2]]);
         assert!(of(&[]).is_empty());

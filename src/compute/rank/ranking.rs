@@ -1,4 +1,4 @@
-//! A list in order: found anew from its figures in microseconds whenever weights or anchors change.
+//! Ranking of a list, computed from its figures in microseconds whenever weights or scale limits change.
 
 use super::front::{Place, front};
 use super::objective::{Objective, utility};
@@ -6,32 +6,33 @@ use super::order::{Range, ranges};
 use super::why::{Profile, Why, difference, mean};
 use crate::compute::estimate::Estimate;
 
-/// One of the list.
+/// Ranked candidate of a list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
-    /// 0 … 1, with what the figures' errors leave open.
+    /// Utility, 0 … 1, with the uncertainty that follows from the figures' errors.
     pub utility: Estimate,
-    /// Ranks that it may have.
+    /// Range of the possible ranks.
     pub ranks: Range,
-    /// Against the front.
+    /// Place relative to the Pareto front.
     pub place: Place,
-    /// Against the one of the highest utility; the best itself against the second. `None` where there is no other.
+    /// Index of the candidate with the highest utility, and the difference from it; for the best itself the second.
+    /// `None` where there is no other.
     pub to_best: Option<(usize, Why)>,
-    /// Against the mean of all.
+    /// Difference from the mean of all.
     pub to_mean: Why,
 }
 
-/// A list, ranked.
+/// Ranking of a list of candidates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
-    /// In the order of what was given.
+    /// Candidates in the order of the input.
     pub list: Vec<Ranked>,
     /// Indices by falling utility; of equal ones the earlier first.
     pub order: Vec<usize>,
 }
 
 impl Ranking {
-    /// Of figures, and of the parts that they are sums of, each in the order of the objectives.
+    /// Ranks candidates by their figures, and by the parts that these are sums of, each in the order of the objectives.
     pub fn of(objectives: &[Objective], figures: &[&[Estimate]], parts: &[&[Vec<f64>]]) -> Self {
         let utilities: Vec<Estimate> = figures.iter().map(|own| utility(objectives, own)).collect();
         let profiles: Vec<Profile> = figures

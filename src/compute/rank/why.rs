@@ -1,42 +1,42 @@
-//! Why one is better: the difference of two in parts that add up to it, by objective and, where figures are sums over hours,
-//! by groups of hours and places.
+//! Reasons for a rank: the difference of two candidates in parts that add up to it, by objective and, where figures are
+//! sums over hours, by groups of hours and places.
 
 use super::objective::Objective;
 
-/// One of a list as far as reasons ask: by objective its utility, its figure, and the parts that the figure is the sum of.
+/// Values of a candidate from which differences are explained, one entry per objective.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// 0 … 1.
+    /// Utilities, 0 … 1, one per objective.
     pub utilities: Vec<f64>,
-    /// In the unit of the figure.
+    /// Figures, one per objective, in the unit of the figure.
     pub figures: Vec<f64>,
-    /// The figure's parts by group; empty where it is no sum.
+    /// Parts of each figure by group; empty where the figure is not a sum.
     pub parts: Vec<Vec<f64>>,
 }
 
-/// What one objective contributes to a difference.
+/// Contribution of one objective to a difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Share {
-    /// Weighted difference of the utilities; these add up to that of the whole.
+    /// Weighted difference of the utilities; those of all objectives add up to the whole difference.
     pub utility: f64,
     /// Difference of the figures.
     pub figure: f64,
-    /// Of it by group; empty where the figure is no sum.
+    /// Difference of the figures by group; empty where the figure is not a sum.
     pub parts: Vec<f64>,
-    /// What of the figure's difference is in no group: all of it where the figure is no sum.
+    /// Part of the figure's difference that is in none of the groups: all of it where the figure is not a sum.
     pub rest: f64,
 }
 
-/// A difference in utility, and what it is the sum of.
+/// Difference in utility, and the contributions that it is the sum of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Why {
-    /// Sum of the shares' utilities.
+    /// Difference in utility, the sum of those of the shares.
     pub utility: f64,
-    /// By objective.
+    /// Contributions, one per objective.
     pub shares: Vec<Share>,
 }
 
-/// The difference of `a` from `b`. Groups of a figure count where both have the same number of them.
+/// Computes the difference of `a` from `b`. Groups of a figure count where both have the same number of them.
 pub fn difference(objectives: &[Objective], a: &Profile, b: &Profile) -> Why {
     let weights: f64 = objectives.iter().map(|one| one.weight).sum();
     let share = |(k, objective): (usize, &Objective)| {
@@ -51,7 +51,8 @@ pub fn difference(objectives: &[Objective], a: &Profile, b: &Profile) -> Why {
     Why { utility: shares.iter().map(|share| share.utility).sum(), shares }
 }
 
-/// The mean of some, one at least; a figure's parts where all have as many.
+/// Computes the mean of some profiles; a figure's parts only where all have the same number of them. `None` without
+/// profiles.
 pub fn mean(all: &[&Profile]) -> Option<Profile> {
     let first = all.first()?;
     let n = all.len() as f64;
@@ -83,7 +84,7 @@ mod tests {
         ]
     }
 
-    /// A sum of six groups, and a figure that is none.
+    /// Returns a profile with a sum of six groups, and a figure that is not a sum.
     fn profile(parts: &[f64], other: f64) -> Profile {
         let figures = vec![parts.iter().sum(), other];
         let utilities = objectives().iter().zip(&figures).map(|(objective, f)| objective.utility(*f)).collect();

@@ -1,12 +1,12 @@
-//! A rectangular aperture in the façade or the roof, and how a sensor sees it.
+//! A rectangular aperture in the façade or the roof, and its view from a sensor.
 
 use crate::compute::direction::Surface;
 use glam::DVec3;
 
-/// A rectangular opening. Lies in y = 0 (façade) or z = height (roof) of the room.
+/// A rectangular opening in y = 0 (façade) or z = height (roof) of the room.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aperture {
-    /// Where it lies.
+    /// Surface that holds the aperture.
     pub surface: Surface,
     /// Lower-left corner, room frame. \[m\]
     pub corner: DVec3,
@@ -14,8 +14,8 @@ pub struct Aperture {
     pub size: [f64; 2],
 }
 
-/// The aperture as seen from a point: in gnomonic coordinates of the through-name, `x = d·tanθ cosφ`, the opening is the
-/// rectangle `x[0]…x[1]` × `y[0]…y[1]` at distance `distance` from the point, for every point. \[m\]
+/// The aperture as seen from a point. In gnomonic coordinates of the through direction, `x = d·tanθ cosφ`, the opening
+/// is the rectangle `x[0]…x[1]` × `y[0]…y[1]` at distance `distance` from the point, for every point. \[m\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// Limits along x_F, relative to the point. \[m\]
@@ -24,61 +24,61 @@ pub struct View {
     pub y: [f64; 2],
     /// Distance of the point from the aperture's plane, positive inside the room. \[m\]
     pub distance: f64,
-    /// The sensor's normal in the façade frame: cos of a through-name direction ω′ is normal·ω′.
+    /// Sensor's normal in the façade frame: the cosine of a through direction ω′ at the sensor is normal·ω′.
     pub normal: DVec3,
 }
 
-/// A sensor in an opening's plane counts as this far inside, a share of the opening's shorter side.
+/// Distance inside at which a sensor in an opening's plane counts to be, as a share of the opening's shorter side.
 const JUST_INSIDE: f64 = 1e-9;
 
 impl Aperture {
-    /// Area. \[m²\]
+    /// Returns the area of the aperture. \[m²\]
     pub fn area(&self) -> f64 {
         self.size[0] * self.size[1]
     }
 
-    /// Distance of a point from the nearest point of the opening. \[m\]
+    /// Returns the distance of a point from the nearest point of the opening. \[m\]
     pub fn distance(&self, position: DVec3) -> f64 {
         let to_corner = self.surface.facade_from_room(self.corner - position);
         let beyond = |from: f64, size: f64| from.max(-(from + size)).max(0.0);
         DVec3::new(beyond(to_corner.x, self.size[0]), beyond(to_corner.y, self.size[1]), to_corner.z).length()
     }
 
-    /// The four corners, counter-clockwise seen from outside, room frame. \[m\]
+    /// Returns the four corners, counter-clockwise seen from outside, room frame. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         let u = self.surface.room_from_facade(DVec3::X) * self.size[0];
         let v = self.surface.room_from_facade(DVec3::Y) * self.size[1];
         [self.corner, self.corner + u, self.corner + u + v, self.corner + v]
     }
 
-    /// Relative error that rounded coordinates leave in what a point sees of the opening.
+    /// Returns the relative error that rounded coordinates leave in the solid angle of the opening from a point.
     pub fn rounding(&self, position: DVec3) -> f64 {
         let largest = self.corner.abs().max(position.abs()).max_element() + self.size[0].max(self.size[1]);
         4.0 * f64::EPSILON * largest / self.size[0].min(self.size[1])
     }
 
-    /// Where a sensor in the opening itself counts to be: just inside. Any other stays where it is, and so does one that
-    /// faces straight into the room.
+    /// Returns the position that a sensor counts to have: just inside for one in the opening itself, unchanged for any
+    /// other, and unchanged for one that faces perpendicularly into the room.
     pub fn entered(&self, position: DVec3, normal: DVec3) -> DVec3 {
         let outward = self.surface.room_from_facade(DVec3::Z);
         let holds = self.holds(self.surface.facade_from_room(self.corner - position));
         if holds && normal.dot(outward) > -1.0 { position - self.just_inside() * outward } else { position }
     }
 
-    /// Does a point lie in the opening, given what leads from it to the corner?
+    /// Whether a point lies in the opening, given the vector from it to the corner in the façade frame.
     fn holds(&self, to_corner: DVec3) -> bool {
         let within = |from: f64, size: f64| from <= 0.0 && from + size >= 0.0;
         to_corner.z == 0.0 && within(to_corner.x, self.size[0]) && within(to_corner.y, self.size[1])
     }
 
-    /// \[m\]
+    /// Returns the distance inside at which a sensor in the opening counts to be. \[m\]
     fn just_inside(&self) -> f64 {
         JUST_INSIDE * self.size[0].min(self.size[1])
     }
 
-    /// How a sensor sees it; `None` when the sensor lies behind the aperture's plane, or in it and beside the opening or
-    /// facing straight into the room: no light from the aperture arrives there. A sensor in the opening itself sees what
-    /// one just inside sees.
+    /// Returns the view from a sensor. `None` when the sensor lies behind the aperture's plane, or in that plane and
+    /// either beside the opening or facing perpendicularly into the room: no light from the aperture arrives there. A
+    /// sensor in the opening itself has the view from just inside.
     pub fn view(&self, position: DVec3, normal: DVec3) -> Option<View> {
         let mut to_corner = self.surface.facade_from_room(self.corner - position);
         let normal = self.surface.facade_from_room(normal);
@@ -95,7 +95,7 @@ impl Aperture {
 }
 
 impl View {
-    /// The corners of the opening as vectors from the sensor, façade frame. \[m\]
+    /// Returns the corners of the opening as vectors from the sensor, façade frame. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         [
             DVec3::new(self.x[0], self.y[0], self.distance),

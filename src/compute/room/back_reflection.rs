@@ -1,9 +1,9 @@
-//! What an aperture throws back into the room, by direction (second term of eq 4): light from the patches, by the cells
-//! through which it falls on the aperture, times the dataset's own back reflection.
+//! Light that an aperture reflects back into the room, by direction (second term of eq 4): light from the patches, by
+//! the cells through which it falls on the aperture, times the dataset's own back reflection.
 //!
-//! The geometry is that of the first light, read backwards: what a patch of unit exitance sends into the aperture through
-//! a cell is what it would receive through that cell. Like the emission, the light on the aperture is taken as the same
-//! all over it.
+//! The geometry is that of the first light, read backwards: a patch of unit exitance sends as much into the aperture
+//! through a cell as it would receive through that cell. Like the emission, the light on the aperture is assumed to be
+//! uniform over it.
 
 use super::aperture::Aperture;
 use super::mesh::Mesh;
@@ -18,22 +18,22 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Most cells that the room side is reflected by; finer data are taken as diffuse.
+/// Maximum number of incident cells of a room side that reflects by direction; finer data are taken as diffuse.
 const MOST_CELLS: usize = 600;
 
-/// Cells for which the balance of the room is solved at once.
+/// Number of cells for which the balance of the room is solved together.
 const TOGETHER: usize = 64;
 
-/// One aperture's room side.
+/// Room side of one aperture that reflects by direction.
 pub struct BackReflection<'a> {
     matrix: &'a CellMatrix,
-    /// On the matrix's incident cells.
+    /// Weights of the patches on the matrix's incident cells.
     weights: Arc<PatchWeights>,
-    /// For every cell of emergent light the emergent cell of the matrix.
+    /// Emergent cell of the matrix for every cell of emergent light.
     source: Vec<usize>,
 }
 
-/// The cells of a back reflection, where it can be followed by direction.
+/// Returns the cells of a back reflection; `None` where it cannot be followed by direction.
 pub fn reflecting_cells(scattered: Option<&Scattered>) -> Option<&CellMatrix> {
     match scattered {
         Some(Scattered::Cells(matrix)) if matrix.incident().len() <= MOST_CELLS => Some(matrix),
@@ -42,7 +42,7 @@ pub fn reflecting_cells(scattered: Option<&Scattered>) -> Option<&CellMatrix> {
 }
 
 impl<'a> BackReflection<'a> {
-    /// `weights` of the patches on the matrix's incident cells.
+    /// Creates the back reflection from `weights` of the patches on the matrix's incident cells.
     pub fn new(matrix: &'a CellMatrix, weights: Arc<PatchWeights>) -> Self {
         // Reflected light is named by its lateral parts as it travels, so that a mirror is a diagonal; light from an
         // aperture by where it comes from: half a turn about the normal between the two.
@@ -57,30 +57,32 @@ impl<'a> BackReflection<'a> {
         Self { matrix, weights, source }
     }
 
-    /// Luminance of the room side by the cells of [`Self::weights`], from the exitance of every patch. \[cd/m²\]
+    /// Computes the luminance of the room side by the cells of [`Self::weights`], from the exitance of every patch.
+    /// \[cd/m²\]
     pub fn luminance(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
         let incident = self.weights.falling_back(mesh, aperture, exitance);
         let reflected = self.matrix.luminance(&incident);
         self.source.iter().map(|&cell| reflected[cell]).collect()
     }
 
-    /// Luminance of the cell of [`Self::weights`] per illuminance through an incident one. \[1/sr\]
+    /// Returns the luminance of a cell of [`Self::weights`] per illuminance through an incident cell. \[1/sr\]
     fn value(&self, incident: usize, cell: usize) -> f64 {
         self.matrix.value(incident, self.source[cell])
     }
 
-    /// The patches' weights.
+    /// Returns the weights of the patches.
     pub fn weights(&self) -> &PatchWeights {
         &self.weights
     }
 }
 
-/// Mirroring apertures with their numbers.
+/// Mirroring apertures with their indices.
 type Mirrors<'a> = [(usize, BackReflection<'a>)];
 
-/// What goes to and fro between apertures and room, for one light: the luminance of every mirroring aperture once it has
-/// settled; `exitance` is brought up to date. `first`: what the patches receive before they reflect, without the mirrors'
-/// light; `beam`: what of it they reflected before, as seen by the mirrors alone. [`settled`] serves many lights.
+/// Computes the interreflection between mirroring apertures and room for one light. Returns the luminance of every
+/// mirroring aperture at equilibrium; `exitance` is updated. `first`: illuminance of the patches before they reflect,
+/// without the mirrors' light; `beam`: illuminance of the patches by light whose reflection only the mirrors see here,
+/// because it was reflected before. [`settled`] serves many lights.
 pub fn settled_light(
     radiosity: &Radiosity,
     geometry: &[Aperture],
@@ -115,17 +117,17 @@ pub fn settled_light(
     luminances
 }
 
-/// The room as an aperture's side that reflects by cells sees it, whatever it reflects: rows by cell that light falls in
-/// through. Geometry and the room's own reflectances only: shared by all systems and states on the same cells.
+/// The room as seen by an aperture's side that reflects by cells, whatever its reflectance: rows by cell of incident
+/// light. Geometry and the room's own reflectances only: shared by all systems and states on the same cells.
 pub struct RoomSide {
-    /// Weights of what the patches receive before they reflect, with all reflections but those of mirrors.
+    /// Weights of the patches' illuminance before they reflect, with all reflections except those of mirrors.
     returned: Vec<Vec<f64>>,
-    /// The same patch by patch: beams light few of these.
+    /// Weights of `returned` stored patch by patch, because beams light few patches.
     by_patch: Vec<f64>,
 }
 
 impl RoomSide {
-    /// By the cells of `weights`.
+    /// Computes the room side for the cells of `weights`.
     pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
         let falling = weights.falling(&radiosity.nested.fine, aperture);
         let falling: Vec<&[f64]> = falling.iter().map(Vec::as_slice).collect();
@@ -136,7 +138,8 @@ impl RoomSide {
         Self { returned, by_patch }
     }
 
-    /// What falls in through every cell by way of the room, of what the patches receive before they reflect.
+    /// Computes the illuminance that reaches the aperture through every cell by way of the room, from the illuminance
+    /// of the patches before they reflect.
     pub fn incident(&self, first: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.returned.len()];
         let rows = self.by_patch.chunks_exact(sums.len().max(1));
@@ -144,16 +147,17 @@ impl RoomSide {
         sums
     }
 
-    /// What falls in per luminance of every cell of emergent light: a row for each cell that light falls in through.
+    /// Computes the illuminance that reaches the aperture per luminance of every cell of emergent light: a row for each
+    /// incident cell.
     pub fn by_cells(&self, emergent: &PatchWeights) -> Vec<Vec<f64>> {
         let returned: Vec<&[f64]> = self.returned.iter().map(Vec::as_slice).collect();
         returned.par_chunks(TOGETHER).flat_map_iter(|rows| emergent.gathered(rows)).collect()
     }
 }
 
-/// [`settled_light`] solved once for every light: with R what the mirrors make of light that falls in by cells, and G what
-/// of their own luminances falls in again, l = R (e + G l): the matrix (1 − R G)⁻¹ R. `again`: G, by mirror that light
-/// falls on and mirror that it comes from.
+/// [`settled_light`] solved once for every light. With R the reflection of the mirrors by cells, and G the incident
+/// light that their own luminances cause, l = R (e + G l); returns the matrix (1 − R G)⁻¹ R. `again`: G, by mirror that
+/// light falls on and mirror that it comes from.
 pub fn settled(mirrors: &Mirrors<'_>, again: &[Vec<Arc<Vec<Vec<f64>>>>]) -> Mat<f64> {
     let counts: Vec<usize> = mirrors.iter().map(|(_, mirror)| mirror.weights.basis.len()).collect();
     // Mirror and own cell of every cell of all.

@@ -1,5 +1,5 @@
-//! What a sensor receives through an aperture by bands of the profile angle: every band is a strip of the opening, and
-//! strips have closed forms.
+//! Weights of light that a sensor receives through an aperture by bands of the profile angle: every band is a strip of
+//! the opening, and strips have closed forms.
 
 use super::aperture::View;
 use crate::compute::polygon::projected_solid_angle;
@@ -13,7 +13,7 @@ pub struct BandWeights {
 }
 
 impl BandWeights {
-    /// For a view and so many bands; `upright`: by the angle to the right instead of upwards.
+    /// Computes the weights of `bands` bands for a view. `upright`: bands by the angle to the right instead of upwards.
     pub fn new(view: &View, upright: bool, bands: usize) -> Self {
         let limits = if upright { view.x } else { view.y };
         let strip = |[low, high]: [f64; 2]| {
@@ -30,12 +30,12 @@ impl BandWeights {
         Self { first, weights: weights[first..end].to_vec() }
     }
 
-    /// The bands that are seen, with their weights.
+    /// Returns the indices of the bands that are seen, with their weights.
     pub fn each(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.weights.iter().enumerate().map(|(k, weight)| (self.first + k, *weight))
     }
 
-    /// Σ weight · value over the bands.
+    /// Returns Σ weight · value over the bands.
     pub fn of(&self, values: &[f64]) -> f64 {
         self.weights.iter().zip(&values[self.first..]).map(|(w, v)| w * v).sum()
     }

@@ -8,30 +8,31 @@ use glam::{DVec2, DVec3};
 /// Light that crosses an opening in one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beam {
-    /// The convex opening: an aperture, or what of it the sun reaches. Room frame. \[m\]
+    /// Convex opening that the beam crosses: an aperture, or the sunlit part of one. Room frame. \[m\]
     pub opening: Vec<DVec3>,
-    /// Unit vector against the light, room frame.
+    /// Unit vector towards the source of the light, room frame.
     pub from: DVec3,
-    /// \[lm\]
+    /// Luminous flux of the beam. \[lm\]
     pub flux: f64,
 }
 
-/// What of a beam lies on one wall: a convex piece of it.
+/// Convex piece of a wall that a beam lights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lit {
     /// Index of the wall.
     pub wall: usize,
-    /// In the wall's own coordinates, in order. \[m\]
+    /// Corners in the wall's own coordinates, in order. \[m\]
     pub corners: Vec<DVec2>,
-    /// By the beam alone. \[lx\]
+    /// Illuminance of the piece by the beam alone. \[lx\]
     pub illuminance: f64,
 }
 
-/// Beams of more directions than this through all apertures together are merged before the room reflects them.
+/// Maximum number of beams through all apertures together that the room reflects one by one; more are merged.
 pub const MOST_BEAMS: usize = 24;
 
 impl Beam {
-    /// Where it lands, scaled to its flux. The disc's penumbra is left out: its mean over a patch is nil but at the edges.
+    /// Returns the pieces of the walls that the beam lights, scaled to its flux. The disc's penumbra is neglected: its
+    /// mean over a patch is zero except at the edges.
     pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         let mut lit = Vec::with_capacity(3);
         let mut landed = 0.0;
@@ -58,7 +59,8 @@ impl Beam {
         lit
     }
 
-    /// What of it is reflected at once, exactly. The exitances of outlines that lie in each other add up.
+    /// Returns outlines of the light that the walls reflect at once, exactly. The exitances of outlines that lie in
+    /// each other add up.
     pub fn outlines(&self, mesh: &Mesh) -> Vec<Outline> {
         let mut outlines = Vec::with_capacity(4);
         for Lit { wall: number, corners, illuminance } in self.lit(mesh) {
@@ -79,7 +81,7 @@ impl Beam {
         outlines
     }
 
-    /// Adds the mean illuminance of every patch. \[lx\]
+    /// Adds the mean illuminance that the beam gives every patch. \[lx\]
     pub fn add_to(&self, mesh: &Mesh, illuminance: &mut [f64]) {
         let (mut strip, mut part, mut spare) = (Vec::new(), Vec::new(), Vec::new());
         for lit in self.lit(mesh) {
@@ -103,8 +105,8 @@ impl Beam {
     }
 }
 
-/// Fewer beams of the same flux in about the same directions: those of a mirror's fan, whose patches nearly cover each
-/// other. Each aperture keeps several.
+/// Merges beams of about the same direction into fewer of the same total flux, such as those of a mirror's fan, whose
+/// patches nearly cover each other. Each aperture keeps several.
 pub fn merged(beams: &[Beam]) -> Vec<Beam> {
     if beams.len() <= MOST_BEAMS {
         return beams.to_vec();
@@ -131,7 +133,7 @@ pub fn merged(beams: &[Beam]) -> Vec<Beam> {
     }
 }
 
-/// The apertures in a wall: their limits in its coordinates, and what they reflect.
+/// Returns the apertures in a wall: their limits in its coordinates, and their reflectances.
 fn set_in(mesh: &Mesh, wall: &Wall) -> Vec<([[f64; 2]; 2], f64)> {
     let mut found: Vec<(usize, [[f64; 2]; 2], f64)> = Vec::new();
     for patch in &mesh.patches[wall.patches()] {
@@ -148,13 +150,13 @@ fn set_in(mesh: &Mesh, wall: &Wall) -> Vec<([[f64; 2]; 2], f64)> {
     found.into_iter().map(|(_, extent, reflectance)| (extent, reflectance)).collect()
 }
 
-/// From and to along one axis.
+/// Returns the lower and upper limit of a polygon along one axis.
 fn limits(corners: &[DVec2], side: usize) -> [f64; 2] {
     let along = corners.iter().map(|p| p[side]);
     [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)]
 }
 
-/// What of a convex polygon lies between two limits of one coordinate. `spare` is room to work in.
+/// Clips a convex polygon to the range between two limits of one coordinate. `spare` is a buffer.
 fn within(polygon: &[DVec2], axis: usize, [low, high]: [f64; 2], kept: &mut Vec<DVec2>, spare: &mut Vec<DVec2>) {
     kept.clear();
     kept.extend_from_slice(polygon);
@@ -162,7 +164,7 @@ fn within(polygon: &[DVec2], axis: usize, [low, high]: [f64; 2], kept: &mut Vec<
     cut_by_all(kept, borders, spare);
 }
 
-/// A convex polygon inside a rectangle.
+/// Returns the part of a convex polygon inside a rectangle.
 fn overlap(polygon: &[DVec2], extent: [[f64; 2]; 2]) -> Vec<DVec2> {
     let limits = extent.into_iter().enumerate().flat_map(|(axis, [low, high])| [(axis, low, 1.0), (axis, high, -1.0)]);
     let mut kept = polygon.to_vec();
@@ -239,7 +241,7 @@ mod tests {
         let facade = Aperture { surface: Surface::Facade, corner: DVec3::new(0.0, 0.0, 0.5), size: [4.0, 2.0] };
         let roof = Aperture { surface: Surface::Roof, corner: DVec3::new(0.5, 0.2, 3.0), size: [3.0, 3.0] };
         let mesh = Nested::with_about(&room, &[facade, roof], &[0.1, 0.4], 600).unwrap().fine;
-        // Thrown up by a mirror: onto the ceiling and the light in it.
+        // Reflected up by a mirror: onto the ceiling and the light in it.
         let beam =
             Beam { opening: facade.corners().to_vec(), from: DVec3::new(0.1, -0.7, -0.8).normalize(), flux: 50.0 };
         let mut illuminance = vec![0.0; mesh.patches.len()];

@@ -1,4 +1,5 @@
-//! The sun's beams through an aperture that boxes shade in part: with sharp edges, and the penumbra of what goes straight.
+//! The sun's beams through an aperture that boxes shade in part: with sharp edges, and the penumbra of undeviated
+//! light.
 
 use super::aperture::Aperture;
 use super::direct::{DirectLight, Sensor};
@@ -12,7 +13,7 @@ use crate::compute::surroundings::shading::lit_pieces;
 use crate::compute::surroundings::solid::Face;
 use glam::DVec3;
 
-/// The outer side of an aperture among boxes, in the world's frame.
+/// Returns the outer side of an aperture among boxes, in the world's frame.
 pub fn outer_face(aperture: &Aperture, orientation: Orientation) -> Face {
     let axis = |v: DVec3| orientation.to_world(aperture.surface.room_from_facade(v));
     Face {
@@ -24,8 +25,8 @@ pub fn outer_face(aperture: &Aperture, orientation: Orientation) -> Face {
     }
 }
 
-/// What of an aperture the middle of the sun's disc reaches, as convex pieces with their corners in the room frame; and
-/// their share of its area.
+/// Returns the part of an aperture that the middle of the sun's disc reaches, as convex pieces with their corners in
+/// the room frame; and its share of the aperture's area.
 pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (Vec<Vec<DVec3>>, f64) {
     let Some(sun) = facing.sun else { return (Vec::new(), 0.0) };
     let face = outer_face(aperture, facing.orientation);
@@ -35,8 +36,8 @@ pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (
     (pieces.iter().map(|piece| piece.iter().map(corner).collect()).collect(), share)
 }
 
-/// The same for points of the disc's rim, two across and two along: by how much the edges of shadows may be off where it
-/// is not known how a system turns the disc.
+/// Returns the parts of an aperture that four points of the sun's rim reach, two across and two along. They bound the
+/// position of shadow edges where it is not known how a system rotates the disc.
 pub fn lit_by_rim(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> Vec<Vec<Vec<DVec3>>> {
     let Some(sun) = facing.sun else { return Vec::new() };
     let middle = sun.direction.vector();
@@ -48,9 +49,10 @@ pub fn lit_by_rim(aperture: &Aperture, facing: &Facing<'_>, around: &Surrounding
     [u, -u, v, -v].map(by).into()
 }
 
-/// What a sensor gets from the sun's beams through an aperture. A straight beam is the part of the disc that the sensor
-/// sees past the boxes; a turned one comes from the pieces that the middle of the disc reaches, `lit`, and its error says
-/// what those that its `rim` reaches would change: the penumbra of the boxes is in neither.
+/// Computes the illuminance at a sensor from the sun's beams through an aperture. An undeviated beam is the part of the
+/// disc that the sensor sees past the boxes. A redirected one comes from `lit`, the pieces that the middle of the disc
+/// reaches, and its error is the change by the pieces of `rim`, those that points of the disc's rim reach; it has no
+/// penumbra of the boxes.
 pub fn beams_past(
     sensor: &Sensor,
     aperture: &Aperture,

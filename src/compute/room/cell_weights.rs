@@ -1,7 +1,7 @@
 //! Exact near field of an aperture whose luminance is constant on the cells of a ring basis (eq 17 in solid-angle
 //! form): for every cell, the integral of the sensor's cosine over the part of the cell that the aperture fills.
 //!
-//! The aperture, clipped by the sensor's plane, is a convex polygon in the gnomonic plane of the through-name. In
+//! The aperture, clipped by the sensor's plane, is a convex polygon in the gnomonic plane of the through direction. In
 //! polar coordinates about the aperture's normal every cell border is a circle or a ray, every polygon edge a great
 //! circle, so that between the azimuths where borders cross all integrals have closed forms: no sampling, no
 //! singularity at grazing sensors.
@@ -23,7 +23,7 @@ pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize
         return;
     }
     if is_tiny(&corners) {
-        // Borders of cells across it are not told apart.
+        // Too small for borders of cells across it to matter.
         let centre = Dir::new(corners.iter().sum());
         if let Some(cell) = centre.and_then(|centre| basis.index(centre)) {
             visit(cell, projected_solid_angle(&corners, view.normal));
@@ -49,7 +49,7 @@ struct Polygon {
     range: [f64; 2],
     /// Relative azimuths of the vertices.
     azimuths: Vec<f64>,
-    /// Nearest and farthest distance from the pole.
+    /// Minimum and maximum distance from the pole.
     radii: [f64; 2],
 }
 
@@ -102,7 +102,7 @@ impl Polygon {
         Some(Self { edges, distance, reference, range, azimuths, radii })
     }
 
-    /// The interval of distances from the pole along a relative azimuth, with the edges that bound it.
+    /// Returns the interval of distances from the pole along a relative azimuth, with the edges that bound it.
     fn along(&self, azimuth: f64) -> Option<[(f64, Option<usize>); 2]> {
         let (sin, cos) = (azimuth + self.reference).sin_cos();
         let ray = DVec2::new(cos, sin);
@@ -193,7 +193,7 @@ impl Polygon {
         }
     }
 
-    /// Azimuths at which the polygon's edges cross a circle about the pole.
+    /// Adds the azimuths at which the polygon's edges cross a circle about the pole.
     fn crossings(&self, radius: f64, breaks: &mut Vec<f64>) {
         for &(normal, c) in &self.edges {
             if c.abs() < radius {
@@ -206,7 +206,7 @@ impl Polygon {
         }
     }
 
-    /// ∫ ω dω from the pole to a bound, between two azimuths given by (sin, cos), `turn` apart.
+    /// Returns ∫ ω dω from the pole to a bound, between two azimuths given by (sin, cos), `turn` apart.
     fn fan(&self, bound: &Bound, ends: [(f64, f64); 2], turn: f64) -> DVec3 {
         let [(sin_a, cos_a), (sin_b, cos_b)] = ends;
         match *bound {
@@ -228,7 +228,7 @@ impl Polygon {
     }
 }
 
-/// ∫ ω dω per azimuth from the pole to a circle about it: outwards and along the axis.
+/// ∫ ω dω per azimuth from the pole to a circle about it: radial and axial component.
 #[derive(Clone, Copy)]
 struct Rim {
     radial: f64,
@@ -249,7 +249,7 @@ enum Bound {
     Edge(Option<usize>),
 }
 
-/// Azimuth counted from a reference, −π … π.
+/// Returns an azimuth counted from a reference, −π … π.
 fn relative(azimuth: f64, reference: f64) -> f64 {
     let turned = wrap_two_pi(azimuth - reference);
     if turned > PI { turned - 2.0 * PI } else { turned }

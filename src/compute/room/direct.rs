@@ -1,5 +1,5 @@
-//! Direct component: what arrives at a sensor straight from an aperture (eq 17), each part of the emission by its own
-//! exact or error-controlled way.
+//! Direct component: light that arrives at a sensor from an aperture without reflection in the room (eq 17), each part
+//! of the emission by its own exact or error-controlled method.
 
 use super::aperture::{Aperture, View};
 use super::band_weights::BandWeights;
@@ -18,23 +18,23 @@ use glam::DVec3;
 /// A point that receives light from in front of its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
-    /// Room frame. \[m\]
+    /// Position in the room frame. \[m\]
     pub position: DVec3,
-    /// Unit vector.
+    /// Unit normal in the room frame.
     pub normal: DVec3,
 }
 
-/// What a sensor receives from one aperture per luminance, from geometry alone.
+/// Projected solid angles of one aperture as seen from a sensor: illuminance per luminance, from geometry alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reception {
     /// Projected solid angle of the whole opening. \[sr\]
     pub uniform: f64,
-    /// The same by emergent cell; empty where no cells are asked for. \[sr\]
+    /// Projected solid angle of the opening by emergent cell; empty without a basis. \[sr\]
     pub cells: Vec<f64>,
 }
 
 impl Reception {
-    /// For a sensor and an aperture whose light lies on the cells of `basis`.
+    /// Computes the solid angles for a sensor and an aperture whose light lies on the cells of `basis`.
     pub fn new(sensor: &Sensor, aperture: &Aperture, basis: Option<&RingBasis>) -> Self {
         let mut cells = vec![0.0; basis.map_or(0, RingBasis::len)];
         let mut uniform = 0.0;
@@ -48,14 +48,14 @@ impl Reception {
     }
 }
 
-/// What a sensor receives straight from one aperture.
+/// Direct component at a sensor from one aperture.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DirectLight {
-    /// All of it; the error is that of the computation. \[lx\]
+    /// Illuminance from all light of the aperture, with the error of the computation. \[lx\]
     pub all: Estimate,
-    /// The part of it that comes as beams of the sun. \[lx\]
+    /// Part of the illuminance that comes as beams of the sun. \[lx\]
     pub beam: f64,
-    /// How far all may be off for what the data do not tell apart. \[lx\]
+    /// Uncertainty of the illuminance that stems from the data. \[lx\]
     pub data_error: f64,
 }
 
@@ -67,11 +67,11 @@ impl std::ops::AddAssign for DirectLight {
     }
 }
 
-/// What the width of the bands costs, relative; seen on matt slats against exact integrals along them.
+/// Relative error due to the width of the bands; found for matt slats against exact integrals along them.
 const BAND_ERROR: f64 = 1e-3;
 
-/// Illuminance at a sensor from one aperture, sun included. `receptions`: one for every part on cells, the first of them
-/// for what is uniform, too; `weights`: for the part in bands.
+/// Computes the illuminance at a sensor from one aperture, sun included. `receptions`: one for every part of the
+/// emission on cells, the first of them for uniform light, too; `weights`: for the parts in bands.
 pub fn illuminance(
     sensor: &Sensor,
     aperture: &Aperture,
@@ -113,14 +113,14 @@ pub fn illuminance(
     DirectLight { all, beam: beams.beam, data_error: data_error + beams.data_error }
 }
 
-/// What a sensor gets from the outside that it sees straight through an opening.
+/// Computes the illuminance at a sensor from the outside seen through an opening by regular transmission.
 pub fn seen_through(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> DirectLight {
     let data_error =
         if tau.is_estimated() { tau.uncertainty_of_light(&through::by_degrees(view, facing)) } else { 0.0 };
     DirectLight { all: through::illuminance(view, facing, tau, tolerance), beam: 0.0, data_error }
 }
 
-/// What a sensor gets from the sun's beams through an aperture, with the sun's penumbra.
+/// Computes the illuminance at a sensor from the sun's beams through an aperture, with the sun's penumbra.
 pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> DirectLight {
     let Some(view) = aperture.view(sensor.position, sensor.normal).filter(|_| !beams.is_empty()) else {
         return DirectLight::default();
@@ -150,9 +150,10 @@ pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], 
     DirectLight { all: sum, beam: sum.value, data_error }
 }
 
-/// Is a beam seen as a whole disc through the opening, or none of it? `None` where an edge may cut it.
+/// Whether a beam is seen as a whole disc through the opening, or not at all; `None` where an edge may cut it.
 fn clearly_seen(view: &View, to: DVec3) -> Option<bool> {
-    // On the opening's plane the disc's ellipse reaches no farther than this from its middle, a little more than exactly.
+    // On the opening's plane the disc's ellipse reaches no farther than this from its middle, a little more than
+    // exactly.
     const REACH: f64 = 1.05 * SUN_HALF_ANGLE;
     let facing = view.normal.dot(to);
     if to.z <= 2.0 * REACH || facing.abs() <= REACH {

@@ -14,7 +14,8 @@ pub struct Exchange {
 }
 
 impl Exchange {
-    /// Between the patches of `receivers` and those of `emitters`, two meshes of the same box.
+    /// Computes the exchange areas between the patches of `receivers` and those of `emitters`, two meshes of the same
+    /// box.
     pub fn new(receivers: &Mesh, emitters: &Mesh) -> Self {
         let columns = emitters.patches.len();
         let mut exchange = Self { columns, values: vec![0.0; receivers.patches.len() * columns] };
@@ -30,22 +31,23 @@ impl Exchange {
         exchange
     }
 
-    /// Of one receiving patch, by emitting patch. \[m²\]
+    /// Returns the exchange areas of one receiving patch, by emitting patch. \[m²\]
     pub fn row(&self, receiver: usize) -> &[f64] {
         &self.values[receiver * self.columns..(receiver + 1) * self.columns]
     }
 
-    /// Rows of receiving, columns of emitting patches.
+    /// Returns the matrix with rows of receiving and columns of emitting patches. \[m²\]
     pub fn matrix(&self) -> MatRef<'_, f64> {
         MatRef::from_row_major_slice(&self.values, self.rows(), self.columns)
     }
 
-    /// Number of receiving patches.
+    /// Returns the number of receiving patches.
     pub fn rows(&self) -> usize {
         self.values.len() / self.columns.max(1)
     }
 
-    /// Sums over groups: `row_of[i]` and `column_of[j]` say into which row and column of the result each goes.
+    /// Sums exchange areas over groups of patches; `row_of[i]` and `column_of[j]` are row and column of the result that
+    /// each is added to.
     pub fn gathered(&self, row_of: Option<&[usize]>, rows: usize, column_of: &[usize], columns: usize) -> Self {
         let mut values = vec![0.0; rows * columns];
         for i in 0..self.rows() {
@@ -138,7 +140,7 @@ impl Exchange {
 /// Distinct distances between the lines of two lists.
 struct Differences {
     values: Vec<f64>,
-    /// Index of each pair's distance.
+    /// Index in `values` of each pair's distance.
     index: Vec<usize>,
     width: usize,
 }

@@ -1,4 +1,4 @@
-//! What every surface of the room receives directly from an aperture: the right-hand side of the interreflection.
+//! Light that every surface of the room receives directly from an aperture: the right-hand side of the interreflection.
 
 use super::aperture::{Aperture, View};
 use super::beam::{Beam, Lit, merged};
@@ -19,41 +19,42 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Of the light that is shifted between patches as if it left in all directions alike, what may be misplaced.
+/// Share that may be misplaced of light that is shifted between patches as if it left in all directions alike.
 const MISPLACED: f64 = 0.25;
 
-/// Direct illuminance of the fine patches, means. \[lx\]
+/// Mean direct illuminance of the fine patches. \[lx\]
 pub struct FirstLight {
-    /// Sky, ground and scattered light.
+    /// Illuminance of every patch by sky, ground and scattered light. \[lx\]
     pub diffuse: Vec<f64>,
-    /// The sun's beams. What they light shines from exact outlines: [`BeamLanding`].
+    /// Beams of the sun. Their first reflection is computed from exact outlines: [`BeamLanding`].
     pub beams: Vec<Beam>,
-    /// Largest relative gap between the flux that left and the flux that was found, before it was closed.
+    /// Largest relative gap between the flux that left the apertures and the flux that the patches received, before
+    /// closure.
     pub gap: f64,
-    /// Share of the light that may lie on other patches, for being taken as even over parts of an aperture.
+    /// Share of the light that may lie on other patches, because it is taken as uniform over parts of an aperture.
     pub misplaced: f64,
 }
 
-/// What the beams do in the room.
+/// Light of the beams on the room's surfaces, and its first reflection.
 pub struct BeamLanding {
-    /// What they light, and reflects at once.
+    /// Outlines of the lit pieces with the exitance that they reflect at once.
     pub outlines: Vec<Outline>,
-    /// Mean illuminance of every patch from these outlines: where the balance of the patches takes the beams up. \[lx\]
+    /// Mean illuminance of every patch from these outlines, the input of the balance of the patches for beams. \[lx\]
     pub thrown: Vec<f64>,
-    /// Mean illuminance of every patch by the beams themselves, for what looks at patches. \[lx\]
+    /// Mean illuminance of every patch by the beams themselves, for views of the patches. \[lx\]
     pub direct: Vec<f64>,
-    /// Share of their flux that was closed.
+    /// Share of the outlines' flux that the closure added or removed.
     pub gap: f64,
 }
 
 impl BeamLanding {
-    /// What a point gets from the first reflection. \[lx\]
+    /// Returns the illuminance at a point from the first reflection of the beams. \[lx\]
     pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
         self.outlines.iter().map(|outline| outline.light_at(mesh, position, normal)).sum()
     }
 }
 
-/// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection. \[lx\]
+/// Computes the mean illuminance of every fine patch from an aperture of uniform exitance 1, without reflection. \[lx\]
 pub fn from_even(radiosity: &Radiosity, index: usize, aperture: &Aperture) -> Vec<f64> {
     let mesh = &radiosity.nested.fine;
     if mesh.patches.iter().any(|patch| patch.aperture == Some(index)) {
@@ -64,7 +65,7 @@ pub fn from_even(radiosity: &Radiosity, index: usize, aperture: &Aperture) -> Ve
 }
 
 impl FirstLight {
-    /// None.
+    /// Creates the first light of a dark room.
     pub fn dark(patches: usize) -> Self {
         Self { diffuse: vec![0.0; patches], beams: Vec::new(), gap: 0.0, misplaced: 0.0 }
     }
@@ -102,7 +103,7 @@ impl FirstLight {
         self.add_seen(mesh, aperture, Estimate::exact(lamps.flux()), at);
     }
 
-    /// Adds light that lies on cells or bands. `weights`: what the patches receive by the cells of a basis.
+    /// Adds light that lies on cells or bands. `weights`: weights of the patches by the cells of a basis.
     pub fn add_cells(&mut self, emission: &Emission, weights: &dyn Fn(&Arc<RingBasis>) -> Arc<PatchWeights>) {
         for light in &emission.cells {
             let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
@@ -129,7 +130,8 @@ impl FirstLight {
         }
     }
 
-    /// What the beams light, as sharp as the room reflects it: those of a wide fan together.
+    /// Returns the pieces of walls that the beams light, as sharp as the room reflects them: beams of a wide fan are
+    /// merged.
     pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         merged(&self.beams).iter().flat_map(|beam| beam.lit(mesh)).collect()
     }
@@ -151,13 +153,13 @@ impl FirstLight {
         }
     }
 
-    /// Adds scattered light that is even over a convex piece of a wall with an aperture in it. \[lm/m²\]
+    /// Adds scattered light that is uniform over convex pieces of a wall with an aperture in it. \[lm/m²\]
     pub fn add_outlines(&mut self, mesh: &Mesh, outlines: &[Outline]) {
         self.add_diffuse(thrown_on_patches(mesh, outlines));
     }
 
-    /// Adds light on cells that is known as even over few parts of an aperture (`coarse`, all else left out) and leaves it
-    /// as `fine` says: what a patch gets is shifted as if light left in all directions alike.
+    /// Adds light on cells that is known as uniform over few parts of an aperture (`coarse`, which leaves all other
+    /// parts out) but leaves it as in `fine`. The light of a patch is shifted as if it left in all directions alike.
     pub fn add_shifted(&mut self, mesh: &Mesh, mut on_cells: Self, coarse: &[Outline], fine: &[Outline]) {
         let before = std::mem::take(&mut on_cells.diffuse);
         let (few, many) = (thrown_on_patches(mesh, coarse).0, thrown_on_patches(mesh, fine).0);
@@ -175,8 +177,8 @@ impl FirstLight {
         self.add_diffuse((shifted, on_cells.gap));
     }
 
-    /// Adds the outside seen straight through an aperture by light at points of the patches, scaled to the flux that
-    /// enters as far as that is known. \[lm\]
+    /// Adds the outside seen through an aperture from light at points of the patches, scaled to the flux that enters as
+    /// far as that is known. \[lm\]
     pub fn add_seen(&mut self, mesh: &Mesh, aperture: &Aperture, flux: Estimate, at: impl Fn(&Sensor) -> f64 + Sync) {
         let first = seen_on_patches(mesh, aperture, &rules(3), at);
         let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
@@ -184,7 +186,7 @@ impl FirstLight {
         self.add_diffuse(scaled_to(mesh, entered, first));
     }
 
-    /// Where the beams land; `None` without any.
+    /// Returns the light of the beams on the room's surfaces; `None` without any beam.
     pub fn landing(&self, mesh: &Mesh) -> Option<BeamLanding> {
         if self.beams.is_empty() {
             return None;
@@ -193,7 +195,8 @@ impl FirstLight {
         let few = merged(&self.beams);
         let mut direct = vec![0.0; mesh.patches.len()];
         few.iter().for_each(|beam| beam.add_to(mesh, &mut direct));
-        // Points see every outline as it is; the patches, from which light is reflected on, see those of a fan together.
+        // Points see every outline as it is; the patches, from which light is reflected on, see those of a fan
+        // together.
         let (thrown, gap) = if few.len() < self.beams.len() {
             thrown_on_patches(mesh, &few.iter().flat_map(|beam| beam.outlines(mesh)).collect::<Vec<_>>())
         } else {
@@ -210,8 +213,8 @@ impl FirstLight {
     }
 }
 
-/// Mean illuminance of every patch from the outside seen straight through the opening, scaled to the flux that enters;
-/// and by how much that scaling was, relative.
+/// Computes the mean illuminance of every patch from the outside seen through the opening by regular transmission,
+/// scaled to the flux that enters; and the relative change by that scaling.
 fn outside_seen(
     mesh: &Mesh,
     aperture: &Aperture,
@@ -219,7 +222,7 @@ fn outside_seen(
     facing: &Facing<'_>,
     tau: &AngularTransmittance,
 ) -> (Vec<f64>, f64) {
-    // What goes straight on, without the beam and what scatters.
+    // The regular transmission alone, without beams and scattered light.
     let mut straight = emission.clone();
     (straight.beams, straight.cells, straight.bands) = (Vec::new(), Vec::new(), Vec::new());
     straight.uniform = Estimate::default();
@@ -232,7 +235,7 @@ fn outside_seen(
     scaled_to(mesh, flux, first)
 }
 
-/// Means over every patch of the light at its points.
+/// Returns means over every patch of the light at its points.
 fn seen_on_patches(
     mesh: &Mesh,
     aperture: &Aperture,
@@ -250,7 +253,7 @@ fn seen_on_patches(
         .collect()
 }
 
-/// Scaled to the flux that enters \[lm\], and by how much that was, relative.
+/// Scales the illuminance of the patches to the flux that enters \[lm\]; returns it with the relative change.
 fn scaled_to(mesh: &Mesh, flux: f64, mut first: Vec<f64>) -> (Vec<f64>, f64) {
     let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
     if received <= 0.0 {
@@ -261,14 +264,15 @@ fn scaled_to(mesh: &Mesh, flux: f64, mut first: Vec<f64>) -> (Vec<f64>, f64) {
     (first, (scale - 1.0).abs())
 }
 
-/// Area of a plane convex polygon in space. \[m²\]
+/// Returns the area of a plane convex polygon in space. \[m²\]
 fn area_of(corners: &[DVec3]) -> f64 {
     let Some((&apex, rest)) = corners.split_first() else { return 0.0 };
     0.5 * rest.windows(2).map(|pair| (pair[0] - apex).cross(pair[1] - apex)).sum::<DVec3>().length()
 }
 
-/// Illuminance at a point that has all of the opening in front of it: ground in closed form where nothing depends on
-/// the angle, the sky by a Gauss rule in the two angles of profile, in which the opening's near field is smooth.
+/// Computes the illuminance at a point that has all of the opening in front of it: ground in closed form where nothing
+/// depends on the angle, the sky by a Gauss rule in the two profile angles, in which the opening's near field is
+/// smooth.
 fn seen_from(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, rules: &[Vec<(f64, f64)>]) -> f64 {
     let uniform = tau.constant();
     let mut sum = 0.0;

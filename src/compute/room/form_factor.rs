@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-/// Corner function of parallel rectangles, offsets x and y, distance z > 0.
+/// Returns the corner function of parallel rectangles for offsets x and y and distance z > 0.
 pub fn parallel_corner(x: f64, y: f64, z: f64) -> f64 {
     let (a, b) = ((x * x + z * z).sqrt(), (y * y + z * z).sqrt());
     let sum = x * x + y * y;
@@ -18,8 +18,8 @@ pub fn parallel_corner(x: f64, y: f64, z: f64) -> f64 {
         / (2.0 * PI)
 }
 
-/// Corner function of perpendicular rectangles: offset u along the common edge's direction, distances x and y from
-/// that edge.
+/// Returns the corner function of perpendicular rectangles: offset u along the common edge's direction, distances x and
+/// y from that edge.
 pub fn perpendicular_corner(u: f64, x: f64, y: f64) -> f64 {
     let c2 = x * x + y * y;
     let s = u * u + c2;

@@ -1,4 +1,4 @@
-//! What a point receives from each patch of the room: configuration factors from shared corner values.
+//! Light that a point receives from each patch of the room: configuration factors from shared corner values.
 //!
 //! The vector ∫ω dω over a rectangle is a second difference of one corner function of its plane, so every line crossing
 //! of a wall is evaluated once. Patches cut by the point's own plane are clipped.
@@ -9,7 +9,7 @@ use crate::compute::polygon::{clip, projected_solid_angle, vector_solid_angle};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Weights w with E = Σ w_j B_j at a point from all patches of exitance B_j, whatever they reflect.
+/// Returns weights w with E = Σ w_j B_j at a point from all patches of exitance B_j, whatever they reflect.
 pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.patches.len()];
     for wall in &mesh.walls {
@@ -25,19 +25,19 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
     weights
 }
 
-/// [`configuration_factors`] for an exitance that varies within the patches: near the point each patch is taken with the
-/// slopes that its neighbours give it, its mean kept.
+/// [`configuration_factors`] for an exitance that varies within the patches. Patches near the point have the slopes
+/// that their neighbours give, with their mean kept.
 ///
 /// A patch close to the point covers much of what the point sees, and a constant there errs in first order of its size.
 #[derive(Debug, Clone)]
 pub struct Reconstruction {
     /// Weights w with E = Σ w_j B_j.
     pub weights: Vec<f64>,
-    /// What the slopes have in the weights: what they give tells how much the patches near the point matter.
+    /// Part of the weights that is due to the slopes: its sum shows how much the patches near the point matter.
     pub slopes: Vec<f64>,
 }
 
-/// At a point.
+/// Computes the weights and slopes at a point.
 pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstruction {
     let mut weights = configuration_factors(mesh, position, normal);
     let mut slopes = vec![0.0; weights.len()];
@@ -89,10 +89,10 @@ pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstructio
     Reconstruction { weights, slopes }
 }
 
-/// Size of a patch over its distance from which its slopes count.
+/// Ratio of a patch's size to its distance above which its slopes count.
 const NEAR: f64 = 0.5;
 
-/// ∫ (x − x̄) dF over a patch along both its sides, by parts of the patch. \[m\]
+/// Returns ∫ (x − x̄) dF over a patch along both its sides, by parts of the patch. \[m\]
 fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: usize) -> [f64; 2] {
     let line = |side: usize, k: usize| {
         let [from, to] = patch.extent[side];
@@ -111,13 +111,13 @@ fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: us
     sums
 }
 
-/// Most parts along each side of a near patch.
+/// Maximum number of parts along each side of a near patch.
 const MOST_PARTS: usize = 12;
 
 /// A point and its normal in a wall's own coordinates.
 struct Plane {
     position: DVec3,
-    /// The normal in the frame of the room.
+    /// Normal in the room frame.
     room_normal: DVec3,
     origin: [f64; 2],
     distance: f64,
@@ -135,8 +135,8 @@ impl Plane {
         }
     }
 
-    /// Returns a line of the wall at a coordinate along one of its axes. A plane parallel to the lines cuts cells as one more
-    /// line does: lines behind it are moved to it.
+    /// Returns a line of the wall at a coordinate along one of its axes. A plane parallel to the lines cuts cells as
+    /// one more line does: lines behind it are moved to it.
     fn line(&self, axis: usize, at: f64) -> Line {
         let behind = self.is_parallel(axis) && self.normal[axis] * (at - self.origin[axis]) < 0.0;
         let from = if behind { 0.0 } else { at - self.origin[axis] };
@@ -149,8 +149,8 @@ impl Plane {
         self.normal.z == 0.0 && self.normal[1 - axis] == 0.0
     }
 
-    /// n·∫ω dω over the quadrant of the wall that ends in the corner of two lines, but for parts that cancel in second
-    /// differences.
+    /// Returns n·∫ω dω over the quadrant of the wall that ends in the corner of two lines, except for parts that cancel
+    /// in second differences.
     fn corner(a: &Line, b: &Line) -> f64 {
         // Of a plane at right angles to the wall one of the two may have no share.
         let edge =
@@ -158,7 +158,7 @@ impl Plane {
         0.5 * (edge(a, b) + edge(b, a))
     }
 
-    /// Calls `take` with the configuration factor of every cell between lines on the wall, and the cell's two numbers.
+    /// Calls `take` with the two indices of every cell between lines on the wall and its configuration factor.
     fn cells(&self, wall: &Wall, at: [&[f64]; 2], mut take: impl FnMut(usize, usize, f64)) {
         let lines = [0, 1].map(|axis| at[axis].iter().map(|&at| self.line(axis, at)).collect::<Vec<Line>>());
         let is_cut_by_lines = self.is_parallel(0) || self.is_parallel(1);
@@ -203,21 +203,22 @@ impl Plane {
 
 /// A line of a wall.
 struct Line {
-    /// Its distance from the point's foot along the wall. \[m\]
+    /// Signed distance of the line from the point's foot along the wall. \[m\]
     from: f64,
-    /// One over its distance from the point. \[1/m\]
+    /// Reciprocal of the line's distance from the point. \[1/m\]
     inverse: f64,
-    /// What the angle along it counts for.
+    /// Weight of the angle along the line in the corner function.
     weight: f64,
 }
 
-/// The same from one polygon on a wall, given by its corners in the wall's own two coordinates.
+/// Returns the configuration factor at a point of one polygon on a wall, given by its corners in the wall's own two
+/// coordinates.
 pub fn polygon_factor(wall: &Wall, polygon: &[DVec2], position: DVec3, normal: DVec3) -> f64 {
     let corners: Vec<DVec3> = polygon.iter().map(|p| wall.point(p.x, p.y)).collect();
     corners_factor(wall, &corners, position, normal)
 }
 
-/// The same by the corners in the room.
+/// Returns the configuration factor at a point of one polygon on a wall, given by its corners in the room.
 pub fn corners_factor(wall: &Wall, corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
     if wall.normal.dot(position - wall.point(0.0, 0.0)) <= 0.0 {
         return 0.0;

@@ -1,4 +1,5 @@
-//! Light that differs from place to place of an aperture, on a grid of points with parabolas between each three of them.
+//! Light that differs from place to place of an aperture, on a grid of points with parabolas between each three of
+//! them.
 
 use super::aperture::{Aperture, View};
 use super::through;
@@ -8,44 +9,45 @@ use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Lines along each side: an odd number.
+/// Number of lines along each side: odd.
 const LINES: usize = 13;
-/// Distance of the outermost lines from the borders, relative to the side: a point on the border may lie in a box that touches it.
+/// Distance of the outermost lines from the borders, relative to the side: a point on the border may lie in a box that
+/// touches it.
 const INSET: f64 = 5e-4;
-/// Gauss points between three lines: exact for a parabola times a polynomial of degree five.
+/// Number of Gauss points between three lines: exact for a parabola times a polynomial of degree five.
 const RULE: usize = 4;
-/// Directions in which a sensor looks at an aperture for where its light comes from.
+/// Number of directions in which a sensor samples the places on an aperture that its light comes from.
 const DIRECTIONS: u32 = 4096;
-/// Points of an aperture that are asked whether the sun reaches them.
+/// Number of points of an aperture that are tested for direct sun.
 const POINTS: u32 = 4096;
 
-/// Points of an aperture, close together along its borders, where light changes fast beside what stands there.
+/// Points of an aperture, close together along its borders, where light changes fast beside an obstruction.
 #[derive(Debug, Clone)]
 pub struct Grid {
     aperture: Aperture,
-    /// Shares of a side.
+    /// Positions of the lines as shares of a side.
     lines: Vec<f64>,
 }
 
-/// Points of a grid with their weights.
+/// Indices of a grid's points with their weights.
 pub type Weights = Vec<(u16, f32)>;
 
 /// Cells of light that a sensor sees, with the points where it leaves the aperture. \[sr\]
 pub type CellWeights = Vec<(usize, Weights)>;
 
 impl Grid {
-    /// Of an aperture: Chebyshev's points along each side.
+    /// Creates the grid of an aperture with Chebyshev's points along each side.
     pub fn of(aperture: &Aperture) -> Self {
         let line = |k: usize| 0.5 - (0.5 - INSET) * (PI * k as f64 / (LINES - 1) as f64).cos();
         Self { aperture: *aperture, lines: (0..LINES).map(line).collect() }
     }
 
-    /// Returns the share of the aperture that each point stands for.
+    /// Returns the share of the aperture that each point represents.
     pub fn parts(&self) -> Vec<f64> {
         self.integrals(|_| 1.0, |_| 1.0)
     }
 
-    /// Integrals of the interpolation weights of all points times a function of each side.
+    /// Returns integrals of the interpolation weights of all points times a function of each side.
     pub fn integrals(&self, of_x: impl Fn(f64) -> f64, of_y: impl Fn(f64) -> f64) -> Vec<f64> {
         let side = |of: &dyn Fn(f64) -> f64| {
             let mut sums = vec![0.0; self.lines.len()];
@@ -81,7 +83,7 @@ impl Grid {
         self.shares().into_iter().map(|[x, y]| self.aperture.corner + x * u + y * v).collect()
     }
 
-    /// The three lines around a place on a side with their weights.
+    /// Returns the three lines around a place on a side with their weights.
     fn along(&self, at: f64) -> [(usize, f64); 3] {
         let first = (self.lines.partition_point(|line| *line <= at).clamp(1, self.lines.len() - 2) - 1) / 2 * 2;
         let [a, b, c] = [0, 1, 2].map(|k| self.lines[first + k]);
@@ -92,15 +94,16 @@ impl Grid {
         ]
     }
 
-    /// Points around a place, shares of the sides, with their weights.
+    /// Returns the points around a place, given as shares of the sides, with their weights.
     fn around(&self, place: [f64; 2]) -> impl Iterator<Item = (usize, f64)> + use<> {
         let ([along, across], count) = (place.map(|at| self.along(at)), self.lines.len());
         across.into_iter().flat_map(move |(k, b)| along.map(|(i, a)| (k * count + i, a * b)))
     }
 
-    /// Returns for every cell of the light that a sensor sees the points where it leaves the aperture, with weights that sum to
-    /// the cell's projected solid angle. `cells`: these; `cell`: number of the cell that holds a direction of the façade frame;
-    /// `middle`: direction in the middle of a cell. \[sr\]
+    /// Returns, for every cell of the light that a sensor sees, the points where the light leaves the aperture, with
+    /// weights that sum to the cell's projected solid angle. \[sr\] `cells`: indices and projected solid angles of
+    /// these cells; `cell`: returns the index of the cell that holds a direction of the façade frame; `middle`: returns
+    /// the direction in the middle of a cell.
     pub fn by_cell(
         &self,
         view: &View,
@@ -133,7 +136,7 @@ impl Grid {
         cells.filter(|(_, counts)| *counts != 0.0).map(one).collect()
     }
 
-    /// The point nearest to a place, shares of the sides.
+    /// Returns the point nearest to a place, given as shares of the sides.
     fn near(&self, place: [f64; 2]) -> usize {
         let [i, k] = place.map(|at| {
             let after = self.lines.partition_point(|line| *line <= at).clamp(1, self.lines.len() - 1);
@@ -142,7 +145,8 @@ impl Grid {
         k * self.lines.len() + i
     }
 
-    /// Returns the shares of what is nearest to each point that convex pieces of the aperture cover, given in the room frame.
+    /// Returns, for every point, the sunlit share of the places nearest to it. `pieces`: convex sunlit pieces of the
+    /// aperture, room frame.
     pub fn lit(&self, pieces: &[Vec<DVec3>]) -> Vec<f64> {
         let flat = |corner: &DVec3| {
             let to = self.aperture.surface.facade_from_room(*corner - self.aperture.corner);

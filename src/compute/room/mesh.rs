@@ -24,49 +24,49 @@ pub struct BoxRoom {
 /// One side of the box with its grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
-    /// 0, 1, 2: the wall lies in x, y or z = `position`.
+    /// Axis across the wall, 0, 1 or 2: the wall lies in x, y or z = `position`.
     pub axis: usize,
-    /// \[m\]
+    /// Coordinate of the wall along `axis`. \[m\]
     pub position: f64,
-    /// Points into the room.
+    /// Unit normal that points into the room.
     pub normal: DVec3,
-    /// The two axes along the wall, rising.
+    /// The two axes along the wall, in rising order.
     pub along: [usize; 2],
-    /// Grid lines along both. \[m\]
+    /// Grid lines along the two axes of the wall. \[m\]
     pub lines: [Vec<f64>; 2],
-    /// Index of the wall's first patch.
+    /// Index of the wall's first patch among all patches.
     pub first: usize,
 }
 
-/// One patch.
+/// A rectangular patch of a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// Index of its wall.
+    /// Index of the patch's wall.
     pub wall: usize,
-    /// From and to along the wall's two axes. \[m\]
+    /// Lower and upper limit along each of the wall's two axes. \[m\]
     pub extent: [[f64; 2]; 2],
-    /// \[m²\]
+    /// Area of the patch. \[m²\]
     pub area: f64,
     /// Diffuse reflectance.
     pub reflectance: f64,
-    /// The aperture that it is part of.
+    /// Index of the aperture that the patch is part of; `None` on bare wall.
     pub aperture: Option<usize>,
 }
 
-/// All patches: floor, ceiling, x = 0, x = width, façade, back wall.
+/// Patches of all six sides: floor, ceiling, x = 0, x = width, façade, back wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     /// The six sides.
     pub walls: Vec<Wall>,
-    /// Wall by wall, first axis slowest.
+    /// Patches wall by wall, first axis slowest.
     pub patches: Vec<Patch>,
 }
 
-/// Most patches of a room. Exchange areas are kept between them and the patches of twice their size: 0.1 GB at this
-/// limit.
+/// Maximum number of patches of a room. Exchange areas are kept between them and the patches of twice their size: 0.1
+/// GB at this limit.
 pub const MOST_PATCHES: usize = limits::PATCHES;
 
-/// The borders of the apertures cut the walls into more patches than can be balanced.
+/// Error of apertures whose borders cut the walls into more patches than can be balanced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the borders of {apertures} apertures cut the room into {patches} patches (allowed: {MOST_PATCHES}); line the \
@@ -75,12 +75,12 @@ pub const MOST_PATCHES: usize = limits::PATCHES;
 pub struct TooManyPatches {
     /// Number of apertures.
     pub apertures: usize,
-    /// Patches that their borders alone make.
+    /// Number of patches that the borders of the apertures alone make.
     pub patches: usize,
 }
 
 impl Wall {
-    /// A point of the wall from its two coordinates.
+    /// Returns the point of the wall with the given two coordinates.
     pub fn point(&self, a: f64, b: f64) -> DVec3 {
         let mut point = DVec3::ZERO;
         point[self.axis] = self.position;
@@ -89,37 +89,38 @@ impl Wall {
         point
     }
 
-    /// The indices of its patches.
+    /// Returns the range of indices of the wall's patches.
     pub fn patches(&self) -> std::ops::Range<usize> {
         self.first..self.first + (self.lines[0].len() - 1) * (self.lines[1].len() - 1)
     }
 }
 
 impl Patch {
-    /// The corners in order round the patch.
+    /// Returns the corners in order round the patch.
     pub fn corners(&self, wall: &Wall) -> [DVec3; 4] {
         let [a, b] = self.extent;
         [wall.point(a[0], b[0]), wall.point(a[1], b[0]), wall.point(a[1], b[1]), wall.point(a[0], b[1])]
     }
 }
 
-/// The same room in three densities; each patch of one lies in one patch of the next.
+/// Meshes of one room in three densities; each patch of one lies in one patch of the next coarser.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nested {
     /// Patches that emit and receive; cells of the next density are made of up to 2 × 2 of these.
     pub fine: Mesh,
     /// Patches between which light is balanced.
     pub coarse: Mesh,
-    /// As coarse to `coarse` as that is to `fine`; tells the error.
+    /// Patches of twice the size of those of `coarse`, from which the error of the balance is estimated.
     pub coarser: Mesh,
-    /// For every fine patch the coarse one that holds it.
+    /// Index of the coarse patch that holds each fine patch.
     pub coarse_of_fine: Vec<usize>,
-    /// For every coarse patch the coarser one that holds it.
+    /// Index of the coarser patch that holds each coarse patch.
     pub coarser_of_coarse: Vec<usize>,
 }
 
 impl Nested {
-    /// About `count` fine patches; `aperture_reflectance` of the room side of each aperture.
+    /// Creates meshes with about `count` fine patches. `aperture_reflectance`: reflectance of the room side of each
+    /// aperture.
     ///
     /// The borders of apertures are lines on all walls that share the axis, up to 2.5 `count` patches. Where that would
     /// leave too few lines along the other axes (many strips), only the surface that holds an aperture keeps them.
@@ -150,26 +151,27 @@ impl Nested {
     }
 }
 
-/// Has an aperture no patches of its own? Exchange areas are differences of numbers of the order of the room's own size
-/// squared, so that an opening below a hundred-millionth of that would be lost in their rounding. Its light is thrown from
-/// its outline, and what it reflects is not told from the wall about it.
+/// Whether an aperture is too small for patches. Exchange areas are differences of numbers of the order of the room's
+/// own size squared, so that an opening below a hundred-millionth of that would be lost in their rounding. The light of
+/// such an aperture is computed from its outline, and its reflectance is that of the wall around it.
 pub fn too_small(room: &BoxRoom, aperture: &Aperture) -> bool {
     let length = room.size.max_element();
     aperture.area() < 1e-8 * length * length || aperture.size[0].min(aperture.size[1]) < 1e-7 * length
 }
 
-/// How much wider than wanted the steps may be for the sake of lines that run round the room.
+/// Maximum step, relative to the wanted one, up to which the apertures' borders run as lines round the whole room.
 const COARSENED: f64 = 1.5;
 
-/// The six sides in the order that [`Mesh`] states: axis across, and whether at its far end.
+/// The six sides in the order that [`Mesh`] states: axis across the side, and whether the side lies at the axis's far
+/// end.
 const SIDES: [(usize, bool); 6] = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
 
-/// The two axes along a side, rising: opposite walls then have theirs in the same order, as exchange areas need.
+/// Returns the two axes along a side in rising order, the same for opposite walls, as exchange areas need.
 const fn along(axis: usize) -> [usize; 2] {
     [if axis == 0 { 1 } else { 0 }, if axis == 2 { 1 } else { 2 }]
 }
 
-/// Apertures are set into the ceiling (roof lights) and into the façade only.
+/// Returns the surface of a side that can hold apertures: ceiling (roof lights) and façade only.
 fn surface_of(side: usize) -> Option<Surface> {
     match side {
         1 => Some(Surface::Roof),
@@ -179,7 +181,8 @@ fn surface_of(side: usize) -> Option<Surface> {
 }
 
 impl Mesh {
-    /// Patches between given rising lines along both axes of every side, which hold the apertures' borders.
+    /// Creates patches between given rising lines along both axes of every side; the lines must hold the apertures'
+    /// borders.
     pub fn from_lines(
         room: &BoxRoom,
         apertures: &[Aperture],
@@ -231,7 +234,7 @@ impl Mesh {
         mesh
     }
 
-    /// For every patch of a finer mesh with the same lines and more, the patch that holds it.
+    /// Returns, for every patch of a finer mesh that has all lines of this one, the index of the patch that holds it.
     fn holders(&self, finer: &Self) -> Vec<usize> {
         let mut holders = Vec::with_capacity(finer.patches.len());
         for (wall, fine) in self.walls.iter().zip(&finer.walls) {
@@ -243,12 +246,12 @@ impl Mesh {
     }
 }
 
-/// For every interval of `fine` the interval of `coarse` that holds its middle.
+/// Returns, for every interval of `fine`, the index of the interval of `coarse` that holds its middle.
 fn holding_intervals(coarse: &[f64], fine: &[f64]) -> Vec<usize> {
     fine.windows(2).map(|pair| coarse.partition_point(|line| *line <= 0.5 * (pair[0] + pair[1])) - 1).collect()
 }
 
-/// Which sides the borders of an aperture are lines of.
+/// Rule that says on which sides the borders of an aperture are grid lines.
 #[derive(Clone, Copy, PartialEq)]
 enum Cuts {
     Everywhere,
@@ -256,18 +259,18 @@ enum Cuts {
     None,
 }
 
-/// The pieces between forced lines along both axes of every side.
+/// Pieces between forced lines along both axes of every side.
 struct Segments {
     sides: [[Axis; 2]; 6],
 }
 
-/// One axis: forced lines, and how the step widens away from an end that holds apertures.
+/// One axis of a side: forced lines, and the widening of the step away from an end that holds apertures.
 struct Axis {
     cuts: Vec<f64>,
     length: f64,
-    /// Distance from the end with apertures over which the step stays small; `None`: even steps. \[m\]
+    /// Distance from the end with apertures over which the step stays small; `None`: uniform steps. \[m\]
     near: Option<f64>,
-    /// The apertures lie at the far end.
+    /// Whether the apertures lie at the far end.
     reversed: bool,
 }
 
@@ -304,13 +307,13 @@ impl Segments {
         Self { sides: std::array::from_fn(|side| along(SIDES[side].0).map(|a| axis(side, a))) }
     }
 
-    /// Number of fine patches at a step.
+    /// Returns the number of fine patches at a step.
     fn patches(&self, step: f64) -> usize {
         let on = |axis: &Axis| axis.parts(step).iter().sum::<usize>();
         self.sides.iter().map(|[a, b]| on(a) * on(b)).sum()
     }
 
-    /// The step, from `wanted` on, that makes at most so many patches, or as few as the cuts alone.
+    /// Returns the smallest step from `wanted` that makes at most `allowed` patches, or as few as the cuts alone.
     fn step(&self, wanted: f64, allowed: usize) -> f64 {
         let allowed = allowed.max(self.patches(f64::INFINITY));
         let mut step = wanted;
@@ -320,14 +323,14 @@ impl Segments {
         step
     }
 
-    /// Lines of the three densities, coarsest first.
+    /// Returns the lines of the three densities, coarsest first.
     fn lines(&self, step: f64) -> [[[Vec<f64>; 2]; 6]; 3] {
         [4, 2, 1].map(|every| self.sides.each_ref().map(|side| side.each_ref().map(|axis| axis.lines(step, every))))
     }
 }
 
 impl Axis {
-    /// Position in units of the local step's widening, and back.
+    /// Returns a position in units of the local step's widening; [`Self::unstretched`] is the inverse.
     fn stretched(&self, x: f64) -> f64 {
         match self.near {
             None => x,
@@ -350,7 +353,7 @@ impl Axis {
         }
     }
 
-    /// Fine parts of every segment: multiples of four, but two or one where the segment is shorter than that.
+    /// Returns the number of fine parts of every segment: a multiple of four, or two or one for a short segment.
     fn parts(&self, step: f64) -> Vec<usize> {
         self.cuts
             .windows(2)
@@ -368,7 +371,7 @@ impl Axis {
             .collect()
     }
 
-    /// Every so many of the fine lines of each segment.
+    /// Returns every `every`-th of the fine lines of each segment.
     fn lines(&self, step: f64, every: usize) -> Vec<f64> {
         let mut lines = vec![0.0];
         for (pair, parts) in self.cuts.windows(2).zip(self.parts(step)) {
@@ -384,8 +387,8 @@ impl Axis {
     }
 }
 
-/// 0, the apertures' borders, and the length. Borders closer than rounding to each other or to the ends are the same
-/// line.
+/// Returns 0, the apertures' borders and the length, in rising order. Borders closer than rounding to each other or to
+/// the ends are merged.
 fn forced_lines(length: f64, mut cuts: Vec<f64>) -> Vec<f64> {
     let slack = 1e-9 * length;
     cuts.retain(|c| *c > slack && *c < length - slack);

@@ -8,18 +8,18 @@ use crate::compute::direction::Dir;
 use crate::compute::quadrature::gauss_legendre;
 use glam::{DVec2, DVec3};
 
-/// Directions in which a patch of the room looks at an aperture for where its light comes from.
+/// Number of directions in which a patch of the room samples the places on an aperture that its light comes from.
 const DIRECTIONS: u32 = 256;
 
 /// Nodes of an aperture and the polynomials that are 1 at one of them and 0 at the others.
 #[derive(Debug, Clone)]
 pub struct Nodes {
     aperture: Aperture,
-    /// Along both sides: Gauss's points and weights, relative to the side.
+    /// Gauss's points and weights along both sides, relative to the side.
     sides: [Vec<(f64, f64)>; 2],
 }
 
-/// Values at a place of the polynomials of one side.
+/// Returns the values at a place of the polynomials of one side.
 fn values(side: &[(f64, f64)], at: f64) -> impl Iterator<Item = f64> + '_ {
     (0..side.len()).map(move |k| {
         let others = side.iter().enumerate().filter(|(other, _)| *other != k);
@@ -28,7 +28,7 @@ fn values(side: &[(f64, f64)], at: f64) -> impl Iterator<Item = f64> + '_ {
 }
 
 impl Nodes {
-    /// `long` nodes along the longer side of an aperture and `short` ones along the other.
+    /// Creates `long` nodes along the longer side of an aperture and `short` ones along the other.
     pub fn new(aperture: &Aperture, long: usize, short: usize) -> Self {
         let tall = aperture.size[1] > aperture.size[0];
         let counts = if tall { [short, long] } else { [long, short] };
@@ -48,8 +48,8 @@ impl Nodes {
         }
     }
 
-    /// Adds what a point sees of each polynomial as luminance of the aperture, by the cell of the direction: cell by cell,
-    /// node by node, projected solid angles by a sum over directions. \[sr\]
+    /// Adds the projected solid angle of each polynomial as luminance of the aperture, seen from a point: by cell of
+    /// the direction, then by node, as a sum over directions. \[sr\]
     pub fn add_seen(&self, view: &View, basis: &RingBasis, sums: &mut [f64]) {
         let count = self.count();
         through::spread(view, DIRECTIONS, |towards, counts, place| {
@@ -59,8 +59,8 @@ impl Nodes {
         });
     }
 
-    /// Returns weights of a grid's points on the same aperture in the luminance of each node, by least squares between the light
-    /// of the grid and the polynomials.
+    /// Returns weights of a grid's points on the same aperture in the luminance of each node, by least squares between
+    /// the light of the grid and the polynomials.
     pub fn of_grid(&self, grid: &Grid) -> Vec<Vec<f64>> {
         let value = |side: usize, k: usize| move |at: f64| values(&self.sides[side], at).nth(k).unwrap_or_default();
         let of = |(node, part): (usize, f64)| {
@@ -70,13 +70,13 @@ impl Nodes {
         self.parts().into_iter().enumerate().map(of).collect()
     }
 
-    /// Returns the share of the aperture that each node stands for.
+    /// Returns the share of the aperture that each node represents.
     pub fn parts(&self) -> Vec<f64> {
         self.sides[1].iter().flat_map(|(_, b)| self.sides[0].iter().map(move |(_, a)| a * b)).collect()
     }
 
-    /// Returns the luminances of the nodes for light of luminance 1 on convex pieces of the aperture, in the room frame, and
-    /// darkness beside them, by least squares.
+    /// Returns the luminances of the nodes for light of luminance 1 on convex pieces of the aperture, in the room
+    /// frame, and darkness beside them, by least squares.
     pub fn lit(&self, pieces: &[Vec<DVec3>]) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         // Exact for the polynomials' degrees together and one more.

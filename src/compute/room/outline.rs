@@ -1,8 +1,8 @@
-//! Sharp patches of sun on the walls: each shines as the polygon that it is, on points and on the patches of the room.
+//! Sharp patches of sun on the walls: each emits as the polygon that it is, to points and to the patches of the room.
 //!
 //! A polygon that covers half a patch is not a patch of half the brightness: where the opening is small or the patches
-//! are long, that would move light by half a patch. The exchange of an outline and a patch is the mean of a closed form,
-//! that of the larger one of both seen from points of the smaller.
+//! are long, that would move light by half a patch. The exchange of an outline and a patch is the mean of a closed
+//! form, that of the larger one of both seen from points of the smaller.
 
 use super::aperture::Aperture;
 use super::direct::Sensor;
@@ -19,14 +19,14 @@ use std::f64::consts::PI;
 pub struct Outline {
     /// Index of the wall.
     pub wall: usize,
-    /// In the wall's own coordinates, in order. \[m\]
+    /// Corners in the wall's own coordinates, in order. \[m\]
     pub corners: Vec<DVec2>,
-    /// What it reflects, less than 0 where another outline around it counts too much. \[lm/m²\]
+    /// Luminous exitance of the outline, below 0 where another outline around it counts too much. \[lm/m²\]
     pub exitance: f64,
 }
 
 impl Outline {
-    /// A whole aperture.
+    /// Creates the outline of a whole aperture.
     pub fn of_aperture(mesh: &Mesh, aperture: &Aperture, exitance: f64) -> Self {
         let inward = -aperture.surface.room_from_facade(DVec3::Z);
         // One of the six sides looks into the room from the aperture's plane.
@@ -36,12 +36,12 @@ impl Outline {
         Self { wall, corners: corners.to_vec(), exitance }
     }
 
-    /// What a point receives from it. \[lx\]
+    /// Returns the illuminance at a point from the outline. \[lx\]
     pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
         self.exitance * polygon_factor(&mesh.walls[self.wall], &self.corners, position, normal)
     }
 
-    /// Adds what each of many sensors receives from it. \[lx\]
+    /// Adds the illuminance from the outline at each of many sensors. \[lx\]
     pub fn add_light(&self, mesh: &Mesh, sensors: &[Sensor], sums: &mut [f64]) {
         let wall = &mesh.walls[self.wall];
         let corners: Vec<DVec3> = self.corners.iter().map(|p| wall.point(p.x, p.y)).collect();
@@ -51,10 +51,10 @@ impl Outline {
     }
 }
 
-/// Most points along each side of what is sampled.
+/// Maximum number of sampling points along each side of a piece.
 const MOST_POINTS: usize = 6;
 
-/// Points along each side of a piece of some size at some distance from what it sees.
+/// Returns the number of sampling points along each side of a piece of `size` at `distance` from the receiver.
 fn points(size: f64, distance: f64) -> usize {
     // The slack keeps decisions the same for a room in another unit.
     match size / distance.max(1e-12 * size) - 1e-9 {
@@ -66,8 +66,8 @@ fn points(size: f64, distance: f64) -> usize {
     }
 }
 
-/// Mean illuminance of every patch from all outlines, each scaled to the flux that it reflects; and the share of the
-/// flux that the scaling added or took.
+/// Computes the mean illuminance of every patch from all outlines, each scaled to the flux that it reflects; and the
+/// share of the flux that the scaling added or removed.
 pub fn thrown_on_patches(mesh: &Mesh, outlines: &[Outline]) -> (Vec<f64>, f64) {
     let rules: Vec<_> = (0..=MOST_POINTS).map(gauss_legendre).collect();
     let mut sums = vec![0.0; mesh.patches.len()];
@@ -99,11 +99,11 @@ pub fn thrown_on_patches(mesh: &Mesh, outlines: &[Outline]) -> (Vec<f64>, f64) {
 struct Shining {
     corners: Vec<DVec3>,
     normal: DVec3,
-    /// The smallest box around it.
+    /// Corners of the smallest box around the outline.
     limits: [DVec3; 2],
     size: f64,
     area: f64,
-    /// By number of points a side: points with their shares of the area.
+    /// Points with their shares of the area, by number of points a side.
     samples: Vec<Vec<(DVec3, f64)>>,
 }
 
@@ -118,7 +118,7 @@ impl Shining {
         Self { corners, normal: wall.normal, limits: [low, high], size: (high - low).length(), area, samples }
     }
 
-    /// The mean over a patch on another wall of the configuration factor.
+    /// Returns the mean of the configuration factor over a patch on another wall.
     fn on(&self, wall: &Wall, patch: &Patch, rules: &[Vec<(f64, f64)>]) -> f64 {
         let corners = patch.corners(wall);
         let [low, high] = [corners[0], corners[2]];
@@ -145,7 +145,7 @@ impl Shining {
     }
 }
 
-/// Configuration factor of a polygon that has no part behind the point: both lie on walls of one box.
+/// Returns the configuration factor of a polygon that has no part behind the point: both lie on walls of one box.
 fn factor(corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
     let Some(&last) = corners.last() else { return 0.0 };
     let mut sum = DVec3::ZERO;
@@ -158,7 +158,8 @@ fn factor(corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
     sum.dot(normal).abs() / (2.0 * PI)
 }
 
-/// Points of a convex polygon with their shares of its area: its centroid, or a product rule on every triangle of a fan.
+/// Returns points of a convex polygon with their shares of its area: its centroid, or a product rule on every triangle
+/// of a fan.
 fn samples(wall: &Wall, corners: &[DVec2], rule: &[(f64, f64)]) -> Vec<(DVec3, f64)> {
     let whole = area(corners);
     let Some((&apex, rest)) = corners.split_first() else { return Vec::new() };

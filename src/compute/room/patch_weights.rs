@@ -1,4 +1,4 @@
-//! What the room's surfaces receive from an aperture by the cells from which its light comes.
+//! Weights of the light that the room's surfaces receive from an aperture, by the cells of that light.
 
 use super::aperture::Aperture;
 use super::direct::{Reception, Sensor};
@@ -16,19 +16,19 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Weights W with E_patch = Σ W_cell · L_cell, mean over each patch: geometry only, shared by all skies. \[sr\]
 pub struct PatchWeights {
-    /// The cells.
+    /// Basis of the cells.
     pub basis: Arc<RingBasis>,
-    /// One row a patch; empty for patches that do not see the aperture's room side.
+    /// Weights of every patch by cell; empty for patches that do not see the aperture's room side.
     rows: Vec<Vec<f64>>,
-    /// Flux that the room receives from each cell of luminance 1, over the flux that leaves through it. The mean is
-    /// taken out of the weights; what remains here tells how well the patches' points sample the light.
+    /// Flux that the room receives from each cell of luminance 1, over the flux that leaves through it. The flux is
+    /// closed by it; its deviation from 1 shows how well the patches' points sample the light.
     closure: Vec<f64>,
     /// Σ over the patches of area · weight, by cell. \[m²sr\]
     received: Vec<f64>,
 }
 
-/// Gauss points along each side of a patch: one where the patch is small against its distance from the opening, up to
-/// three beside it.
+/// Returns the number of Gauss points along each side of a patch: one where the patch is small against its distance
+/// from the opening, up to three beside it.
 pub(super) fn points_a_side(patch: &Patch, wall: &Wall, aperture: &Aperture) -> usize {
     let [low, _, high, _] = patch.corners(wall);
     let centre = 0.5 * (low + high);
@@ -43,7 +43,7 @@ pub(super) fn points_a_side(patch: &Patch, wall: &Wall, aperture: &Aperture) -> 
     }
 }
 
-/// Points of a patch with their share of its area.
+/// Returns points of a patch with their shares of its area.
 pub(super) fn samples<'a>(
     patch: &'a Patch,
     wall: &'a Wall,
@@ -57,13 +57,13 @@ pub(super) fn samples<'a>(
     })
 }
 
-/// Gauss rules by their number of points.
+/// Returns the Gauss rules of 0 to `most` points.
 pub(super) fn rules(most: usize) -> Vec<Vec<(f64, f64)>> {
     (0..=most).map(gauss_legendre).collect()
 }
 
 impl PatchWeights {
-    /// Of all patches that see the aperture's room side.
+    /// Computes the weights of all patches that see the aperture's room side.
     pub fn new(mesh: &Mesh, aperture: &Aperture, basis: Arc<RingBasis>) -> Self {
         let rules = rules(3);
         let rows: Vec<Vec<f64>> = mesh
@@ -90,7 +90,7 @@ impl PatchWeights {
         Self::closed(mesh, aperture.area(), basis, rows)
     }
 
-    /// `area`: what the light leaves.
+    /// Creates the weights with their closure from rows; `area`: area that the light leaves. \[m²\]
     fn closed(mesh: &Mesh, area: f64, basis: Arc<RingBasis>, rows: Vec<Vec<f64>>) -> Self {
         let mut received = vec![0.0; basis.len()];
         for (row, patch) in rows.iter().zip(&mesh.patches) {
@@ -135,8 +135,8 @@ impl PatchWeights {
         nodes.parts().into_iter().enumerate().map(of_node).collect()
     }
 
-    /// Mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the aperture;
-    /// and by how much that scaling was, relative.
+    /// Computes the mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the
+    /// aperture; and the relative change by that scaling.
     pub fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
         let received = dot(&self.received, luminance);
         if received <= 0.0 {
@@ -154,8 +154,8 @@ impl PatchWeights {
         (first.collect(), (scale - 1.0).abs())
     }
 
-    /// For lists of weights of the patches' illuminance the weights of the cells' luminance, every cell's flux closed by
-    /// itself.
+    /// Returns weights of the cells' luminance for each list of weights of the patches' illuminance, the flux of every
+    /// cell closed separately.
     pub fn gathered(&self, weights: &[&[f64]]) -> Vec<Vec<f64>> {
         let seeing: Vec<usize> = (0..self.rows.len()).filter(|&k| !self.rows[k].is_empty()).collect();
         let rows: Vec<f64> = seeing.iter().flat_map(|&k| &self.rows[k]).copied().collect();
@@ -168,14 +168,14 @@ impl PatchWeights {
         sums.col_iter().map(|sums| sums.iter().zip(&self.closure).map(closed).collect()).collect()
     }
 
-    /// Mean relative gap of flux that the closing takes away, weighted by flux.
+    /// Returns the mean relative gap of flux that the closing removes, weighted by flux.
     pub fn gap(&self) -> f64 {
         let received: f64 = self.received.iter().sum();
         let gaps = self.received.iter().zip(&self.closure).filter(|(_, c)| **c > 0.0);
         if received > 0.0 { gaps.map(|(r, c)| r * (1.0 / c - 1.0).abs()).sum::<f64>() / received } else { 0.0 }
     }
 
-    /// [`Self::falling_back`] as weights: for every cell those of the patches' exitance.
+    /// Returns [`Self::falling_back`] as weights: for every cell the weights of the patches' exitance.
     pub fn falling(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
         let scale = 1.0 / (PI * aperture.area());
         let share = |cell: usize, row: &Vec<f64>, patch: &Patch| {
@@ -188,8 +188,8 @@ impl PatchWeights {
             .collect()
     }
 
-    /// Mean illuminance of the aperture's room side from the patches, by the cells through which their light comes.
-    /// \[lx\] A cell is named by where its light goes to.
+    /// Computes the mean illuminance of the aperture's room side from the patches, by the cells through which their
+    /// light comes. \[lx\] A cell is identified by the direction in which its light travels.
     pub fn falling_back(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
         let mut incident = vec![0.0; self.basis.len()];
         for ((row, patch), b) in self.rows.iter().zip(&mesh.patches).zip(exitance) {
@@ -203,7 +203,7 @@ impl PatchWeights {
     }
 }
 
-/// More cells than this are merged before they meet the patches, which cannot tell them apart.
+/// Maximum number of cells in weights of patches; more are merged, because the patches do not resolve them.
 pub const MOST_CELLS: usize = 600;
 
 fn merged_basis() -> RingBasis {
@@ -222,17 +222,18 @@ fn merged_basis() -> RingBasis {
     RingBasis::new("merged", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
 }
 
-/// About 400 cells of equal projected solid angle but for finer ones around the normal, where the far end of a deep room
-/// looks; their borders hold the façade's horizon.
+/// Returns about 400 cells of equal projected solid angle, with finer ones around the normal, towards the far end of a
+/// deep room; their borders hold the façade's horizon.
 pub fn merged_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
     CELLS.get_or_init(|| Arc::new(merged_basis()))
 }
 
-/// Bases whose way onto the merged cells is kept; the oldest goes first.
+/// Number of bases whose resampling to the merged cells is kept; the oldest is removed first.
 const MERGINGS: usize = 4;
 
-/// From the cells of a basis to the merged ones. Every sun asks for the same few bases.
+/// Returns the resampling from the cells of a basis to the merged ones, kept between calls, because every sun needs the
+/// same few bases.
 pub fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
     static KEPT: Mutex<Vec<(Arc<RingBasis>, Arc<Resampling>)>> = Mutex::new(Vec::new());
     // What is kept is whole even if another thread has failed while it held the lock.

@@ -1,14 +1,14 @@
-//! Interreflection between diffuse surfaces: closed-form exchange areas, one small Cholesky factorisation, any number of
-//! first illuminances.
+//! Interreflection between diffuse surfaces: closed-form exchange areas, one small Cholesky factorisation, any number
+//! of first illuminances.
 //!
-//! With B = ρE the balance E = E₀ + Fρ E is solved for what arrives after reflection alone, R = E₁ + Fρ R with
-//! E₁ = Fρ E₀. E₀ changes fast and lives on fine patches, from which E₁ is exact; R is smooth and is balanced between
-//! patches of twice the size (Galerkin), then handed back to the fine ones by one more exchange (Sloan's iterate). The
-//! symmetric positive definite system (A/ρ − AF) b = A E₁, b = ρR, is factored, not iterated: at ρ = 0.99 iterations need
-//! thousands of sweeps.
+//! With B = ρE the balance E = E₀ + Fρ E is solved for the light that arrives after reflection alone, R = E₁ + Fρ R
+//! with E₁ = Fρ E₀. E₀ changes fast and lives on fine patches, from which E₁ is exact; R is smooth and is balanced
+//! between patches of twice the size (Galerkin), then handed back to the fine ones by one more exchange (Sloan's
+//! iterate). The symmetric positive definite system (A/ρ − AF) b = A E₁, b = ρR, is factored, not iterated: at ρ = 0.99
+//! iterations need thousands of sweeps.
 //!
-//! The same with all patches twice as large comes from sums of the same exchange areas. The error is of second order in
-//! the size, so a third of the difference is added, and the difference tells what remains.
+//! A second balance with all patches twice as large comes from sums of the same exchange areas. The error is of second
+//! order in the size, so a third of the difference is added, and the difference shows what remains.
 
 use super::exchange::Exchange;
 use super::mesh::{Mesh, Nested, Patch};
@@ -16,40 +16,40 @@ use crate::compute::dot::dot;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
-/// Most of the light that all surfaces together may reflect, as a mean over their area. Beyond, the answer depends
-/// mainly on what is not known about them, and 1 has none.
+/// Maximum mean reflectance of all surfaces together, weighted by area. Beyond, the answer depends mainly on what is
+/// not known about them, and 1 has none.
 pub const MOST_REFLECTANCE: f64 = 0.999;
 
-/// A meshed room, ready to answer for any first illuminance.
+/// A meshed room, prepared for any first illuminance.
 pub struct Radiosity {
-    /// The patches.
+    /// Patches of the room in three densities.
     pub nested: Nested,
     level: MeshBalance,
     coarser: MeshBalance,
 }
 
-/// Balance on one mesh, light from and to the next finer one.
+/// Balance of light on one mesh, with light from and to the next finer one.
 struct MeshBalance {
     exchange: Exchange,
-    /// Receiving patches: area and reflectance.
+    /// Area of every receiving patch. \[m²\]
     area: Vec<f64>,
     reflectance: Vec<f64>,
-    /// For every emitting patch the receiving one that holds it.
+    /// Index of the receiving patch that holds each emitting patch.
     holder: Vec<usize>,
-    /// Receiving patches with ρ > 0.
+    /// Indices of the receiving patches with ρ > 0.
     active: Vec<usize>,
     factor: Option<Llt<f64>>,
 }
 
 /// Exitance of all patches, from two densities. \[lm/m²\]
 pub struct Exitance {
-    /// Of the fine patches.
+    /// Exitance of the fine patches. \[lm/m²\]
     pub fine: Vec<f64>,
-    /// Of the coarse patches, computed without the fine ones but for the first illuminance.
+    /// Exitance of the coarse patches, computed without the fine ones except for the first illuminance. \[lm/m²\]
     pub coarse: Vec<f64>,
 }
 
-/// So little light is absorbed that the balance has no meaningful solution.
+/// Error of a room that absorbs so little light that the balance has no meaningful solution.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the surfaces reflect {mean} of all light as a mean over their area (allowed: up to {MOST_REFLECTANCE}): with next to \
@@ -60,10 +60,10 @@ pub struct NothingAbsorbs {
     pub mean: f64,
 }
 
-/// Mean of what the patches reflect, each as it is told.
+/// Returns the mean of the given reflectances of the patches, weighted by area.
 ///
 /// # Errors
-/// If that leaves the balance without a meaningful solution.
+/// Returns an error if too little is absorbed for a meaningful solution of the balance.
 pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> Result<f64, NothingAbsorbs> {
     let total: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
     let absorbed: f64 = mesh.patches.iter().map(|patch| patch.area * (1.0 - reflectance(patch))).sum();
@@ -72,7 +72,7 @@ pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> R
 }
 
 impl Radiosity {
-    /// Computes and factors. Memory: a dense matrix of coarse by fine patches.
+    /// Computes the exchange areas and factors the balances. Memory: a dense matrix of coarse by fine patches.
     pub fn new(nested: Nested) -> Result<Self, NothingAbsorbs> {
         let mean = enough_is_absorbed(&nested.fine, |patch| patch.reflectance)?;
         let exchange = Exchange::new(&nested.coarse, &nested.fine);
@@ -88,7 +88,7 @@ impl Radiosity {
         Ok(Self { nested, level, coarser })
     }
 
-    /// Exitance of every patch from the first illuminance E₀ of the fine ones.
+    /// Computes the exitance of every patch from the first illuminance E₀ of the fine ones.
     pub fn exitance(&self, first: &[f64]) -> Exitance {
         let reflected = |level: &MeshBalance, mesh: &Mesh, first: &[f64]| -> Vec<f64> {
             let after = level.after_reflection(mesh, first);
@@ -101,8 +101,8 @@ impl Radiosity {
         }
     }
 
-    /// Illuminance of every fine patch by first light and all its reflections, and by how much the mean over the patch's
-    /// coarse one differs from what the coarse patches alone make of it. \[lx\]
+    /// Computes the illuminance of every fine patch by first light and all its reflections, and the difference of its
+    /// mean over the coarse patch from the solution with the coarse patches alone. \[lx\]
     pub fn illuminance(&self, first: &[f64]) -> Vec<(f64, f64)> {
         let received = |level: &MeshBalance, mesh: &Mesh, first: &[f64]| -> Vec<f64> {
             first.iter().zip(level.after_reflection(mesh, first)).map(|(e, r)| e + r).collect()
@@ -113,36 +113,36 @@ impl Radiosity {
         fine.into_iter().zip(&self.level.holder).map(|(e, &holder)| (e, means[holder] - coarse[holder])).collect()
     }
 
-    /// What sums over the exitance of the fine patches (weights `gather`, one list a sum) hang on: weights a with
-    /// Σ gather·exitance = Σ a·first for every first illuminance. One solution serves every light.
+    /// Returns weights a of the first illuminance with Σ gather·exitance = Σ a·first, for sums over the exitance of the
+    /// fine patches (weights `gather`, one list per sum). One solution serves every light.
     pub fn adjoint_fine(&self, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         self.level.adjoint(&self.nested.fine, gather)
     }
 
-    /// The same for the exitance of the coarse patches, computed without the fine ones; again by first illuminance of
-    /// the fine patches.
+    /// Returns weights of the first illuminance of the fine patches, like [`Self::adjoint_fine`], for sums over the
+    /// exitance of the coarse patches, computed without the fine ones.
     pub fn adjoint_coarse(&self, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         let coarse = self.coarser.adjoint(&self.nested.coarse, gather);
         coarse.iter().map(|weights| self.level.spread(&self.nested.fine, weights)).collect()
     }
 
-    /// What [`Self::adjoint_fine`] has of light that is reflected but once.
+    /// Returns the part of [`Self::adjoint_fine`] that is due to light reflected only once.
     pub fn once_fine(&self, gather: &[f64]) -> Vec<f64> {
         once(&self.nested.fine, gather)
     }
 
-    /// What [`Self::adjoint_coarse`] has of it.
+    /// Returns the part of [`Self::adjoint_coarse`] that is due to light reflected only once.
     pub fn once_coarse(&self, gather: &[f64]) -> Vec<f64> {
         self.level.spread(&self.nested.fine, &once(&self.nested.coarse, gather))
     }
 
-    /// Means over the coarse patches, handed back to the fine ones.
+    /// Returns the values of the fine patches replaced by their means over the coarse ones.
     pub fn blurred(&self, values: &[f64]) -> Vec<f64> {
         let means = self.level.means(&self.nested.fine, values);
         self.level.holder.iter().map(|&holder| means[holder]).collect()
     }
 
-    /// Mean illuminance of every fine patch from an aperture of uniform exitance 1, no reflection.
+    /// Computes the mean illuminance of every fine patch from an aperture of uniform exitance 1, without reflection.
     pub fn illuminance_from_aperture(&self, aperture: usize) -> Vec<f64> {
         let mut first = vec![0.0; self.nested.fine.patches.len()];
         for (i, emitter) in self.nested.coarse.patches.iter().enumerate() {
@@ -164,7 +164,7 @@ fn once(mesh: &Mesh, gather: &[f64]) -> Vec<f64> {
 }
 
 impl MeshBalance {
-    /// `None` when the system is singular.
+    /// Creates the balance; `None` when the system is singular.
     fn new(exchange: Exchange, receivers: &Mesh, holder: &[usize]) -> Option<Self> {
         let area: Vec<f64> = receivers.patches.iter().map(|patch| patch.area).collect();
         let reflectance: Vec<f64> = receivers.patches.iter().map(|patch| patch.reflectance).collect();
@@ -186,7 +186,7 @@ impl MeshBalance {
         Some(Self { exchange, area, reflectance, holder: holder.to_vec(), active, factor })
     }
 
-    /// Means over the receiving patches of what is known on the emitting ones.
+    /// Returns means over the receiving patches of values on the emitting ones.
     fn means(&self, emitters: &Mesh, values: &[f64]) -> Vec<f64> {
         let mut means = vec![0.0; self.area.len()];
         for ((patch, &holder), value) in emitters.patches.iter().zip(&self.holder).zip(values) {
@@ -196,13 +196,13 @@ impl MeshBalance {
         means
     }
 
-    /// The transpose of [`Self::means`].
+    /// Returns weights on the emitting patches: the transpose of [`Self::means`].
     fn spread(&self, emitters: &Mesh, weights: &[f64]) -> Vec<f64> {
         emitters.patches.iter().zip(&self.holder).map(|(patch, &i)| patch.area / self.area[i] * weights[i]).collect()
     }
 
-    /// Weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R), for every list of `gather`: [`Self::after_reflection`] read
-    /// backwards.
+    /// Returns weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R), for every list of `gather`:
+    /// [`Self::after_reflection`] read backwards.
     fn adjoint(&self, emitters: &Mesh, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         // h = ρ gather weighs both E₀ and R. Without any active patch R is 0.
         let mut results: Vec<Vec<f64>> = gather.iter().map(|gather| once(emitters, gather)).collect();
@@ -245,7 +245,7 @@ impl MeshBalance {
         results
     }
 
-    /// What receiving patches that reflect hold of weights of emitting ones.
+    /// Returns the sums of weights of emitting patches over the receiving patches that reflect.
     fn held(&self, weights: &[f64]) -> Vec<f64> {
         let mut held = vec![0.0; self.area.len()];
         for (h, &holder) in weights.iter().zip(&self.holder).filter(|(_, holder)| self.reflectance[**holder] > 0.0) {
@@ -254,7 +254,7 @@ impl MeshBalance {
         held
     }
 
-    /// R on the emitting patches from E₀ on them.
+    /// Computes R on the emitting patches from E₀ on them.
     fn after_reflection(&self, emitters: &Mesh, first: &[f64]) -> Vec<f64> {
         let mut result = vec![0.0; first.len()];
         let Some(factor) = &self.factor else {

@@ -12,12 +12,12 @@ use std::sync::OnceLock;
 /// Share of an aperture in the sun below which none of it counts as sunlit.
 const NOTHING: f64 = 1e-9;
 
-/// Sunlit part of an aperture, with what follows from it found when it is first asked for.
+/// Sunlit part of an aperture, with quantities derived from it that are computed on first use.
 #[derive(Debug)]
 pub struct SunlitPart {
     /// Convex pieces in the room frame. \[m\]
     pub pieces: Vec<Vec<DVec3>>,
-    /// Share of the aperture's area.
+    /// Sunlit share of the aperture's area.
     pub share: f64,
     rim: OnceLock<Vec<Vec<Vec<DVec3>>>>,
     on: OnceLock<[Vec<f64>; 2]>,
@@ -30,12 +30,12 @@ impl SunlitPart {
         Self { pieces, share, rim: OnceLock::new(), on: OnceLock::new() }
     }
 
-    /// Returns whether it is next to nothing.
+    /// Returns whether the sunlit part is negligible.
     pub fn is_dark(&self) -> bool {
         self.share <= NOTHING
     }
 
-    /// Returns whether it is the whole aperture but for next to nothing.
+    /// Returns whether the sunlit part is the whole aperture, up to a negligible rest.
     pub fn is_whole(&self) -> bool {
         self.share >= 1.0 - NOTHING
     }
@@ -45,7 +45,8 @@ impl SunlitPart {
         self.rim.get_or_init(|| lit_by_rim(aperture, facing, around))
     }
 
-    /// Returns the shares of it in what the points of a grid and nodes on the aperture stand for, always the same ones.
+    /// Returns the sunlit shares of what the points of a grid and the nodes on the aperture represent. Grid and nodes
+    /// must be the same in all calls.
     pub fn on(&self, grid: &Grid, nodes: &Nodes) -> &[Vec<f64>; 2] {
         self.on.get_or_init(|| [grid.lit(&self.pieces), nodes.lit(&self.pieces)])
     }

@@ -1,4 +1,4 @@
-//! Near field of an aperture through which the outside is seen as it is (eq 20 in eq 17): the sky's own luminance,
+//! Near field of an aperture through which the outside is seen undistorted (eq 20 in eq 17): the sky's own luminance,
 //! integrated over the part of the world that the sensor sees through the opening.
 //!
 //! In azimuth and altitude about the zenith a plane opening, the horizon, a skyline and the sun's altitude are all
@@ -17,9 +17,9 @@ use crate::compute::sky::irradiance_through;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Illuminance at a sensor from the outside seen through the opening, each direction weighted by τ(θ) of the system.
-/// \[lx\] Where it does not depend on θ, parts of constant luminance have a closed form. Behind boxes the outside must be
-/// the one that is seen from the sensor.
+/// Computes the illuminance at a sensor from the outside seen through the opening, each direction weighted by τ(θ) of
+/// the system. \[lx\] Where τ does not depend on θ, parts of constant luminance have a closed form. Behind boxes the
+/// outside must be the one that is seen from the sensor.
 pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> Estimate {
     let to_room = |v: DVec3| facing.surface.room_from_facade(v);
     let uniform_tau = tau.constant();
@@ -72,9 +72,9 @@ pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance,
     sum + region.integrate(integrand, tolerance)
 }
 
-/// The sky through the opening, by directions that are fixed once: room directions above the skyline's altitude \[rad\]
-/// (0: the horizon) with weights that hold the sensor's cosine. \[sr\] `parts` Gauss points or more along each side of
-/// every piece.
+/// Returns fixed directions that sample the sky through the opening: room directions above the skyline's altitude
+/// \[rad\] (0: the horizon) with weights that include the sensor's cosine. \[sr\] `parts`: minimum number of Gauss
+/// points along each side of every piece.
 pub fn samples(view: &View, surface: Surface, skyline: f64, parts: usize) -> Vec<(Dir<Room>, f64)> {
     let to_room = |v: DVec3| surface.room_from_facade(v);
     let normal = to_room(view.normal);
@@ -100,9 +100,9 @@ pub fn samples(view: &View, surface: Surface, skyline: f64, parts: usize) -> Vec
     list
 }
 
-/// Directions of the façade frame through a band of the opening's y \[m\], with the solid angle that each stands for times the
-/// sensor's cosine \[sr\]: Gauss points in the two profile angles, in which the opening's near field is smooth. `rules` by
-/// number of points, from 0.
+/// Calls `visit` with directions of the façade frame through a band of the opening's y \[m\], and the solid angle that
+/// each represents times the sensor's cosine \[sr\]. They are Gauss points in the two profile angles, in which the
+/// opening's near field is smooth. `rules`: Gauss rules by number of points, from 0.
 pub fn nodes(view: &View, y: [f64; 2], rules: &[Vec<(f64, f64)>], mut visit: impl FnMut(DVec3, f64)) {
     let angle = |x: f64| (x / view.distance).atan();
     let ([a0, a1], [b0, b1]) = (view.x.map(angle), y.map(angle));
@@ -124,8 +124,8 @@ pub fn nodes(view: &View, y: [f64; 2], rules: &[Vec<(f64, f64)>], mut visit: imp
     }
 }
 
-/// Directions of the façade frame spread over an opening, with the solid angle that each stands for times the sensor's cosine
-/// \[sr\] and its place on the opening, shares of the sides. `count`: a power of two.
+/// Calls `visit` with directions of the façade frame spread over an opening, the solid angle that each represents times
+/// the sensor's cosine \[sr\], and its place on the opening as shares of the sides. `count`: a power of two.
 pub fn spread(view: &View, count: u32, mut visit: impl FnMut(DVec3, f64, [f64; 2])) {
     let range = |limits: [f64; 2]| limits.map(|x| (x / view.distance).atan());
     let ([a0, a1], [b0, b1]) = (range(view.x), range(view.y));
@@ -141,7 +141,7 @@ pub fn spread(view: &View, count: u32, mut visit: impl FnMut(DVec3, f64, [f64; 2
     }
 }
 
-/// Illuminance at a sensor through the open opening, roughly, by degrees of the polar angle. \[lx\]
+/// Computes the approximate illuminance at a sensor through the open opening, by degrees of the polar angle. \[lx\]
 pub fn by_degrees(view: &View, facing: &Facing<'_>) -> [f64; 90] {
     let rules = vec![gauss_legendre(NODES); 3];
     let mut light = [0.0; 90];
@@ -156,7 +156,7 @@ pub fn by_degrees(view: &View, facing: &Facing<'_>) -> [f64; 90] {
     light
 }
 
-/// Nodes along a side of an opening, or of its part above or below the horizon, for that.
+/// Number of nodes of [`by_degrees`] along a side of an opening, or of its part above or below the horizon.
 const NODES: usize = 12;
 
 /// A convex plane polygon seen from the origin, in azimuth and altitude.
@@ -236,7 +236,7 @@ impl<'a> Region<'a> {
         Self { polygon, surface, azimuths: inner, altitudes }
     }
 
-    /// Lowest and highest altitude of the polygon in a vertical half plane. \[rad\]
+    /// Returns the lowest and highest altitude of the polygon in a vertical half plane. \[rad\]
     fn limits(&self, azimuth: f64) -> Option<(f64, f64)> {
         let (sin, cos) = azimuth.sin_cos();
         // Signed distance from the vertical plane; the half plane is where `along` is positive.
@@ -266,7 +266,8 @@ impl<'a> Region<'a> {
         (seen > 0 && high > low).then_some((low, high))
     }
 
-    /// Gauss points of every piece above an altitude: azimuth, altitude and what of both a point stands for. \[rad, rad²\]
+    /// Calls `visit` with the Gauss points of every piece above an altitude: azimuth, altitude \[rad\] and weight.
+    /// \[rad²\]
     fn nodes(&self, from: f64, parts: usize, mut visit: impl FnMut(f64, f64, f64)) {
         let rules: Vec<_> = (0..=parts + 7).map(gauss_legendre).collect();
         let rule = |width: f64| &rules[parts + ((width / 0.25) as usize).min(7)];
@@ -287,7 +288,7 @@ impl<'a> Region<'a> {
         }
     }
 
-    /// `integrand` of sine and cosine of the azimuth, and of the altitude.
+    /// Integrates `integrand`, a function of sine and cosine of the azimuth and of the altitude, over the region.
     fn integrate(&self, integrand: impl Fn((f64, f64), f64) -> f64, tolerance: Tolerance) -> Estimate {
         // Pieces lie on a strip: x runs through the azimuth intervals one after the other, y through the bands of
         // altitude; the band's own limits are clamped to the polygon's.
@@ -312,7 +313,7 @@ impl<'a> Region<'a> {
                 }
             }
         }
-        // The rules ask for several altitudes in each azimuth: what belongs to the azimuth is kept from one to the next.
+        // The rules ask for several altitudes in each azimuth: quantities of the azimuth are kept from one to the next.
         let mut meridian = Meridian { x: f64::NAN, limits: None, sin_cos: (0.0, 1.0), width: 0.0 };
         integrate_smooth_rectangles(
             |x, y| {
@@ -338,24 +339,24 @@ impl<'a> Region<'a> {
     }
 }
 
-/// What all altitudes of one azimuth share.
+/// Quantities that all altitudes of one azimuth share.
 struct Meridian {
-    /// The strip's own coordinate.
+    /// Coordinate of the azimuth on the strip of pieces.
     x: f64,
-    /// Lowest and highest altitude. \[rad\]
+    /// Lowest and highest altitude of the region. \[rad\]
     limits: Option<(f64, f64)>,
-    /// Of the azimuth.
+    /// Sine and cosine of the azimuth.
     sin_cos: (f64, f64),
-    /// Of the interval of azimuths. \[rad\]
+    /// Width of the interval of azimuths. \[rad\]
     width: f64,
 }
 
-/// An azimuth, by whole turns as near to the reference as can be.
+/// Returns an azimuth shifted by whole turns to be nearest to the reference.
 fn near(azimuth: f64, reference: f64) -> f64 {
     azimuth - 2.0 * PI * ((azimuth - reference) / (2.0 * PI)).round()
 }
 
-/// Parameters 0 < t < 1 at which the segment p…q crosses the cone z = slope · horizontal distance.
+/// Returns the parameters 0 < t < 1 at which the segment p…q crosses the cone z = slope · horizontal distance.
 fn crossings(p: DVec3, q: DVec3, slope: f64) -> impl Iterator<Item = f64> {
     let d = q - p;
     let s2 = slope * slope;

@@ -1,24 +1,24 @@
-//! Typical illuminances of skies from the sun's altitude alone: what to expect when nobody measured.
+//! Typical illuminances of skies from the sun's altitude alone, for use without measurements.
 //!
 //! References: IES Recommended Practice for the Calculation of Daylight Availability (RP-21, 1984): direct normal
-//! E_xt·exp(−c·m) with optical air mass m = 1/sin γ and E_xt = 127.5 klx · (1 + 0.034 cos(2π(J − 2)/365)) on day J of the
-//! year; diffuse horizontal A + B·sin^C γ.
+//! E_xt·exp(−c·m) with optical air mass m = 1/sin γ and E_xt = 127.5 klx · (1 + 0.034 cos(2π(J − 2)/365)) on day J of
+//! the year; diffuse horizontal A + B·sin^C γ.
 
 use std::f64::consts::PI;
 
-/// The three skies of the practice.
+/// The three sky covers of the recommended practice RP-21.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cover {
     /// Cloud cover below 0.3.
     Clear,
-    /// Between.
+    /// Cloud cover from 0.3 to 0.8.
     Partly,
     /// Cloud cover above 0.8; no beam.
     Overcast,
 }
 
 impl Cover {
-    /// The cover that a CIE type stands for: 1–5 overcast, 6–10 partly cloudy, 11–15 clear, 16 overcast.
+    /// Returns the cover that a CIE type represents: 1–5 overcast, 6–10 partly cloudy, 11–15 clear, 16 overcast.
     pub const fn of_cie_type(cie_type: u8) -> Self {
         match cie_type {
             6..=10 => Self::Partly,
@@ -27,7 +27,7 @@ impl Cover {
         }
     }
 
-    /// In words.
+    /// Returns the name of the cover in English.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Clear => "clear",
@@ -40,9 +40,9 @@ impl Cover {
 /// Solar illuminance constant. \[lx\]
 const EXTRATERRESTRIAL: f64 = 127_500.0;
 
-/// Returns the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane \[lx\] for the sun at
-/// `altitude` \[rad\] on a `day` of the year, 1 to 365; without a day for the mean distance of the sun. Both are zero with
-/// the sun below the horizon.
+/// Returns the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane \[lx\] for the
+/// sun at `altitude` \[rad\] on a `day` of the year, 1 to 365; without a day for the mean distance of the sun. Both are
+/// zero with the sun below the horizon.
 pub fn typical_illuminances(cover: Cover, altitude: f64, day: Option<u16>) -> (f64, f64) {
     if altitude <= 0.0 {
         return (0.0, 0.0);

@@ -23,14 +23,14 @@ const PARAMETERS: [[f64; 5]; 15] = [
     [-1.0, -0.15, 24.0, -2.8, 0.15],
 ];
 
-/// Relative luminance φ(Z)·f(χ) of a type 1 … 15; `None` for other numbers.
+/// Returns the relative luminance φ(Z)·f(χ) of a type 1 … 15; `None` for other numbers.
 /// f(χ) = 1 + c·(e^{dχ} − e^{dπ/2}) + e·cos²χ
 pub(super) fn gradated(sky_type: u8) -> Option<Gradated> {
     let [a, b, c, d, e] = *PARAMETERS.get(usize::from(sky_type).checked_sub(1)?)?;
     Some(Gradated { a, b, base: 1.0 - c * (d * FRAC_PI_2).exp(), c, d, e })
 }
 
-/// Whether the luminance of a type 1 … 16 depends on where the sun is.
+/// Whether the luminance of a type 1 … 16 depends on the position of the sun.
 pub fn needs_sun(sky_type: u8) -> bool {
     gradated(sky_type).is_some_and(|sky| sky.c != 0.0 || sky.e != 0.0)
 }

@@ -1,17 +1,17 @@
 //! Irradiances and illuminances of a clear sky, from the sun's altitude, the air's turbidity and the elevation.
 //!
 //! Sources: Ineichen, Perez, "A new airmass independent formulation for the Linke turbidity coefficient", Solar Energy
-//! 73 (2002) 151–157; air mass of Kasten, Young 1989 times the pressure of the standard atmosphere; luminous efficacy of
-//! Perez 1990 ([`PerezState`]). The ±3 % by which the distance to the sun changes over the year are left out, of
-//! E₀ here and in the state of the sky alike: a scene given by sun angles has no date.
+//! 73 (2002) 151–157; air mass of Kasten, Young 1989 times the pressure of the standard atmosphere; luminous efficacy
+//! of Perez 1990 ([`PerezState`]). The ±3 % by which the distance to the sun changes over the year are neglected, both
+//! in E₀ here and in the state of the sky: a scene given by sun angles has no date.
 
 use super::perez::PerezState;
 
-/// Solar constant, as Perez's model takes it. \[W/m²\]
+/// Solar constant of Perez's model. \[W/m²\]
 const SOLAR_CONSTANT: f64 = 1367.0;
 
-/// Air mass along the sun's rays against that of the zenith at sea level; `altitude` of the sun from 0 \[rad\],
-/// `elevation` of the place \[m\].
+/// Returns the air mass along the sun's rays relative to that of the zenith at sea level. `altitude`: of the sun, from
+/// 0 \[rad\]; `elevation`: of the place \[m\].
 fn air_mass(altitude: f64, elevation: f64) -> f64 {
     let zenith = 90.0 - altitude.to_degrees();
     let relative = 1.0 / (altitude.sin() + 0.50572 * (96.07995 - zenith).powf(-1.6364));
@@ -20,9 +20,9 @@ fn air_mass(altitude: f64, elevation: f64) -> f64 {
     relative * pressure
 }
 
-/// Direct normal and diffuse horizontal irradiance under a clear sky \[W/m²\], for the sun at an altitude \[rad\], by
-/// Linke turbidity (1 is clean dry air, 3 usual, above 5 hazy) and elevation of the place. \[m\] Both are zero with the
-/// sun on or below the horizon.
+/// Computes direct normal and diffuse horizontal irradiance under a clear sky. \[W/m²\] `altitude`: of the sun \[rad\];
+/// `turbidity`: after Linke (1 is clean dry air, 3 usual, above 5 hazy); `elevation`: of the place \[m\]. Both
+/// irradiances are zero with the sun on or below the horizon.
 pub fn clear_sky_irradiances(altitude: f64, turbidity: f64, elevation: f64) -> (f64, f64) {
     if altitude <= 0.0 {
         return (0.0, 0.0);
@@ -39,8 +39,8 @@ pub fn clear_sky_irradiances(altitude: f64, turbidity: f64, elevation: f64) -> (
     (direct, global - direct * sine)
 }
 
-/// Illuminance on a plane facing the sun and diffuse illuminance on a horizontal plane under a clear sky \[lx\]; what goes
-/// in is that of [`clear_sky_irradiances`].
+/// Computes the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane under a clear
+/// sky \[lx\], with the arguments of [`clear_sky_irradiances`].
 pub fn clear_sky_illuminances(altitude: f64, turbidity: f64, elevation: f64) -> (f64, f64) {
     let (direct, diffuse) = clear_sky_irradiances(altitude, turbidity, elevation);
     match PerezState::new(altitude, direct, diffuse, 1.0) {

@@ -1,4 +1,4 @@
-//! Relative luminance of the sky above the horizon: every model behind one enum.
+//! Relative luminance of the sky above the horizon, with all models behind one enum.
 
 use super::cie;
 use super::gradated::Gradated;
@@ -7,11 +7,11 @@ use super::scan::Scan;
 use crate::compute::direction::{Dir, World};
 use glam::DVec3;
 
-/// Which model a [`Distribution`] follows.
+/// Model that a [`Distribution`] follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Model {
     Uniform,
-    /// (1 + 2 sin γ)/3
+    /// Traditional overcast sky, (1 + 2 sin γ)/3.
     Overcast,
     Gradated(Gradated, DVec3),
     Scan(Box<Scan>),
@@ -24,13 +24,13 @@ pub struct Distribution {
 }
 
 impl Distribution {
-    /// The same luminance everywhere.
+    /// Creates a sky of the same luminance everywhere.
     pub const fn uniform() -> Self {
         Self { model: Model::Uniform }
     }
 
-    /// CIE type 1 … 15 (ISO 15469) with its sun, or 16, the traditional overcast sky (1 + 2 sin γ)/3, which takes no
-    /// notice of the sun. `None` for another number.
+    /// Creates a CIE sky of type 1 … 15 (ISO 15469) with its sun, or of type 16, the traditional overcast sky (1 + 2
+    /// sin γ)/3, which does not depend on the sun. `None` for another number.
     pub fn cie(sky_type: u8, sun: Dir<World>) -> Option<Self> {
         if sky_type == 16 {
             return Some(Self { model: Model::Overcast });
@@ -38,18 +38,18 @@ impl Distribution {
         cie::gradated(sky_type).map(|sky| Self { model: Model::Gradated(sky, sun.vector()) })
     }
 
-    /// Perez all-weather sky (1993) of a state, with its sun.
+    /// Creates the Perez all-weather sky (1993) of a state, with its sun.
     pub fn perez(state: &PerezState, sun: Dir<World>) -> Self {
         let [a, b, c, d, e] = state.coefficients;
         Self { model: Model::Gradated(Gradated { a, b, base: 1.0, c, d, e }, sun.vector()) }
     }
 
-    /// 145 measured luminances, constant over the band cells of the Tregenza lattice.
+    /// Creates a sky of 145 measured luminances, constant over the band cells of the Tregenza lattice.
     pub fn scan(scan: Scan) -> Self {
         Self { model: Model::Scan(Box::new(scan)) }
     }
 
-    /// Relative luminance of a direction above the horizon (z ≥ 0).
+    /// Returns the relative luminance of a direction above the horizon (z ≥ 0).
     #[inline]
     pub(super) fn relative(&self, v: DVec3) -> f64 {
         match &self.model {

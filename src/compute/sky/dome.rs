@@ -1,5 +1,5 @@
-//! A grid of directions of the sky, with linear interpolation of luminance between them: an illuminance by the sky is a sum over
-//! the grid with weights that do not depend on the sky.
+//! A grid of directions of the sky, with linear interpolation of luminance between them: an illuminance by the sky is a
+//! sum over the grid with weights that do not depend on the sky.
 
 use super::outside::Outside;
 use glam::DVec3;
@@ -10,13 +10,13 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 pub(super) struct Dome {
     /// Angle between rows. \[rad\]
     step: f64,
-    /// Index of the first direction of every row, and the number of all.
+    /// Index of the first direction of every row, then the number of all directions.
     first: Vec<usize>,
     directions: Vec<DVec3>,
 }
 
 impl Dome {
-    /// Makes a grid with about `spacing` between directions. \[rad\]
+    /// Creates a grid with about `spacing` between directions. \[rad\]
     pub fn new(spacing: f64) -> Self {
         let rows = (FRAC_PI_2 / spacing).ceil();
         let step = FRAC_PI_2 / rows;

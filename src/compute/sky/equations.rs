@@ -1,4 +1,5 @@
-//! Light that faces and ground send each other, any number of times: on panels, as the solution of linear equations.
+//! Light that faces and ground reflect to each other any number of times: on panels, as the solution of linear
+//! equations.
 
 use super::open_ground::OpenGround;
 use super::scenery::{Scenery, Surface};
@@ -22,7 +23,8 @@ const SOLVED: f64 = 1e-6;
 /// Number of sets of illuminances that are solved together.
 const TOGETHER: usize = 128;
 
-/// Projected solid angles of panel nodes, or other luminances, as seen from a point: place in a list and weight. \[sr\]
+/// Projected solid angles of panel nodes, or of other luminances, as seen from a point: index in a list and weight.
+/// \[sr\]
 pub type Counts = Vec<(u32, f32)>;
 
 /// Panels of all surfaces, with their nodes numbered throughout.
@@ -46,7 +48,7 @@ impl Panels {
         Self { lights, first, places }
     }
 
-    /// Makes a few dark panels for every reflecting surface.
+    /// Creates a few dark panels for every reflecting surface.
     pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround) -> Self {
         let many = scenery.surfaces.iter().filter(|surface| surface.reflects()).count() > MANY;
         let of = |(index, surface): (usize, &Surface)| match surface.stated {
@@ -65,7 +67,7 @@ impl Panels {
     /// Evaluates `of` at every node, in parallel; `None` where a body covers the node.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns [`Cancelled`] if `progress` is cancelled.
     pub fn each<T: Send>(
         &self,
         scenery: &Scenery<'_>,
@@ -85,8 +87,8 @@ impl Panels {
         self.places.par_iter().map(one).collect()
     }
 
-    /// Returns for every node the one whose luminance it takes: itself, or where a body covers it the nearest free one of its
-    /// panel. Nodes of a panel that is wholly covered stay dark.
+    /// Returns for every node the one whose luminance it takes: itself, or where a body covers it the nearest free one
+    /// of its panel. Nodes of a panel that is wholly covered stay dark.
     pub fn free(&self, is_free: impl Iterator<Item = bool>) -> Vec<usize> {
         let name = |(node, free): (usize, bool)| if free { (node + 1) as f64 } else { f64::NAN };
         let names: Vec<f64> = is_free.enumerate().map(name).collect();
@@ -95,8 +97,8 @@ impl Panels {
         named.iter().flat_map(FaceLight::values).enumerate().map(own).collect()
     }
 
-    /// Returns the panels with these luminances of all nodes; where one is `NaN`, because a body covers the node, that of the
-    /// nearest free node of its panel. \[cd/m²\]
+    /// Returns the panels with these luminances of all nodes; where one is `NaN`, because a body covers the node, that
+    /// of the nearest free node of its panel. \[cd/m²\]
     pub fn with(&self, values: &[f64]) -> Vec<FaceLight> {
         let mut lights = self.lights.clone();
         for (light, from) in lights.iter_mut().zip(&self.first) {
@@ -107,7 +109,7 @@ impl Panels {
     }
 }
 
-/// System of linear equations of the light that the nodes of panels send each other.
+/// System of linear equations of the light that the nodes of panels reflect to each other.
 pub(super) struct Exchange {
     panels: Panels,
     /// Node whose luminance each node takes: its own, or the nearest free one.
@@ -117,7 +119,7 @@ pub(super) struct Exchange {
 }
 
 impl Exchange {
-    /// Sets the equations up. `seen`: other nodes as seen from every node, `None` where a body covers it.
+    /// Creates the equations. `seen`: other nodes as seen from every node, `None` where a body covers it.
     pub fn new(panels: Panels, mut seen: Vec<Option<Counts>>) -> Self {
         let source = panels.free(seen.iter().map(Option::is_some));
         for (other, _) in seen.iter_mut().flatten().flatten() {
@@ -131,8 +133,9 @@ impl Exchange {
         &self.panels
     }
 
-    /// Solves x = ρ/π (e + K x) for the luminance of every node by the method of Gauss and Seidel, which converges since no
-    /// surface reflects more than it receives. `falling`: illuminance e of every node by sky, sun and stated luminances. \[lx\]
+    /// Solves x = ρ/π (e + K x) for the luminance of every node by the method of Gauss and Seidel, which converges
+    /// since no surface reflects more than it receives. `falling`: illuminance e of every node by sky, sun and stated
+    /// luminances. \[lx\]
     pub fn solved(&self, scenery: &Scenery<'_>, falling: &[f64]) -> Vec<f64> {
         let albedo: Vec<f64> = scenery.surfaces.iter().map(|surface| surface.reflectance / PI).collect();
         let albedo = |node: usize| albedo[self.panels.places[node].0];
@@ -155,9 +158,9 @@ impl Exchange {
         self.source.iter().map(|node| light[*node]).collect()
     }
 
-    /// Solves x = ρ/π (e + K x) for many sets of illuminances e and returns what `of` makes of the luminances, set by set.
-    /// `falling`: rows of nodes, a column for each set. `of`: takes the number of the first of some sets and their luminances,
-    /// rows of nodes. \[lx, cd/m²\]
+    /// Solves x = ρ/π (e + K x) for many sets of illuminances e and returns the results of `of` for the luminances, set
+    /// by set. `falling`: rows of nodes, a column for each set \[lx\]. `of`: takes the number of the first of some sets
+    /// and their luminances, rows of nodes. \[cd/m²\]
     pub fn solved_together<T: Send>(
         &self,
         scenery: &Scenery<'_>,
@@ -214,20 +217,20 @@ pub(super) fn coarse(
     Ok(exchange.panels().with(&exchange.solved(scenery, &falling)))
 }
 
-/// A sum of weights over a long list of which few count.
+/// Sum of weights over a long list in which few weights differ from 0.
 pub struct SparseSum {
     weights: Vec<f64>,
-    /// Places that count, some perhaps twice.
+    /// Indices of the weights that are not 0, some perhaps twice.
     places: Vec<u32>,
 }
 
 impl SparseSum {
-    /// Makes an empty sum over a list of so many.
+    /// Creates an empty sum over a list of `count` entries.
     pub fn new(count: usize) -> Self {
         Self { weights: vec![0.0; count], places: Vec::new() }
     }
 
-    /// Adds a weight.
+    /// Adds a weight at an index of the list.
     pub fn add(&mut self, place: usize, weight: f64) {
         if self.weights[place] == 0.0 {
             self.places.push(place as u32);
@@ -235,7 +238,7 @@ impl SparseSum {
         self.weights[place] += weight;
     }
 
-    /// Returns the weights that are not 0 and leaves nothing.
+    /// Returns the weights that are not 0 and empties the sum.
     pub fn take(&mut self) -> Counts {
         let weights = &mut self.weights;
         let taken = self.places.drain(..).map(|place| (place, std::mem::take(&mut weights[place as usize]) as f32));
@@ -243,7 +246,7 @@ impl SparseSum {
     }
 }
 
-/// Returns the weights that are not 0, with their places.
+/// Returns the weights that are not 0, with their indices.
 pub(super) fn sparse(counts: &[f64]) -> Counts {
     let counting = counts.iter().enumerate().filter(|(_, counts)| **counts != 0.0);
     counting.map(|(node, counts)| (node as u32, *counts as f32)).collect()

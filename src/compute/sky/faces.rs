@@ -1,10 +1,10 @@
 //! Light on obstructions and on the ground, of which [`Surroundings`] is made.
 //!
-//! Every place sends ρE/π alike in all directions, E from all that it sees: sky, skyline, sun, and the light of the others.
-//! The sun's own light is exact at every point, by a ray, with sharp shadows. The rest is smooth: it is first found on few
-//! panels for all surfaces at once, as the solution of a system of linear equations, so that it does not matter how often
-//! light goes to and fro; what is seen from the apertures then gathers it on panels that are small where it is steep, between
-//! which the equations are solved once more.
+//! Every place reflects ρE/π alike in all directions, with E from all that it sees: sky, skyline, sun, and the light of
+//! the others. The sun's own light is exact at every point, by a ray, with sharp shadows. The rest is smooth: it is
+//! first found on few panels for all surfaces at once, as the solution of a system of linear equations, which holds any
+//! number of reflections. Panels of the surfaces seen from the apertures then gather it; they are small where it is
+//! steep, and between them the equations are solved once more.
 
 use super::equations::{Exchange, Panels, SparseSum, coarse};
 use super::open_ground::OpenGround;
@@ -23,7 +23,7 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// How finely light on surfaces is found.
+/// Fineness of the panels on which light on surfaces is computed.
 pub(super) struct Fineness {
     /// Relative error of the light between nodes above which panels are halved.
     pub between: f64,
@@ -32,46 +32,49 @@ pub(super) struct Fineness {
 }
 
 impl Fineness {
-    /// Of a single moment, by the relative error asked for.
+    /// Returns the fineness for a single moment, by the relative error of its results.
     fn of_moment(target: f64) -> Self {
         Self { between: BETWEEN * target, most: MOST_PANELS[usize::from(target >= LOOSE)] }
     }
 }
 
-/// Share of the error asked for that the light of surfaces may be off between nodes.
+/// Error of the light of surfaces between nodes, as a share of the required error.
 const BETWEEN: f64 = 0.2;
-/// Maximum numbers of panels: where per cents are asked for, and where less is.
+/// Maximum number of panels of all faces together, for a required error below [`LOOSE`] and from there on.
 const MOST_PANELS: [usize; 2] = [300, 60];
-/// Error from which on few panels are enough.
+/// Required error from which few panels are enough.
 const LOOSE: f64 = 0.05;
 /// Maximum number of panels of a face.
 const MOST: usize = 48;
+/// Minimum number of panels of a face.
 const FEWEST: usize = 1;
-/// Panels of the ground that is seen are no longer than this times the size of what stands near, or its distance.
+/// Maximum length of a ground panel in view, relative to the size of the next body, or to its distance.
 const FINE_GROUND: f64 = 1.0;
-/// Apertures count as so high above the ground at least. \[m\]
+/// Minimum height of a viewpoint above the ground in the weights of ground panels. \[m\]
 const LOWEST_EYE: f64 = 0.5;
 /// Height below which a place lies in the plane of a face: lengths typed as decimals do not meet exactly. \[m\]
 const IN_PLANE: f64 = 1e-6;
-/// Relative error of the light on a face beside that between its nodes.
+/// Relative error of the light on a face in addition to that between its nodes.
 const REST: f64 = 2e-4;
-/// Of the change that the fine panels made, what still finer ones would. In the white well of `tests/scenes/courts.rs` the few
-/// panels are off by half and the fine ones by 1e-4; in its court the fine ones are still off by 4e-3.
+/// Error that remains with the fine panels, as a share of the change that they made. In the white well of
+/// `tests/scenes/courts.rs` the few panels are off by half and the fine ones by 1e-4; in its court the fine ones are
+/// still off by 4e-3.
 const LEFT_OVER: f64 = 0.03;
 
-/// From where obstructions are seen, and how exactly their light is to be found.
+/// Points that obstructions are seen from, and accuracy of the obstructions' light.
 pub struct Viewing<'a> {
-    /// Places in the world's axes. \[m\]
+    /// Viewpoints in the world's axes. \[m\]
     pub viewpoints: &'a [DVec3],
-    /// Relative error that is asked of a result; the light of surfaces takes a part of it.
+    /// Required relative error of a result, a part of which is granted to the light of surfaces.
     pub target: f64,
 }
 
-/// Boxes and ground with the light on them, everything in the world's axes. `outside`: the open sky and ground, with a flat
-/// skyline if there is one. `turn`: of the room's x axis, cosine and sine.
+/// Computes the surroundings: boxes and ground with the light on them, everything in the world's axes. `outside`: the
+/// open sky and ground, with a flat skyline if there is one. `turn`: cosine and sine of the rotation of the room's x
+/// axis.
 ///
 /// # Errors
-/// [`Cancelled`] when `progress` says so.
+/// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn surroundings(
     outside: &Outside,
     sun: Option<&Sun>,
@@ -91,13 +94,13 @@ pub fn surroundings(
     Ok(assembled(&scenery, &ground, lights, &wanted, direct_sun.map(|(direction, _)| direction)))
 }
 
-/// Towards a sun that is not hidden, and its normal illuminance. \[lx\]
+/// Returns the direction towards a sun that is not hidden, and its normal illuminance. \[lx\]
 pub(super) fn direct_sun(outside: &Outside, skyline: Option<&Skyline>, sun: Option<&Sun>) -> Option<(DVec3, f64)> {
     let of = |sun: &Sun| (sun.direction.vector(), sun.direct_normal * share_above(outside, skyline, sun));
     sun.map(of).filter(|(_, normal)| *normal > 0.0)
 }
 
-/// The surfaces that reflect and are seen: faces of boxes, and the ground.
+/// Returns the surfaces that reflect and are seen: faces of boxes, and the ground.
 pub(super) fn wanted(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> {
     let building = 6 * (scenery.bodies.len() - 1)..scenery.ground();
     let mut wanted = in_front(scenery, viewpoints, 1e-9);
@@ -105,15 +108,16 @@ pub(super) fn wanted(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> 
     wanted
 }
 
-/// The surfaces that reflect and have a viewpoint in front of them, no lower than a height above their plane. \[m\]
+/// Returns the surfaces that reflect and have a viewpoint in front of them, higher than `height` above their plane.
+/// \[m\]
 fn in_front(scenery: &Scenery<'_>, viewpoints: &[DVec3], height: f64) -> Vec<usize> {
     let seen = |face: &Face| viewpoints.iter().any(|point| face.normal.dot(*point - face.origin) > height);
     let reflecting = scenery.surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects());
     reflecting.filter(|(_, surface)| seen(&surface.face)).map(|(index, _)| index).collect()
 }
 
-/// The surfaces that reflect and lie in the plane of an aperture, as the façade around it: no aperture sees them, but what stands
-/// in front of them returns their light.
+/// Returns the surfaces that reflect and lie in the plane of an aperture, as the façade around it: no aperture sees
+/// them, but obstructions in front of them return their light.
 pub(super) fn beside(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> {
     let mut beside = in_front(scenery, viewpoints, -IN_PLANE);
     let wanted = wanted(scenery, viewpoints);
@@ -121,7 +125,8 @@ pub(super) fn beside(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> 
     beside
 }
 
-/// The smooth light of all surfaces, of those that are wanted or lie beside an aperture as fine as their light is steep.
+/// Computes the smooth light of all surfaces. Surfaces of `wanted` and those beside an aperture have panels as fine as
+/// their light is steep.
 pub(super) fn lights(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
@@ -166,7 +171,7 @@ pub(super) fn lights(
     });
     let fitted: Vec<FaceLight> = fitted.collect::<Result<_, Cancelled>>()?;
     let before: Vec<f64> = wanted.iter().zip(&fitted).map(|(index, light)| light.mean(&weight(*index))).collect();
-    // Light goes to and fro between these panels; other surfaces keep what the few panels gave them.
+    // Light is reflected between these panels; other surfaces keep what the few panels gave them.
     let mut all: Vec<FaceLight> = lights.iter().map(|_| FaceLight::even(0.0)).collect();
     let mut others: Vec<Option<&FaceLight>> = lights.iter().map(Some).collect();
     for (index, light) in wanted.iter().zip(fitted) {
@@ -197,7 +202,7 @@ pub(super) fn lights(
     Ok(lights)
 }
 
-/// Boxes and ground with smooth light that is known, and the sun's own.
+/// Returns the surroundings: boxes and ground with known smooth light, and the sun's own.
 pub(super) fn assembled(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
@@ -229,8 +234,8 @@ pub(super) fn assembled(
     }
 }
 
-/// Returns the lines at which the luminance jumps beside the bodies' own edges: edges of shadows, and lines in which faces of
-/// overlapping boxes meet.
+/// Returns the lines at which the luminance jumps beside the bodies' own edges: edges of shadows, and lines in which
+/// faces of overlapping boxes meet.
 fn lines(scenery: &Scenery<'_>, seen: &[usize], sun: Option<DVec3>) -> Vec<Line> {
     let mut lines = seams(&scenery.bodies[..scenery.bodies.len() - 1]);
     let Some(sun) = sun else { return lines };
@@ -242,7 +247,7 @@ fn lines(scenery: &Scenery<'_>, seen: &[usize], sun: Option<DVec3>) -> Vec<Line>
     lines
 }
 
-/// No edge of either box, and yet a border of what is seen.
+/// Returns the lines in which faces of overlapping boxes meet: borders in view that are edges of neither box.
 fn seams(solids: &[Solid]) -> Vec<Line> {
     let mut seams = Vec::new();
     for (index, one) in solids.iter().enumerate() {

@@ -1,12 +1,12 @@
 //! The common form of the CIE general skies and of Perez' all-weather sky.
 
-/// (1 + a·e^{b/cosZ}) · (base + c·e^{dχ} + e·cos²χ), the common form of the CIE general skies and of Perez et al.
-/// Each factor is taken as 0 where it is negative.
+/// Luminance (1 + a·e^{b/cosZ}) · (base + c·e^{dχ} + e·cos²χ), the common form of the CIE general skies and of Perez et
+/// al. Each factor is taken as 0 where it is negative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Gradated {
     pub a: f64,
     pub b: f64,
-    /// 1 for Perez, 1 − c·e^{dπ/2} for CIE.
+    /// Constant term of the indicatrix: 1 for Perez, 1 − c·e^{dπ/2} for CIE.
     pub base: f64,
     pub c: f64,
     pub d: f64,
@@ -14,13 +14,13 @@ pub(super) struct Gradated {
 }
 
 impl Gradated {
-    /// Gradation factor at the sine of the altitude, z > 0; 1 on the horizon as ISO 15469 has it.
+    /// Returns the gradation factor at the sine of the altitude, z > 0; 1 on the horizon, as in ISO 15469.
     #[inline]
     pub fn gradation(&self, z: f64) -> f64 {
         if self.a == 0.0 || z <= 0.0 { 1.0 } else { (1.0 + self.a * (self.b / z).exp()).max(0.0) }
     }
 
-    /// Indicatrix factor at the angle χ from the sun. \[rad\]
+    /// Returns the indicatrix factor at the angle χ from the sun. \[rad\]
     #[inline]
     pub fn indicatrix(&self, chi: f64) -> f64 {
         let cos = chi.cos();
@@ -32,7 +32,7 @@ impl Gradated {
         (self.base + self.c * (self.d * chi).exp() + self.e * cos * cos).max(0.0)
     }
 
-    /// No dependence on the sun.
+    /// Whether the sky does not depend on the sun.
     pub fn symmetric(&self) -> bool {
         self.c == 0.0 && self.e == 0.0
     }

@@ -1,4 +1,4 @@
-//! The sun's shade on the ground as pictures show it: the shadows by which the ground's light is computed.
+//! Shade of the sun on the ground for pictures: the shadows from which the ground's light is computed.
 
 use super::faces::direct_sun;
 use super::outside::Outside;
@@ -7,10 +7,10 @@ use super::sun::Sun;
 use crate::compute::direction::Orientation;
 use glam::DVec2;
 
-/// Shadows nearer to each other than this are one. \[m\]
+/// Distance below which shadows are joined. \[m\]
 const JOINED: f64 = 1e-9;
 
-/// The ground with the sun's shade on it, in room axes.
+/// The ground with the shadows on it, in room axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundShade {
     /// Height of the ground. \[m\]
@@ -22,7 +22,7 @@ pub struct GroundShade {
 }
 
 impl GroundShade {
-    /// Finds the shade of a setting in room axes; `outside`: the sky with its skyline.
+    /// Creates the shade of a setting in room axes; `outside`: the sky with its skyline.
     pub fn new(setting: &Setting, outside: &Outside, sun: Option<&Sun>, orientation: Orientation) -> Self {
         let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
         let sun = direct_sun(outside, skyline, sun).map(|(direction, _)| orientation.to_room(direction));
@@ -33,7 +33,7 @@ impl GroundShade {
         }
     }
 
-    /// Returns what of the line along the depth at `x` lies in shade: from and to in y, in order. \[m\]
+    /// Returns the shaded parts of the line along the depth at `x`: lower and upper y of each, in order. \[m\]
     pub fn stretches(&self, x: f64) -> Vec<[f64; 2]> {
         let mut stretches: Vec<[f64; 2]> = self.shadows.iter().filter_map(|shadow| stretch(shadow, x)).collect();
         stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -48,7 +48,7 @@ impl GroundShade {
     }
 }
 
-/// Returns what of the line at `x` lies in a convex polygon: from and to in y.
+/// Returns the part of the line at `x` that lies in a convex polygon: lower and upper y.
 fn stretch(polygon: &[DVec2], x: f64) -> Option<[f64; 2]> {
     let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
     let crossed = sides.filter(|(p, q)| p.x != q.x && (p.x - x) * (q.x - x) <= 0.0);
@@ -80,7 +80,8 @@ mod tests {
         }
     }
 
-    /// The stretches at x = 2 m of a room that faces south, to the millimetre; the sun at an altitude and a bearing. \[°\]
+    /// Returns the shaded stretches at x = 2 m of a room that faces south, to the millimetre; altitude and bearing of
+    /// the sun in \[°\].
     fn shaded(setting: &Setting, altitude: f64, bearing: f64) -> Vec<[f64; 2]> {
         let shade = shade(setting, altitude, bearing, 0.0);
         shade.stretches(2.0).into_iter().map(|ends| ends.map(|y| (1e3 * y).round() / 1e3)).collect()
@@ -112,7 +113,7 @@ mod tests {
     fn a_building_shades_the_ground_and_a_room_without_one_does_not() {
         let mut north = wall();
         assert_eq!(shaded(&north, 45.0, 0.0), [[-7.1, -5.0]]);
-        // From the rear 9 m before the façade, over the wall and its shadow.
+        // From the rear 9 m in front of the façade, over the wall and its shadow.
         north.building = Some((solid([-50.0, 0.0, 0.0], [54.0, 12.0, 9.0]), 0.3));
         assert_eq!(shaded(&north, 45.0, 0.0), [[-9.0, 12.0]]);
         assert_eq!(shaded(&north, 80.0, 0.0), [[-5.453, -5.0], [-1.587, 12.0]]);

@@ -1,4 +1,4 @@
-//! Illuminance of the open horizontal plane under a relative distribution: what a sky is scaled by.
+//! Illuminance of the open horizontal plane under a relative distribution, by which a sky is scaled.
 
 use super::distribution::{Distribution, Model};
 use super::gradated::Gradated;
@@ -8,24 +8,24 @@ use crate::compute::quadrature::{Tolerance, gauss_legendre, integrate};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
-/// How the integrals of a gradated sky are done.
+/// Method by which the integrals of a gradated sky are computed.
 #[derive(Clone, Copy)]
 enum Rule {
-    /// To this relative accuracy.
+    /// Adaptive, to this relative accuracy.
     Adaptive(f64),
-    /// By so many Gauss points between knots.
+    /// Fixed number of Gauss points between knots, [`POINTS`].
     Fixed,
 }
 
-/// Inner and outer integral: together well below 1e-8.
+/// Rules of the inner and the outer integral, together well below 1e-8.
 const EXACT: [Rule; 2] = [Rule::Adaptive(1e-11), Rule::Adaptive(1e-10)];
-/// For skies of which there are thousands.
+/// Rules of both integrals for skies of which there are thousands.
 const QUICK: [Rule; 2] = [Rule::Fixed, Rule::Fixed];
-/// Gauss points between knots.
+/// Number of Gauss points between knots.
 const POINTS: usize = 14;
-/// What [`QUICK`] errs by at most, relative, over Perez' skies.
+/// Maximum relative error of [`QUICK`] over Perez' skies.
 const QUICK_ERROR: f64 = 2e-5;
-/// Beside the knots: the circumsolar part is all within, and hardly any of it beyond. \[rad\]
+/// Angle from the sun, a further knot, within which nearly all of the circumsolar part lies. \[rad\]
 const AROUND_SUN: f64 = 0.6;
 
 impl Rule {
@@ -49,12 +49,13 @@ impl Rule {
     }
 }
 
-/// ∫ L cosZ dω over the upper hemisphere, L relative.
+/// Computes ∫ L cosZ dω over the upper hemisphere, L relative.
 pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
     within(distribution, EXACT)
 }
 
-/// The same with an error of 2e-5 at most, by a fixed number of luminances.
+/// Computes ∫ L cosZ dω over the upper hemisphere, L relative, with an error of 2e-5 at most, by a fixed number of
+/// luminances.
 pub(super) fn horizontal_illuminance_quickly(distribution: &Distribution) -> Estimate {
     within(distribution, QUICK)
 }
@@ -79,11 +80,11 @@ fn within(distribution: &Distribution, rules: [Rule; 2]) -> Estimate {
     }
 }
 
-/// Of a gradated sky with the sun at an altitude \[rad\].
+/// Computes ∫ L cosZ dω of a gradated sky with the sun at an altitude \[rad\].
 ///
-/// Without a circumsolar part: 2π ∫ φ(z) z dz. With one, in polar coordinates about the sun, where its tip is no
-/// longer one: ∫ f(χ) sinχ [∫ φ(z) z dψ] dχ with z = cosχ sin h + sinχ cos h cosψ. Knots are where a circle about the
-/// sun touches the horizon or the circle on which the gradation becomes 0, and where the indicatrix becomes 0.
+/// Without a circumsolar part it is 2π ∫ φ(z) z dz. With one, polar coordinates about the sun remove the kink at its
+/// tip: ∫ f(χ) sinχ [∫ φ(z) z dψ] dχ with z = cosχ sin h + sinχ cos h cosψ. Knots are where a circle about the sun
+/// touches the horizon or the circle on which the gradation becomes 0, and where the indicatrix becomes 0.
 fn gradated(sky: &Gradated, altitude: f64, [inner_rule, outer_rule]: [Rule; 2]) -> Estimate {
     let zero = gradation_zero(sky);
     if sky.symmetric() {
@@ -131,7 +132,7 @@ fn gradated(sky: &Gradated, altitude: f64, [inner_rule, outer_rule]: [Rule; 2]) 
     Estimate::new(outer.value, outer.error + PI * inner_error)
 }
 
-/// ψ ∈ 0 … π up to which level + swing·cosψ exceeds z.
+/// Returns ψ ∈ 0 … π up to which level + swing·cosψ exceeds z.
 fn circle_angle(level: f64, swing: f64, z: f64) -> f64 {
     if level - swing >= z {
         PI
@@ -142,14 +143,14 @@ fn circle_angle(level: f64, swing: f64, z: f64) -> f64 {
     }
 }
 
-/// Sine of the altitude at which 1 + a·e^{b/z} changes sign, if it does so above the horizon.
+/// Returns the sine of the altitude at which 1 + a·e^{b/z} changes sign, if it does so above the horizon.
 pub(super) fn gradation_zero(sky: &Gradated) -> Option<f64> {
     // e^{b/z} = −1/a
     let z = (sky.a < 0.0).then(|| sky.b / (-1.0 / sky.a).ln())?;
     (z > 0.0 && z < 1.0).then_some(z)
 }
 
-/// Angles from the sun at which the indicatrix changes sign. \[rad\]
+/// Returns the angles from the sun at which the indicatrix changes sign. \[rad\]
 pub(super) fn indicatrix_zeros(sky: &Gradated) -> Vec<f64> {
     let raw = |chi: f64| sky.base + sky.c * (sky.d * chi).exp() + sky.e * chi.cos().powi(2);
     const STEPS: usize = 180;

@@ -11,17 +11,17 @@ use crate::compute::quadrature::Tolerance;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Relative accuracy asked of every cell.
+/// Relative accuracy of every cell.
 const RELATIVE: f64 = 1e-6;
 
-/// E_i = ∫_cell L cosθ dω for every cell of `basis`, in its order. \[lx\] Without the beam.
+/// Computes E_i = ∫_cell L cosθ dω for every cell of `basis`, in its order, without the beam. \[lx\]
 ///
-/// Every cell is computed by itself: the result does not depend on the number of threads.
+/// Cells are computed independently: the result does not depend on the number of threads.
 pub fn incident_illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame) -> Vec<Estimate> {
     incident_illuminances_within(outside, basis, frame, RELATIVE)
 }
 
-/// [`incident_illuminances`] to a relative accuracy of one's own.
+/// Computes [`incident_illuminances`] to a given relative accuracy.
 pub fn incident_illuminances_within(
     outside: &Outside,
     basis: &RingBasis,
@@ -55,7 +55,7 @@ pub fn incident_illuminances_within(
         .collect()
 }
 
-/// Past what stands before sky and ground: the open sky's light, changed where something hides it.
+/// Computes the illuminances of the cells with surroundings: the open sky's light, changed where they hide it.
 fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<Estimate> {
     let open = outside.open();
     let compute = || incident_illuminances_within(&open, basis, frame, relative);
@@ -68,7 +68,7 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
         .map(|index| {
             let cell = basis.cell(index);
             let free = free[index];
-            // Wide cells in quarters, as without anything before them.
+            // Wide cells in quarters, as without surroundings.
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
             let step = cell.width / pieces;
             let absolute = PAST * whole * cell.projected_solid_angle() / PI;
@@ -113,5 +113,5 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
         .collect()
 }
 
-/// Accuracy asked of what things that stand before sky and ground change, relative.
+/// Relative accuracy of the change by the surroundings.
 const PAST: f64 = 5e-4;

@@ -14,7 +14,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::{Rectangle, Tolerance, integrate, integrate_rectangles};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// ∫ L · weight over a region: sky, skyline and ground.
+/// Computes ∫ L · weight over a region of sky, skyline and ground.
 pub(super) fn integrate_region(outside: &Outside, region: &Region, weight: Weight, tolerance: Tolerance) -> Estimate {
     let mut inner = Vec::new();
     region.cut_knots(0.0, &mut inner);
@@ -30,7 +30,7 @@ pub(super) fn integrate_region(outside: &Outside, region: &Region, weight: Weigh
     sky + constant_parts(outside, region, weight, &knots, tolerance)
 }
 
-/// Ground and skyline, of constant luminance each: closed form in θ, 1-D in φ.
+/// Computes the integral of ground and skyline, of constant luminance each: closed form in θ, 1-D in φ.
 fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f64], tolerance: Tolerance) -> Estimate {
     let (ground, skyline) = (outside.ground_luminance, outside.skyline_luminance);
     let has_skyline = outside.skyline_sine > 0.0 && skyline > 0.0;
@@ -50,11 +50,12 @@ fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f
     )
 }
 
-/// A sun nearer to the pole than this is small in θ and yet wide in φ. \[rad\]
+/// Distance from the pole below which a sun is small in θ and yet wide in φ. \[rad\]
 const NEAR_POLE: f64 = 0.1;
 
-/// The open sky over one strip of azimuths between knots. Around a pole near the sun the luminance changes within a small
-/// part of the strip, which a rule for all of it could miss: pieces then grow with the distance from the pole.
+/// Integrates the open sky over one strip of azimuths between knots. Around a pole near the sun the luminance changes
+/// within a small part of the strip, which a rule for all of it could miss: pieces then grow with the distance from the
+/// pole.
 fn sky_strip(outside: &Outside, region: &Region, phi: (f64, f64), weight: Weight, tolerance: Tolerance) -> Estimate {
     let sun = outside.sun_direction().map_or(PI, |sun| region.frame.angles(sun.vector()).0);
     if !(1e-9..NEAR_POLE).contains(&sun) {
@@ -67,7 +68,7 @@ fn sky_strip(outside: &Outside, region: &Region, phi: (f64, f64), weight: Weight
     cuts.windows(2).map(|pair| sky_piece(outside, region, phi, (pair[0], pair[1]), weight, tolerance)).sum()
 }
 
-/// Of a strip what lies between two angles from the pole.
+/// Integrates the open sky over the part of a strip between two angles from the pole.
 fn sky_piece(
     outside: &Outside,
     region: &Region,
@@ -115,7 +116,7 @@ fn sky_piece(
         .sum()
 }
 
-/// Where the circumsolar tip lies in a strip's unit square, if it does.
+/// Returns the place of the circumsolar tip in a strip's unit square, if it lies there.
 fn tip(
     outside: &Outside,
     region: &Region,
@@ -138,10 +139,10 @@ fn tip(
     (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
 }
 
-/// Error of what things before sky and ground change, relative to it.
+/// Relative error of the change by the surroundings.
 const CHANGED: f64 = 1e-5;
 
-/// What things that stand before sky and ground change of a region's integral.
+/// Computes the change of a region's integral by the surroundings.
 fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
@@ -149,7 +150,7 @@ fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     found.map_or_else(Estimate::default, change)
 }
 
-/// What things that stand before sky and ground change of a plane's illuminance. \[lx\]
+/// Computes the change of a plane's illuminance by the surroundings. \[lx\]
 fn changed_on(outside: &Outside, plane: &Frame) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
@@ -157,12 +158,12 @@ fn changed_on(outside: &Outside, plane: &Frame) -> Estimate {
     found.into_iter().flatten().map(change).sum()
 }
 
-/// Difference that what stands before sky and ground makes.
+/// Returns the difference that the surroundings make.
 fn change((parts, error): (Parts, f64)) -> Estimate {
     Estimate::new(parts.before - parts.behind, error + parts.uncertainty)
 }
 
-/// Illuminance of a plane from sky, skyline and ground and what stands before them, without the beam. \[lx\]
+/// Computes the illuminance of a plane from sky, skyline, ground and surroundings, without the beam. \[lx\]
 pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     let frame = Frame::facing(normal);
     // Quarters: shorter pieces, and the knots of a façade's horizon among them.
@@ -177,7 +178,7 @@ pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     open + changed_on(outside, &frame)
 }
 
-/// Mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
+/// Computes the mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
 pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
     let tolerance = Tolerance::relative(1e-8);
     // The cap goes all the way round: in quarters, as the rules are made for smooth pieces.
@@ -192,7 +193,7 @@ pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
         })
         .sum();
     let mean = flux * (1.0 / patch.solid_angle());
-    // Of a patch that is all hidden the sky is taken away again: what remains of it is error, no light.
+    // The sky of a patch that is wholly hidden is subtracted again: what remains of it is error, not light.
     Estimate::new(mean.value.max(0.0), mean.error)
 }
 

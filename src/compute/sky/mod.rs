@@ -1,24 +1,24 @@
-//! Sky, sun and what else is outside: luminance as a function of the direction in the world's frame.
+//! Sky, sun and surroundings: luminance as a function of the direction in the world's frame.
 //!
-//! | file | what |
+//! | file | contents |
 //! | --- | --- |
 //! | `distribution` | relative luminance of every model |
-//! | `cie`, `perez`, `scan` | their parameters |
+//! | `cie`, `perez`, `scan` | parameters of the models |
 //! | `horizontal` | the exact illuminance of the horizontal plane, which scales a sky |
-//! | `availability`, `clear_sky` | illuminances that belong to an altitude of the sun |
+//! | `availability`, `clear_sky` | typical illuminances by the sun's altitude |
 //! | `patches` | Tregenza's 145 patches of the dome |
 //! | `outside` | a scaled sky over ground, behind a skyline |
-//! | `region` | regions of the sphere and how horizon and skyline cut them |
+//! | `region` | regions of the sphere, cut by horizon and skyline |
 //! | `integral`, `scan_region` | integrals over regions, smooth and measured skies |
-//! | `prospect`, `opening` | what stands before sky and ground: seen from a point, through an opening |
-//! | `on_dome` | regions swept by the bearing: skylines and measured skies behind what stands before them |
-//! | `scenery` | what stands there, and the ground: bodies and their surfaces |
-//! | `faces`, `vista`, `received`, `open_ground`, `equations` | the light on these |
+//! | `prospect`, `opening` | obstructions in front of sky and ground: seen from a point, through an opening |
+//! | `on_dome` | regions swept by the bearing: skylines and measured skies behind obstructions |
+//! | `scenery` | obstructions and ground: bodies and their surfaces |
+//! | `faces`, `vista`, `received`, `open_ground`, `equations` | light on these surfaces |
 //! | `prepared`, `dome`, `sunlit` | light on surfaces under many skies and suns |
-//! | `ground_shade` | the sun's shade on the ground, for pictures |
+//! | `ground_shade` | shade of the sun on the ground, for pictures |
 //! | `incident` | illuminance of an aperture per cell of a basis |
-//! | `samples` | the same for smooth skies by fixed directions |
-//! | `sun` | the disc |
+//! | `samples` | illuminance of an aperture per cell under smooth skies, by fixed directions |
+//! | `sun` | the sun's disc |
 //!
 //! The direct beam is never part of an [`Outside`]; it is a [`Sun`].
 

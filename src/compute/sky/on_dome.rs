@@ -1,8 +1,8 @@
-//! A region of any frame, swept by the bearing.
+//! Integrals over a region of any frame, swept by the bearing.
 //!
-//! Along the meridian of a bearing a skyline is one altitude, the rows of a measured sky are fixed ones, and its sectors
-//! begin and end with bearings: none of them can be missed, however steep or narrow. The region's own rims are met in
-//! closed form, too: cones about its axis, and half planes through it.
+//! Along the meridian of a bearing a skyline is one altitude, the rows of a measured sky are fixed ones, and its
+//! sectors begin and end with bearings: none of them can be missed, however steep or narrow. The region's own rims are
+//! met in closed form, too: cones about its axis, and half planes through it.
 
 use super::prospect::{Near, Parts, Prospect, on_cone};
 use super::region::{Frame, Region, Weight};
@@ -11,11 +11,12 @@ use crate::compute::sweep::sweep;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Nearer to a region the zenith counts as in it. \[rad\]
+/// Maximum distance from a region at which the zenith counts as in it. \[rad\]
 const AT_ZENITH: f64 = 1e-6;
 
-/// What a region holds of what stands before sky and ground, and of them, and the error of the cubature; `None` where
-/// nothing stands there. By bearings where that is simpler, else by meridians of the region's own frame.
+/// Integrates over a region the surroundings, and the sky and ground behind them, with the error of the cubature;
+/// `None` where nothing stands there. The sweep is by bearings where that is simpler, else by meridians of the region's
+/// own frame.
 pub(super) fn over(
     prospect: &Prospect<'_>,
     region: &Region,
@@ -31,8 +32,8 @@ pub(super) fn over(
     (parts.behind > 0.0 || parts.before > 0.0).then_some((parts, error))
 }
 
-/// What the hemisphere before a plane holds, weighted by the cosine to its normal, in parts, each as [`over`] gives it: all of
-/// it by the meridians along most edges, or in quarters where those of the dome are needed.
+/// Integrates over the hemisphere in front of a plane, weighted by the cosine to its normal, in parts like [`over`].
+/// The meridians along most edges take it as one part; where those of the dome are needed, it is four quarters.
 pub(super) fn over_hemisphere(
     prospect: &Prospect<'_>,
     plane: &Frame,
@@ -52,7 +53,7 @@ pub(super) fn over_hemisphere(
     (0..4).map(quarter).collect()
 }
 
-/// [`over`] by bearings.
+/// Computes [`over`] by bearings.
 fn by_bearings(
     prospect: &Prospect<'_>,
     region: &Region,
@@ -90,22 +91,22 @@ fn by_bearings(
     (Parts::of(sums), error)
 }
 
-/// Normal of the half plane of an azimuth.
+/// Returns the normal of the half plane of an azimuth.
 fn side(region: &Region, phi: f64) -> DVec3 {
     let (sin, cos) = phi.sin_cos();
     region.frame.y * cos - region.frame.x * sin
 }
 
-/// Zenith angles at which the meridian along a bearing meets a cone about an axis.
+/// Returns the zenith angles at which the meridian along a bearing meets a cone about an axis.
 fn cone_at(axis: DVec3, theta: f64, along: DVec3) -> impl Iterator<Item = f64> {
     let (a, b) = (axis.dot(along), axis.z);
     let cosine = theta.cos() / a.hypot(b);
     let (middle, half) = (a.atan2(b), cosine.acos());
-    // Beyond ±1 the arc cosine is no number, and no angle is given.
+    // Beyond ±1 the arc cosine is not a number, and no angle is given.
     [middle - half, middle + half, middle + half - 2.0 * PI].into_iter().filter(|at| *at > 0.0 && *at < PI)
 }
 
-/// A bearing, and from it on the bearings between which the sweep's lines change smoothly; rising.
+/// Returns a reference bearing, and relative to it the rising bearings between which the sweep's lines change smoothly.
 fn bearings(prospect: &Prospect<'_>, region: &Region, near: &Near, sides: &[DVec3; 2]) -> (f64, Vec<f64>) {
     let frame = &region.frame;
     let (thetas, phis) = ([region.theta.0, region.theta.1], [region.phi.0, region.phi.1]);
@@ -153,7 +154,7 @@ fn bearings(prospect: &Prospect<'_>, region: &Region, near: &Near, sides: &[DVec
     (reference, knots)
 }
 
-/// Directions at which a cone about an axis touches meridians of the dome.
+/// Returns the directions at which a cone about an axis touches meridians of the dome.
 fn touching(axis: DVec3, theta: f64) -> [Option<DVec3>; 2] {
     // There the meridian's plane has the angle theta to the axis: |n·axis| = sin θ for its horizontal normal n.
     let level = axis.truncate().length();
@@ -190,7 +191,7 @@ mod tests {
         outside.behind(Arc::new(Surroundings::dark(solids, skyline)))
     }
 
-    /// By the closed form and by cells.
+    /// Returns the illuminance by the closed form and by cells.
     fn on_an_aperture(outside: &Outside, surface: Surface, azimuth: f64) -> [f64; 2] {
         let frame = Frame::of_aperture(Orientation::new(Bearing::from_degrees(azimuth)), surface);
         let cells = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
@@ -205,7 +206,7 @@ mod tests {
         for (knots, luminance) in [(tower, 1e5), (tooth, 5e4)] {
             let skyline = Skyline::new(knots.iter().map(|knot: &[f64; 2]| knot.map(f64::to_radians)), luminance);
             let skyline = skyline.unwrap();
-            // What rises above the horizon takes the uniform sky's place: sums over bearings of the closed form in altitude.
+            // The skyline takes the uniform sky's place: sums over bearings of the closed form in altitude.
             let count = 400_000;
             let step = 2.0 * PI / f64::from(count);
             let more = luminance - 1e4 / PI;

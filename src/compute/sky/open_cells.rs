@@ -1,11 +1,11 @@
-//! The open sky on cells, kept: it is the same from every point of an aperture.
+//! Cache of the open sky on cells: it is the same from every point of an aperture.
 
 use super::region::Frame;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Estimate;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What is kept of one outside.
+/// Cached illuminances by the open sky of one outside.
 #[derive(Debug, Default)]
 pub(super) struct OpenCells(Mutex<Vec<Kept>>);
 
@@ -19,7 +19,7 @@ struct Kept {
 }
 
 impl OpenCells {
-    /// Computed if it is not there yet.
+    /// Returns the illuminances by the cells of a basis, computed if they are not there yet.
     pub fn get(
         &self,
         basis: &RingBasis,

@@ -1,35 +1,36 @@
-//! Where light on faces and on the ground is asked for: panels of faces, and the ground as far as it differs from open ground.
+//! Places where light on faces and on the ground is computed: panels of faces, and the ground as far as it differs from
+//! open ground.
 
 use super::scenery::Scenery;
 use crate::compute::surroundings::face_light::{FaceLight, Limits};
 use crate::compute::surroundings::solid::{Face, Solid};
 use glam::DVec3;
 
-/// A body nearer to a face than this share of its size casts a steep gradient of light on it: its outline is a border of
-/// panels.
+/// Distance of a body from a face, relative to the face's size, below which it casts a steep gradient of light: its
+/// outline is then a border of panels.
 const CLOSE: f64 = 0.2;
-/// Panels narrower than this share of a side are not made at the outset.
+/// Width, as a share of a side, below which panels are not made at the outset.
 const NARROW: f64 = 0.03;
-/// The ground is seen to differ from open ground up to so many heights of what stands highest: before a long wall its
-/// deficit falls as (height/distance)²/4.
+/// Distance up to which the ground differs from open ground, in heights of the highest body: in front of a long wall
+/// its deficit falls as (height/distance)²/4.
 const GROUND: f64 = 25.0;
-/// Of that, the least size. \[m\]
+/// Minimum length within which the ground's light changes near a body. \[m\]
 const LEAST: f64 = 0.15;
 
-/// The ground as far as bodies change its light, and what it is beyond.
+/// The ground as far as bodies change its light, with its luminance beyond.
 pub(super) struct OpenGround {
     pub limits: Limits,
-    /// Without the sun's own light. \[cd/m²\]
+    /// Luminance of the ground beyond, without the sun's own light. \[cd/m²\]
     pub luminance: f64,
-    /// Of what stands on it or above it: outline in the ground's coordinates, a length in which its light changes, and
-    /// whether its foot is a border.
+    /// Bodies on the ground or above it: outline in the ground's coordinates, a length in which its light changes, and
+    /// whether the body's foot is a border.
     near: Vec<(Limits, f64, bool)>,
-    /// From where it is seen, in its coordinates.
+    /// Viewpoints in the ground's coordinates. \[m\]
     eyes: Vec<[f64; 2]>,
 }
 
 impl OpenGround {
-    /// `viewpoints`: from where it is seen.
+    /// Creates the ground of a scenery; `viewpoints`: points that it is seen from, world's axes. \[m\]
     pub fn of(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Self {
         let surface = &scenery.surfaces[scenery.ground()];
         let height = scenery.ground_height();
@@ -59,7 +60,7 @@ impl OpenGround {
         Self { limits, luminance, near, eyes }
     }
 
-    /// Dark panels of a surface.
+    /// Returns dark panels of a surface.
     pub fn panels(&self, scenery: &Scenery<'_>, index: usize, most: usize, coarse: f64, single: bool) -> FaceLight {
         let surface = &scenery.surfaces[index];
         if index == scenery.ground() {
@@ -77,7 +78,8 @@ impl OpenGround {
         })
     }
 
-    /// Across which axis and where a panel of the ground is cut: at feet, then where it is long for what stands near.
+    /// Returns the axis across which a panel of the ground is cut and the coordinate: at feet, then where it is long
+    /// for a near body.
     fn cut(&self, panel: &Limits, factor: f64) -> Option<(usize, f64)> {
         let gap = |axis: usize, outline: &Limits| {
             (outline[axis][0] - panel[axis][1]).max(panel[axis][0] - outline[axis][1]).max(0.0)
@@ -104,15 +106,15 @@ impl OpenGround {
         long.then(|| (axis, 0.5 * (panel[axis][0] + panel[axis][1])))
     }
 
-    /// Is a place of the ground so near that bodies change its light?
+    /// Whether a place of the ground is so near that bodies change its light.
     pub fn holds(&self, [u, v]: [f64; 2]) -> bool {
         let [[a, b], [c, d]] = self.limits;
         (a..=b).contains(&u) && (c..=d).contains(&v)
     }
 }
 
-/// Borders of a face's first panels along both axes: the outlines of bodies that stand close, as far as they make no more
-/// than `most`.
+/// Returns the borders of a face's first panels along both axes: the outlines of close bodies, thinned out until they
+/// make no more than `most` panels.
 fn borders(face: &Face, others: &[&Solid], most: usize) -> [Vec<f64>; 2] {
     let corners = face.corners();
     let size = face.limits.map(|[low, high]| high - low);

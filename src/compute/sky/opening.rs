@@ -1,6 +1,7 @@
-//! The outside past what stands before it, seen through an opening.
+//! The outside behind obstructions, seen through an opening.
 //!
-//! Azimuths are swept about the zenith: there the horizon, the skyline, upright edges and the sun's altitude are simple.
+//! Azimuths are swept about the zenith: there the horizon, the skyline, vertical edges and the sun's altitude are
+//! simple.
 
 use super::outside::Outside;
 use super::prospect::Prospect;
@@ -13,10 +14,10 @@ use crate::compute::sweep::{rule_over, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Illuminance from the outside that is seen through a convex opening, every direction weighted by `tau`. \[lx\]
+/// Computes the illuminance from the outside seen through a convex opening, every direction weighted by `tau`. \[lx\]
 ///
-/// `corners`: of the opening as vectors from the point that the outside is seen from ([`Outside::seen_from`]), all of
-/// them before the receiver whose unit normal is `normal`.
+/// `corners`: of the opening, as vectors from the point that the outside is seen from ([`Outside::seen_from`]), all of
+/// them in front of the receiver whose unit normal is `normal`.
 pub fn irradiance_through(
     outside: &Outside,
     corners: &[DVec3],
@@ -29,7 +30,7 @@ pub fn irradiance_through(
     let prospect = Prospect::new(&open, surroundings, eye);
     let normal = normal.vector();
     let middle = corners.iter().sum::<DVec3>().normalize_or_zero();
-    // What is seen through it lies within the cone of its corners; where that is no cone, anywhere.
+    // What is seen through it lies within the cone of its corners; where they form no cone, anywhere.
     let aside = corners.iter().map(|corner| middle.dot(corner.normalize_or_zero())).fold(1.0, f64::min);
     let reach = if aside > 1e-6 { aside.min(1.0).acos() + 1e-6 } else { PI };
     let near = prospect.near(&Cap { middle, reach }).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Diffuse light from outside: a scaled sky over ground, behind a skyline and what else stands before it.
+//! Diffuse light from outside: a scaled sky over ground, behind a skyline and other obstructions.
 
 use super::distribution::{Distribution, Model};
 use super::horizontal;
@@ -11,24 +11,24 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Why there is no such sky.
+/// Reason why a sky cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SkyError {
-    /// The illuminance is negative or not finite.
+    /// Illuminance that is negative or not finite.
     #[error("a diffuse horizontal illuminance of {0} lx (allowed: 0 and above)")]
     Illuminance(f64),
-    /// The distribution gives the horizontal plane nothing, or without bound, so that no factor scales it.
+    /// Distribution that gives the horizontal plane nothing, or without bound, so that no factor scales it.
     #[error("the sky's relative luminance gives the horizontal plane {0}, which cannot be scaled to an illuminance")]
     Unscalable(f64),
-    /// A reflectance outside 0 … 1.
+    /// Reflectance outside 0 … 1.
     #[error("a ground reflectance of {0} (allowed: 0 to 1)")]
     Reflectance(f64),
-    /// Skyline outside 0 … 90°, or of negative luminance.
+    /// Skyline with an altitude outside 0 … 90°, or of negative luminance.
     #[error("a skyline at {altitude}° with {luminance} cd/m² (allowed: 0 up to below 90°, 0 cd/m² and above)")]
     Skyline {
-        /// Altitude in degrees.
+        /// Altitude of the skyline. \[°\]
         altitude: f64,
-        /// Luminance. \[cd/m²\]
+        /// Luminance of the skyline. \[cd/m²\]
         luminance: f64,
     },
 }
@@ -37,7 +37,7 @@ pub enum SkyError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outside {
     pub(super) distribution: Distribution,
-    /// cd/m² per unit of relative luminance.
+    /// Luminance per unit of relative luminance. \[cd/m²\]
     pub(super) scale: f64,
     pub(super) diffuse_horizontal: f64,
     pub(super) ground_luminance: f64,
@@ -48,13 +48,13 @@ pub struct Outside {
     pub(super) before: Option<Before>,
 }
 
-/// What stands before sky and ground, and from where it is seen.
+/// Surroundings in front of sky and ground, with the point that they are seen from.
 #[derive(Debug, Clone)]
 pub(super) struct Before {
     pub surroundings: Arc<Surroundings>,
-    /// Without a point boxes do not count: what is left has directions alone.
+    /// Point that the surroundings are seen from; without one only directions are left, and boxes do not count.
     pub eye: Option<DVec3>,
-    /// The open sky on cells, the same from all points.
+    /// Illuminances of cells by the open sky, the same from all points.
     pub kept: Arc<OpenCells>,
 }
 
@@ -65,13 +65,13 @@ impl PartialEq for Before {
 }
 
 impl Outside {
-    /// A sky scaled so that the exact integral over the open hemisphere is `diffuse_horizontal` \[lx\], over black ground.
-    /// 0 lx is a black sky of any model.
+    /// Creates a sky scaled so that the exact integral over the open hemisphere is `diffuse_horizontal` \[lx\], over
+    /// black ground. 0 lx is a black sky of any model.
     pub fn new(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
         Self::scaled_by(distribution, diffuse_horizontal, horizontal::horizontal_illuminance)
     }
 
-    /// The same scaled to 2e-5, for skies of which there are thousands.
+    /// Creates a sky like [`Self::new`], but scaled only to 2e-5, for skies of which there are thousands.
     pub fn quickly(distribution: Distribution, diffuse_horizontal: f64) -> Result<Self, SkyError> {
         Self::scaled_by(distribution, diffuse_horizontal, horizontal::horizontal_illuminance_quickly)
     }
@@ -107,7 +107,7 @@ impl Outside {
         })
     }
 
-    /// A measured sky with the luminances as they were measured.
+    /// Creates a measured sky with unchanged luminances.
     pub fn measured(scan: Scan) -> Self {
         let distribution = Distribution::scan(scan);
         let diffuse_horizontal = horizontal::horizontal_illuminance(&distribution).value;
@@ -124,8 +124,8 @@ impl Outside {
         }
     }
 
-    /// Endless, unobstructed, uniform ground: L = ρ·(E_dh + E_direct,h)/π.
-    /// `direct_horizontal`: the beam's illuminance on the open horizontal plane. \[lx\]
+    /// Returns the sky over endless, unobstructed, uniform ground: L = ρ·(E_dh + E_direct,h)/π. `direct_horizontal`:
+    /// illuminance of the beam on the open horizontal plane. \[lx\]
     pub fn with_ground(mut self, reflectance: f64, direct_horizontal: f64) -> Result<Self, SkyError> {
         if !(0.0..=1.0).contains(&reflectance) {
             return Err(SkyError::Reflectance(reflectance));
@@ -144,8 +144,8 @@ impl Outside {
         self
     }
 
-    /// A skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a luminance of its own \[cd/m²\].
-    /// The scale of the sky and the ground stay those of the open sky.
+    /// Returns the sky with a skyline that covers 0 ≤ altitude < `altitude` \[rad\] all round with a given luminance
+    /// \[cd/m²\]. The scale of the sky and the ground stay those of the open sky.
     pub fn with_skyline(mut self, altitude: f64, luminance: f64) -> Result<Self, SkyError> {
         if !((0.0..PI / 2.0).contains(&altitude) && luminance >= 0.0 && luminance.is_finite()) {
             return Err(SkyError::Skyline { altitude: altitude.to_degrees(), luminance });
@@ -154,7 +154,8 @@ impl Outside {
         Ok(self)
     }
 
-    /// The same with every luminance times a factor, ground and skyline included; negative factors count as 0.
+    /// Returns the outside with every luminance times a factor, ground and skyline included; negative factors count as
+    /// 0.
     pub fn scaled(&self, factor: f64) -> Self {
         let factor = factor.max(0.0);
         let mut outside = self.clone();
@@ -173,39 +174,39 @@ impl Outside {
         outside
     }
 
-    /// Diffuse reflectance of the ground.
+    /// Returns the diffuse reflectance of the ground.
     pub fn ground_reflectance(&self) -> f64 {
         self.ground_reflectance
     }
 
-    /// The same behind boxes and a skyline; boxes show once there is a point to see them from.
+    /// Returns the outside behind boxes and a skyline; boxes show once there is a point to see them from.
     pub fn behind(self, surroundings: Arc<Surroundings>) -> Self {
         Self { before: Some(Before { surroundings, eye: None, kept: Arc::default() }), ..self }
     }
 
-    /// The same as it is seen from a point: in the world's axes from the room's own origin. \[m\]
+    /// Returns the outside as seen from a point, in the world's axes from the room's own origin. \[m\]
     pub fn seen_from(&self, eye: DVec3) -> Self {
         let before = self.before.as_ref().map(|before| Before { eye: Some(eye), ..before.clone() });
         Self { before, ..self.clone() }
     }
 
-    /// Sky, ground and flat skyline without what stands before them.
+    /// Returns sky, ground and flat skyline without surroundings.
     pub fn open(&self) -> Self {
         Self { before: None, ..self.clone() }
     }
 
-    /// What stands before sky and ground, and from where it is seen.
+    /// Returns the surroundings in front of sky and ground, and the point that they are seen from.
     pub(super) fn foreground(&self) -> Option<(&Surroundings, Option<DVec3>)> {
         self.before.as_ref().map(|before| (&*before.surroundings, before.eye))
     }
 
-    /// What stands before sky and ground.
+    /// Returns the surroundings in front of sky and ground.
     pub fn surroundings(&self) -> Option<&Surroundings> {
         self.before.as_ref().map(|before| &*before.surroundings)
     }
 
-    /// Luminance seen in a direction. \[cd/m²\] What stands before it; else altitude below 0: ground; below the skyline:
-    /// skyline; else sky.
+    /// Returns the luminance in a direction: that of the surroundings met there; else of the ground below altitude 0,
+    /// of the skyline below its altitude, of the sky above. \[cd/m²\]
     #[inline]
     pub fn luminance(&self, d: Dir<World>) -> f64 {
         let v = d.vector();
@@ -223,18 +224,18 @@ impl Outside {
         }
     }
 
-    /// Luminance of the open sky; `v` of unit length with z ≥ 0 to rounding. \[cd/m²\]
+    /// Returns the luminance of the open sky; `v` of unit length with z ≥ 0 to rounding. \[cd/m²\]
     #[inline]
     pub(super) fn sky_luminance(&self, v: DVec3) -> f64 {
         self.scale * self.distribution.relative(v)
     }
 
-    /// Illuminance of the open horizontal plane from the sky alone. \[lx\]
+    /// Returns the illuminance of the open horizontal plane from the sky alone. \[lx\]
     pub fn diffuse_horizontal(&self) -> f64 {
         self.diffuse_horizontal
     }
 
-    /// Is there any diffuse light at all?
+    /// Whether there is any diffuse light.
     pub fn is_lit(&self) -> bool {
         self.diffuse_horizontal > 0.0
             || self.ground_luminance > 0.0
@@ -242,7 +243,7 @@ impl Outside {
             || self.surroundings().is_some_and(Surroundings::is_lit)
     }
 
-    /// Where the circumsolar part peaks; `None` for skies without one.
+    /// Returns the direction in which the circumsolar part peaks; `None` for skies without one.
     pub fn sun_direction(&self) -> Option<Dir<World>> {
         match &self.distribution.model {
             Model::Gradated(sky, sun) if !sky.symmetric() => Some(Dir::from_unit(*sun)),
@@ -250,22 +251,22 @@ impl Outside {
         }
     }
 
-    /// Altitude of the skyline, 0 without one. \[rad\]
+    /// Returns the altitude of the skyline, 0 without one. \[rad\]
     pub fn skyline_altitude(&self) -> f64 {
         self.skyline_altitude
     }
 
-    /// Luminance between horizon and skyline. \[cd/m²\]
+    /// Returns the luminance between horizon and skyline. \[cd/m²\]
     pub fn skyline_luminance(&self) -> f64 {
         self.skyline_luminance
     }
 
-    /// Luminance of the ground. \[cd/m²\]
+    /// Returns the luminance of the ground. \[cd/m²\]
     pub fn ground_luminance(&self) -> f64 {
         self.ground_luminance
     }
 
-    /// The same luminance over the whole upper hemisphere.
+    /// Whether the luminance is the same over the whole upper hemisphere.
     pub fn is_uniform_above_horizon(&self) -> bool {
         let uniform_sky = match &self.distribution.model {
             Model::Uniform => true,
@@ -277,8 +278,8 @@ impl Outside {
             && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
     }
 
-    /// Luminance is constant over the band cells of Tregenza's lattice of the dome (measured skies), with jumps at
-    /// their borders.
+    /// Whether the luminance is constant over the band cells of Tregenza's lattice of the dome (measured skies), with
+    /// jumps at their borders.
     pub fn is_piecewise_constant(&self) -> bool {
         matches!(self.distribution.model, Model::Scan(_))
     }

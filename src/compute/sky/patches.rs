@@ -4,19 +4,19 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Patches per row, lowest row first.
+/// Number of patches per row, lowest row first.
 pub const ROWS: [usize; 8] = [30, 30, 24, 24, 18, 12, 6, 1];
 /// Height of a row: 12°. The last is a cap above 84°. \[rad\]
 pub const ROW_HEIGHT: f64 = 12.0 * PI / 180.0;
 
-/// One patch: a band cell of the dome.
+/// One patch of the sky dome: a band cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// Lower edge. \[rad\]
+    /// Altitude of the lower edge. \[rad\]
     pub altitude_min: f64,
-    /// Upper edge. \[rad\]
+    /// Altitude of the upper edge. \[rad\]
     pub altitude_max: f64,
-    /// Altitude of the centre; of the cap: 90°. \[rad\]
+    /// Altitude of the centre; 90° for the cap. \[rad\]
     pub altitude: f64,
     /// Bearing of the centre. \[rad\]
     pub bearing: f64,
@@ -25,18 +25,18 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// Solid angle of the band cell. \[sr\]
+    /// Returns the solid angle of the band cell. \[sr\]
     pub fn solid_angle(&self) -> f64 {
         self.width * (self.altitude_max.sin() - self.altitude_min.sin())
     }
 
-    /// The centre.
+    /// Returns the direction of the centre.
     pub fn centre(&self) -> Dir<World> {
         Dir::from_altitude_bearing(self.altitude, Bearing::from_radians(self.bearing))
     }
 }
 
-/// The 145 patches: lowest row first, each row clockwise from north, its first patch centred on north.
+/// Returns the 145 patches: lowest row first, each row clockwise from north, its first patch centred on north.
 pub fn tregenza_patches() -> Vec<Patch> {
     let mut patches = Vec::with_capacity(145);
     for (row, &count) in ROWS.iter().enumerate() {

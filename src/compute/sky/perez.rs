@@ -1,4 +1,4 @@
-//! Perez all-weather skies: from irradiances to the state of the sky, its luminance coefficients and luminous efficacies.
+//! Perez all-weather skies: state of the sky from irradiances, its luminance coefficients and luminous efficacies.
 //!
 //! Sources: Perez, Seals, Michalsky, "All-weather model for sky luminance distribution", Solar Energy 50 (1993)
 //! 235–245; Perez, Ineichen, Seals, Michalsky, Stewart, "Modeling daylight availability …", Solar Energy 44 (1990)
@@ -12,7 +12,7 @@ pub const SOLAR_CONSTANT: f64 = 1367.0;
 /// Lower borders of the clearness bins 2 … 8.
 const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
 
-/// What is known of the air and of the distance to the sun.
+/// Water content of the air and distance to the sun, as far as they are known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
     /// Square of the sun's mean distance over that of the day, see [`eccentricity`].
@@ -22,11 +22,11 @@ pub struct Air {
 }
 
 impl Air {
-    /// No date, and nothing known of the water: 2 cm.
+    /// Air without a date and with unknown water content: 2 cm.
     pub const UNKNOWN: Self = Self { eccentricity: 1.0, water: 2.0 };
 }
 
-/// a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin.
+/// Luminance coefficients a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin.
 const LUMINANCE: [[[f64; 4]; 5]; 8] = [
     [
         [1.3525, -0.2576, -0.2690, -1.4366],
@@ -110,8 +110,8 @@ const DIRECT_EFFICACY: [[f64; 4]; 8] = [
     [101.18, 1.58, -1.10, -8.29],
 ];
 
-/// (r₀/r)² of the earth's orbit, what the sun sends against its mean, on a day of the year counted from 1 (Spencer, "Fourier
-/// series representation of the position of the sun", Search 2 (1971) 172).
+/// Returns (r₀/r)² of the earth's orbit, the sun's irradiance relative to its mean, on a day of the year counted from 1
+/// (Spencer, "Fourier series representation of the position of the sun", Search 2 (1971) 172).
 pub fn eccentricity(day: u16) -> f64 {
     let angle = 2.0 * std::f64::consts::PI * (f64::from(day) - 1.0) / 365.0;
     let ((sin, cos), (sin_twice, cos_twice)) = (angle.sin_cos(), (2.0 * angle).sin_cos());
@@ -123,9 +123,9 @@ pub fn eccentricity(day: u16) -> f64 {
 pub struct PerezState {
     /// Clearness ε, 1 … 12.009.
     pub clearness: f64,
-    /// Brightness Δ, 0.01 … 0.6, as the efficacy takes it; the luminance raises it to 0.2 for 1.065 < ε < 2.8.
+    /// Brightness Δ of the efficacy, 0.01 … 0.6; the luminance raises it to 0.2 for 1.065 < ε < 2.8.
     pub brightness: f64,
-    /// a, b, c, d, e of the relative luminance.
+    /// Coefficients a, b, c, d, e of the relative luminance.
     pub coefficients: [f64; 5],
     /// Zenith angle of the sun. \[rad\]
     zenith: f64,
@@ -135,18 +135,18 @@ pub struct PerezState {
 }
 
 impl PerezState {
-    /// From the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal irradiance \[W/m²\], and
-    /// the day's [`eccentricity`], 1 where there is no date.
-    /// `None` where the model has no meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
+    /// Creates the state from the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal
+    /// irradiance \[W/m²\], and the day's [`eccentricity`], 1 where there is no date. `None` where the model has no
+    /// meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
     pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, eccentricity: f64) -> Option<Self> {
         (altitude > 0.0 && diffuse_horizontal > 0.0)
             .then(|| Self::in_air(altitude, direct_normal, diffuse_horizontal, Air { eccentricity, ..Air::UNKNOWN }))
             .flatten()
     }
 
-    /// The same for an hour of a year: with the distance of the sun and the water in the air; with the sun on the
-    /// horizon (for twilight, when it is below); and without diffuse light, when the clearness is at its upper border.
-    /// `None` for no light at all, and for negative or infinite input.
+    /// Creates the state of an hour of a year, with the distance of the sun and the water in the air. The sun may be on
+    /// the horizon (for twilight, when it is below); without diffuse light the clearness is at its upper border. `None`
+    /// for no light at all, and for negative or infinite input.
     pub fn in_air(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, air: Air) -> Option<Self> {
         let valid = (0.0..=FRAC_PI_2 + 1e-12).contains(&altitude)
             && direct_normal >= 0.0
@@ -168,20 +168,21 @@ impl PerezState {
         Some(Self { clearness, brightness, coefficients, zenith, bin, water: air.water })
     }
 
-    /// Luminous efficacy of the diffuse light. [lm/W]
+    /// Returns the luminous efficacy of the diffuse light. [lm/W]
     pub fn diffuse_efficacy(&self) -> f64 {
         let [a, b, c, d] = DIFFUSE_EFFICACY[self.bin];
         (a + b * self.water + c * self.zenith.cos() + d * self.brightness.ln()).max(0.0)
     }
 
-    /// Luminous efficacy of the beam. [lm/W]
+    /// Returns the luminous efficacy of the beam. [lm/W]
     pub fn direct_efficacy(&self) -> f64 {
         let [a, b, c, d] = DIRECT_EFFICACY[self.bin];
         (a + b * self.water + c * (5.73 * self.zenith - 5.0).exp() + d * self.brightness).max(0.0)
     }
 }
 
-/// x = x₁ + x₂Z + Δ(x₃ + x₄Z); in the first bin c and d have forms of their own (Perez 1993 eq 7, 8).
+/// Returns the coefficients x = x₁ + x₂Z + Δ(x₃ + x₄Z); in the first bin c and d have forms of their own (Perez 1993 eq
+/// 7, 8).
 fn luminance_coefficients(bin: usize, clearness: f64, brightness: f64, zenith: f64) -> [f64; 5] {
     let delta = if clearness > 1.065 && clearness < 2.8 { brightness.max(0.2) } else { brightness };
     let rows = LUMINANCE[bin];
@@ -192,8 +193,8 @@ fn luminance_coefficients(bin: usize, clearness: f64, brightness: f64, zenith: f
         x[2] = (delta * (c1 + c2 * zenith)).powf(c3).exp() - c4;
         x[3] = -(delta * (d1 + d2 * zenith)).exp() + d3 + delta * d4;
     }
-    // With a and b above 0 the luminance grows without bound towards the horizon, which no sky does: an even gradation is
-    // the nearest that the model has. Met with a high sun under a wrong clock.
+    // With a and b above 0 the luminance grows without bound towards the horizon, which no sky does: a uniform
+    // gradation is the nearest that the model has. Met with a high sun under a wrong clock.
     if x[0] > 0.0 {
         x[1] = x[1].min(0.0);
     }

@@ -1,10 +1,11 @@
 //! Obstructions and ground prepared for many skies and suns: daylight coefficients of their surfaces.
 //!
-//! A moment is a list of luminances: the sky in the directions of a grid, what the sun adds to the cells of the surfaces, and
-//! the other luminance of the surfaces at the nodes of their panels. The last follows from the others by a matrix, found once:
-//! light goes to and fro between few panels of all surfaces until nothing is left, and the panels of what is seen gather it. The
-//! luminance from a point in a direction is then a sum over the list with weights that do not depend on sky and sun. Panels
-//! suit a uniform sky with a sun before the façade; their error under other skies is part of the stated one.
+//! A moment is a list of luminances: the sky in the directions of a grid, the sun's addition to the cells of the
+//! surfaces, and the other luminance of the surfaces at the nodes of their panels. The last follows from the others by
+//! a matrix, found once: light is reflected between few panels of all surfaces until nothing is left, and the panels in
+//! view gather it. The luminance from a point in a direction is then a sum over the list with weights that do not
+//! depend on sky and sun. Panels suit a uniform sky with a sun in front of the façade; their error under other skies is
+//! part of the stated one.
 
 use super::dome::Dome;
 use super::equations::{Counts, Exchange, Panels, SparseSum, sparse};
@@ -31,37 +32,40 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Spacing of the sky directions \[rad\]; side of the sunlit cells relative to their distance, and least side \[m\]: of those that
-/// light surfaces, and of those that are seen.
+/// Resolution of the sources that light surfaces: spacing of the sky directions \[rad\]; side of the sunlit cells
+/// relative to their distance, and minimum side \[m\].
 const LIGHTING: [f64; 3] = [0.1, 0.4, 0.4];
+/// Resolution of the sources in view, in the form of [`LIGHTING`].
 const SEEN: [f64; 3] = [0.05, 0.15, 0.1];
-/// Moment that the panels are made for: reflectance of the ground; upward and sideward parts of the direction to the sun per
-/// part along the façade's normal; direct normal illuminance per horizontal illuminance of the sky.
+/// Moment that the panels are made for: reflectance of the ground; upward and sideward parts of the direction to the
+/// sun per part along the façade's normal; direct normal illuminance per horizontal illuminance of the sky.
 const TRIAL: [f64; 4] = [0.2, 0.8, 0.3, 3.0];
-/// Their fineness.
+/// Fineness of the prepared panels.
 const PANELS: Fineness = Fineness { between: 2e-3, most: 160 };
-/// Length along a bearing for which a surface has a point more when what lights a node is collected: cells are small. \[rad\]
+/// Length along a bearing for a further point on a surface when the light of a node is collected: cells are small.
+/// \[rad\]
 const STEP: f64 = 0.12;
-/// Error of panels and cells under other skies and suns, relative to the luminance of a surface without the sun's own: twice the
-/// mean error in the test of this file.
+/// Error of panels and cells under other skies and suns, relative to the luminance of a surface without the sun's own:
+/// twice the mean error in the test of this file.
 const OTHERS: f64 = 1e-2;
-/// Directions of one point's patches together, and of a patch at least and at most: where the first of them meet one surface, and
-/// where they meet several. Each point has its own: between points that stand for each other errors cancel.
+/// Numbers of directions of one point for all patches together, and minimum and maximum for a patch: where the first
+/// directions of a patch meet one surface, and where they meet several. Each point has its own directions: between
+/// points that represent each other errors cancel.
 const DIRECTIONS: [(usize, [usize; 2]); 2] = [(8_000, [8, 64]), (40_000, [64, 256])];
 /// Maximum number of reflectances of the ground for which light is kept: a year has twelve.
 const GROUNDS: usize = 13;
-/// Number of the sky among the surfaces; the skyline comes before it.
+/// Number of the sky among the surfaces; the number before it is the skyline's.
 const SKY: usize = usize::MAX;
 
 /// Boxes, building and ground ready for any sky behind the same skyline, any sun and any reflectance of the ground.
 pub struct Prepared {
-    /// No other has it.
+    /// Number that no other prepared obstructions have.
     number: u64,
     setting: Setting,
     turn: [f64; 2],
     viewpoints: Vec<DVec3>,
     wanted: Vec<usize>,
-    /// The boxes, what is stated of the luminance of every surface, and the ground. \[cd/m²\]
+    /// Boxes; `stated` holds the given luminance of every surface \[cd/m²\], `ground` the ground.
     boxes: Vec<Solid>,
     stated: Vec<Option<f64>>,
     ground: (Face, OpenGround),
@@ -70,24 +74,25 @@ pub struct Prepared {
     flat: f64,
     lighting: Sources,
     seen: Sources,
-    /// Light between few panels of all surfaces.
+    /// Exchange of light between few panels of all surfaces.
     exchange: Exchange,
     lit: Lit,
-    /// Panels of the surfaces that are seen, for every node the one whose luminance it takes, and light on them.
+    /// Panels of the surfaces in view; `source` holds for every node the one whose luminance it takes, `gathered` the
+    /// light on them.
     panels: Panels,
     source: Vec<usize>,
     gathered: Lit,
-    /// Weights of the exchange's nodes at these. \[sr\]
+    /// Weights of the nodes of `exchange` at the nodes of `panels`. \[sr\]
     from_exchange: Mat<f32>,
-    /// Luminance of the nodes by source, by the reflectance of the ground.
+    /// Luminance of the nodes by source, with the bits of the ground's reflectance as key.
     solved: Mutex<Vec<(u64, Arc<Mat<f32>>)>>,
 }
 
 /// Illuminance of nodes: rows of nodes, columns of the sources that light them.
 type Lit = Mat<f32>;
 
-/// Luminances in a list: directions of the sky, the skyline, what is stated (as 1), open ground beyond the panels, what the sun
-/// adds to cells.
+/// Numbering of the luminances in a list: directions of the sky, the skyline, stated luminances (as 1), open ground
+/// beyond the panels, the sun's addition to cells.
 struct Sources {
     dome: Dome,
     cells: SunCells,
@@ -114,7 +119,7 @@ impl Sources {
         self.first_cell() + self.cells.len()
     }
 
-    /// Of a moment. \[cd/m²\]
+    /// Returns the luminances of a moment. \[cd/m²\]
     fn luminances(&self, outside: &Outside, scenery: &Scenery<'_>) -> Vec<f32> {
         let skyline = scenery.skyline.map_or(outside.skyline_luminance(), |skyline| skyline.luminance);
         let even = [skyline, 1.0, outside.ground_luminance()];
@@ -123,12 +128,12 @@ impl Sources {
     }
 }
 
-/// What lights a node while it is collected.
+/// Collector of the weights of all light on a node.
 struct Gathering<'a> {
     sources: &'a Sources,
     ground: (usize, &'a OpenGround),
     exchange: &'a Panels,
-    /// By source, and by other node.
+    /// Weights by source; `by_other` holds those by other node.
     row: Vec<f64>,
     by_other: Vec<f64>,
 }
@@ -179,11 +184,12 @@ fn trial(outside: &Outside, [cos, sin]: [f64; 2]) -> (Outside, Sun) {
 }
 
 impl Prepared {
-    /// Prepares `setting`, everything in the world's axes. `outside`: only the shape of its skyline counts, and for which reflectance of the ground light is exchanged at once. `turn`: cosine and
-    /// sine of the turn of the room's x axis. `viewpoints`: corners of the apertures. \[m\]
+    /// Prepares `setting`, everything in the world's axes. `outside`: only the shape of its skyline counts, and the
+    /// reflectance of its ground, for which light is exchanged at once. `turn`: cosine and sine of the rotation of the
+    /// room's x axis. `viewpoints`: corners of the apertures. \[m\]
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` says so.
+    /// Returns [`Cancelled`] if `progress` is cancelled.
     pub fn new(
         outside: &Outside,
         setting: Setting,
@@ -285,7 +291,7 @@ impl Prepared {
         self.solved(&self.scenery(outside, None));
     }
 
-    /// Luminance of the nodes by source, for the ground of a scenery.
+    /// Returns the luminance of the nodes by source, for the ground of a scenery.
     fn solved(&self, scenery: &Scenery<'_>) -> Arc<Mat<f32>> {
         let key = scenery.surfaces[scenery.ground()].reflectance.to_bits();
         // What is kept is whole even if another thread has failed while it held the lock.
@@ -317,7 +323,7 @@ impl Prepared {
         seen
     }
 
-    /// Luminance of the nodes that are seen, without the sun's own, in moments with the same ground. \[cd/m²\]
+    /// Computes the luminance of the nodes in view, without the sun's own, in moments with the same ground. \[cd/m²\]
     fn exchanged(&self, moments: &[(&Outside, &Scenery<'_>)]) -> Vec<Vec<f32>> {
         let Some((_, scenery)) = moments.first() else { return Vec::new() };
         let sent: Vec<f32> =
@@ -347,8 +353,8 @@ impl Prepared {
         moments.iter().zip(surfaces).map(whole).collect()
     }
 
-    /// Calls `add` with the places of the luminances that are seen from a point in a direction, and what each counts for; returns
-    /// a number of the surface that is seen.
+    /// Calls `add` with the indices of the luminances that are seen from a point in a direction, and the weight of
+    /// each; returns a number of the surface that is seen.
     pub fn look(&self, eye: DVec3, towards: DVec3, mut add: impl FnMut(usize, f64)) -> usize {
         let sources = &self.seen;
         let hit = first_hit(self.boxes.iter().enumerate(), eye, towards);
@@ -387,8 +393,8 @@ impl Prepared {
         surface
     }
 
-    /// Returns what the luminances of a moment count for in the illuminance of the plane of `frame` at a point, through every
-    /// patch of a division of its hemisphere. \[sr\]
+    /// Returns the weights of the luminances of a moment in the illuminance of the plane of `frame` at a point, for
+    /// every patch of a division of its hemisphere. \[sr\]
     pub fn patches(&self, eye: DVec3, frame: &Frame, basis: &RingBasis) -> Vec<Counts> {
         let [few, many] =
             DIRECTIONS.map(|(all, [least, most])| (all / basis.len()).next_power_of_two().clamp(least, most));
@@ -417,7 +423,7 @@ impl Prepared {
         (0..basis.len()).map(of).collect()
     }
 
-    /// Returns `outside`, which has the same skyline, with boxes and ground before it as sky and sun light them.
+    /// Returns `outside`, which has the same skyline, behind boxes and ground as sky and sun light them.
     pub fn under(&self, outside: &Outside, sun: Option<&Sun>) -> Outside {
         let skyline = skyline(outside);
         let direct_sun = direct_sun(outside, skyline, sun);

@@ -1,7 +1,7 @@
-//! What is seen from a point past what stands around it.
+//! View from a point past the obstructions around it.
 //!
 //! Along a meridian of any frame (a half plane through its pole) every straight edge is met at most once, at a polar
-//! angle in closed form. Between the edges and the horizon one thing alone is seen, so that one ray tells what it is, and
+//! angle in closed form. Between the edges and the horizon one thing alone is seen, so that one ray identifies it, and
 //! its light is smooth there. A skyline, and the steps of a measured sky, have such angles only along the meridians of
 //! the dome: regions of other frames are swept by the bearing then (`on_dome`).
 
@@ -14,34 +14,34 @@ use crate::compute::sweep::{rule, rule_over, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The outside from one point.
+/// The outside as seen from one point.
 pub(super) struct Prospect<'a> {
-    /// Sky, ground and flat skyline, without what stands before them.
+    /// Sky, ground and flat skyline, without surroundings.
     pub open: &'a Outside,
     pub surroundings: &'a Surroundings,
-    /// Without a point the skyline alone counts.
+    /// Point that the outside is seen from; without one only the skyline counts.
     eye: Option<DVec3>,
     edges: Vec<Edge>,
-    /// What may be seen of every box.
+    /// Cap that holds all that is seen of every box.
     bounds: Vec<Cap>,
     /// Normals of planes through the point between which every box is seen; none where it may be seen anywhere.
     cones: Vec<Vec<DVec3>>,
-    /// Where the sky's luminance has its peak.
+    /// Direction in which the sky's luminance peaks.
     pub peak: Option<DVec3>,
 }
 
-/// An edge as vectors from the point.
+/// An edge as vectors from the viewpoint.
 struct Edge {
     ends: [DVec3; 2],
     bound: Cap,
 }
 
-/// What of the foreground may be seen in a part of the sphere.
+/// Part of the surroundings that may be seen in a part of the sphere.
 #[derive(Default)]
 pub(super) struct Near {
-    /// Edges as vectors from the point.
+    /// Edges as vectors from the viewpoint. \[m\]
     pub edges: Vec<[DVec3; 2]>,
-    /// Indices of boxes.
+    /// Indices of the boxes.
     solids: Vec<usize>,
 }
 
@@ -52,16 +52,16 @@ pub(super) struct Along {
     passed: Vec<(usize, [f64; 2])>,
 }
 
-/// ∫ of luminance times weight over parts of a region.
+/// Integrals of luminance times weight over parts of a region.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Parts {
-    /// What stands before sky and ground.
+    /// Integral over the surroundings in front of sky and ground.
     pub before: f64,
-    /// How far that may be off for the light on faces.
+    /// Uncertainty of that integral due to the light on faces.
     pub uncertainty: f64,
-    /// Sky and ground where something stands before them.
+    /// Integral over sky and ground where the surroundings hide them.
     pub behind: f64,
-    /// Sky and ground of the whole region, by the same points.
+    /// Integral over sky and ground of the whole region, by the same points.
     pub open: f64,
 }
 
@@ -72,7 +72,7 @@ impl Parts {
 }
 
 impl<'a> Prospect<'a> {
-    /// Past lit boxes.
+    /// Creates the view past lit boxes.
     pub fn new(open: &'a Outside, surroundings: &'a Surroundings, eye: Option<DVec3>) -> Self {
         let edges = eye.map_or_else(Vec::new, |eye| surroundings.edges_from(eye)).into_iter().map(|ends| {
             let [a, b] = ends.map(DVec3::normalize_or_zero);
@@ -88,7 +88,7 @@ impl<'a> Prospect<'a> {
         Self { open, surroundings, eye, edges, bounds, cones, peak }
     }
 
-    /// What of the foreground may be seen in a part of the sphere; `None` where nothing may.
+    /// Returns the part of the surroundings that may be seen in a part of the sphere; `None` where there is none.
     pub fn near(&self, part: &Cap) -> Option<Near> {
         let rises = self.surroundings.skyline.as_ref().is_some_and(|skyline| {
             let altitude = part.middle.z.clamp(-1.0, 1.0).asin();
@@ -110,7 +110,7 @@ impl<'a> Prospect<'a> {
         let passed = near.solids.iter().filter_map(|&solid| {
             let mut between = [f64::NEG_INFINITY, f64::INFINITY];
             for normal in &self.cones[solid] {
-                // Before the plane: across sin θ + up cos θ > 0.
+                // In front of the plane: across sin θ + up cos θ > 0.
                 let (across, up) = (normal.dot(meridian.along), normal.dot(meridian.pole));
                 let at = -across / up;
                 if up > 0.0 {
@@ -126,8 +126,8 @@ impl<'a> Prospect<'a> {
         Along { meridian, passed: passed.collect() }
     }
 
-    /// Returns what is met before sky and ground in a direction of a meridian, to be looked at in directions that meet nothing
-    /// else.
+    /// Returns the surroundings met in a direction of a meridian, for evaluation in directions that meet nothing else;
+    /// `None`: sky or ground.
     pub fn met(&self, Along { meridian, passed }: &Along, direction: DVec3) -> Option<Shown<'_>> {
         let at = direction.dot(meridian.pole) / direction.dot(meridian.along);
         let solids = passed.iter().filter(|(_, [low, high])| at > *low && at < *high).map(|(solid, _)| *solid);
@@ -135,13 +135,13 @@ impl<'a> Prospect<'a> {
         Some(self.surroundings.shown(met, self.eye))
     }
 
-    /// Luminance of sky and ground. \[cd/m²\]
+    /// Returns the luminance of sky and ground. \[cd/m²\]
     pub fn open_luminance(&self, direction: DVec3) -> f64 {
         self.open.luminance(crate::compute::direction::Dir::from_unit(direction))
     }
 
-    /// Polar angles within a range at which a meridian meets an edge or the horizon, the flat skyline's too; rising, with
-    /// the ends.
+    /// Writes the polar angles within a range at which a meridian meets an edge or the horizon, the flat skyline's too;
+    /// rising, with the ends.
     fn breaks(&self, frame: &Frame, phi: f64, range: (f64, f64), edges: &[[DVec3; 2]], out: &mut Vec<f64>) {
         out.clear();
         out.push(range.0);
@@ -177,8 +177,8 @@ impl<'a> Prospect<'a> {
         out.sort_unstable_by(f64::total_cmp);
     }
 
-    /// Zenith angles at which the meridian of a bearing meets edges, the horizon, skylines, the rows of a measured sky and
-    /// the altitude of the sky's peak; `more` besides. Rising from 0 to π.
+    /// Writes the zenith angles at which the meridian of a bearing meets edges, the horizon, skylines, the rows of a
+    /// measured sky and the altitude of the sky's peak, with those of `more`; rising from 0 to π.
     pub fn breaks_at_bearing(&self, bearing: f64, edges: &[[DVec3; 2]], more: &[f64], out: &mut Vec<f64>) {
         self.breaks(&Frame::DOME, bearing, (0.0, PI), edges, out);
         out.extend(self.surroundings.skyline.iter().map(|skyline| FRAC_PI_2 - skyline.altitude(bearing)));
@@ -190,8 +190,9 @@ impl<'a> Prospect<'a> {
         out.sort_unstable_by(f64::total_cmp);
     }
 
-    /// Frame whose pole lies in a plane: of the axes of the plane's `frame` the one about which edges before the plane turn
-    /// by the least angle in all. Its meridians run along most edges and meet few; those before the plane are φ in 0 … π.
+    /// Returns a frame whose pole lies in a plane: of the axes of the plane's `frame` the one about which edges in
+    /// front of the plane span the smallest sum of angles. Its meridians run along most edges and meet few; those in
+    /// front of the plane are φ in 0 … π.
     pub fn frame_along_edges(&self, frame: &Frame) -> Frame {
         let axes = [
             Frame { x: frame.y, y: frame.z, z: frame.x },
@@ -208,12 +209,12 @@ impl<'a> Prospect<'a> {
         axes[usize::from(turns[1] < turns[0])]
     }
 
-    /// Has what is seen borders that are simple along bearings alone?
+    /// Whether the view has borders that are simple along bearings alone.
     pub fn is_of_the_dome(&self) -> bool {
         self.surroundings.skyline.is_some() || self.open.is_piecewise_constant()
     }
 
-    /// Along one meridian: what a region holds, all as densities of azimuth; the first number is what steers a sweep.
+    /// Integrates along one meridian of a region, all as densities of azimuth; the first number is what steers a sweep.
     fn line(
         &self,
         region: &Region,
@@ -238,7 +239,7 @@ impl<'a> Prospect<'a> {
         sum
     }
 
-    /// Adds what is seen between two angles along a meridian, between which one thing alone is seen.
+    /// Adds the light between two angles along a meridian, between which one thing alone is seen.
     pub fn add(&self, along: &Along, (from, to): (f64, f64), density: impl Fn(f64, DVec3) -> f64, sum: &mut [f64; 5]) {
         let width = to - from;
         let mut met = self.met(along, along.meridian.direction(from + 0.5 * width));
@@ -263,7 +264,7 @@ impl<'a> Prospect<'a> {
         }
     }
 
-    /// Azimuths within a region at which what stands before sky and ground begins or ends.
+    /// Returns the azimuths within a region at which the surroundings begin or end.
     fn knots(&self, region: &Region, near: &Near) -> Vec<f64> {
         let mut inner = Vec::new();
         region.cut_knots(0.0, &mut inner);
@@ -284,12 +285,13 @@ impl<'a> Prospect<'a> {
         region.sorted(inner)
     }
 
-    /// What a region holds by meridians of its own frame; `None` where nothing stands before sky and ground there. And the error of the cubature.
+    /// Integrates over a region by meridians of its own frame, with the error of the cubature; `None` where no
+    /// surroundings hide sky and ground.
     pub fn over(&self, region: &Region, weight: Weight, relative: f64, absolute: f64) -> Option<(Parts, f64)> {
         self.over_by(region, &|theta, _| weight.density(theta), relative, absolute)
     }
 
-    /// [`Self::over`] for any density per θ and φ at a θ and a direction.
+    /// Computes [`Self::over`] for any density per θ and φ at a θ and a direction.
     pub fn over_by(
         &self,
         region: &Region,
@@ -320,12 +322,12 @@ impl<'a> Prospect<'a> {
     }
 }
 
-/// Regions wider than this are integrated adaptively. \[rad\]
+/// Width above which regions are integrated adaptively. \[rad\]
 const LARGE: f64 = 0.5;
-/// What fixed points cost in smaller ones, relative to what is changed.
+/// Error of fixed points in smaller regions, relative to the change by the surroundings.
 const SMALL_ERROR: f64 = 1e-3;
 
-/// What may be seen of a box from a point.
+/// Returns the cap that holds all that is seen of a box from a point.
 fn bound(solid: &Solid, eye: DVec3) -> Cap {
     let to = solid.middle() - eye;
     let (distance, radius) = (to.length(), solid.radius());
@@ -335,7 +337,7 @@ fn bound(solid: &Solid, eye: DVec3) -> Cap {
     Cap { middle: to / distance, reach: (radius / distance).asin() }
 }
 
-/// Points of a segment at which the angle to an axis has a value: (p·z)² = cos²θ |p|².
+/// Returns the points of a segment at which the angle to an axis has a value: (p·z)² = cos²θ |p|².
 pub(super) fn on_cone(a: DVec3, b: DVec3, axis: DVec3, theta: f64) -> impl Iterator<Item = DVec3> {
     let (d, cosine) = (b - a, theta.cos());
     let square = cosine * cosine;

@@ -1,4 +1,4 @@
-//! What places of surfaces see: collected once, and asked again as the light of surfaces changes.
+//! Views of places on surfaces: collected once, and evaluated again as the light of surfaces changes.
 
 use super::equations::{Counts, Panels, SparseSum};
 use super::open_ground::OpenGround;
@@ -8,17 +8,17 @@ use crate::compute::surroundings::face_light::FaceLight;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum number of parts that are kept: 64 MB of them.
+/// Maximum number of parts that are kept: 64 MB.
 const KEPT: usize = 4_000_000;
 
 /// Part of a surface in a view: surface, coordinates there \[m\], projected solid angle \[sr\].
 type Part = (u32, [f32; 2], f32);
 
-/// What a place sees.
+/// Light that a place receives: a fixed part, and the parts of surfaces in view.
 pub(super) struct Received {
     /// Illuminance by sky, skyline, stated luminances, the sun's own light on surfaces, and open ground. \[lx\]
     rest: f64,
-    /// Parts of surfaces whose smooth light counts, too.
+    /// Parts of surfaces whose smooth light counts in addition.
     parts: Vec<Part>,
 }
 
@@ -32,8 +32,8 @@ impl Received {
         self.rest + self.parts.iter().map(part).sum::<f64>()
     }
 
-    /// Returns the illuminance by all but the nodes of panels, and the weights of these. `others`: light of surfaces without
-    /// nodes of their own. \[lx, sr\]
+    /// Returns the illuminance by all but the nodes of panels \[lx\], and the weights of these \[sr\]. `others`: light
+    /// of surfaces without nodes of their own.
     pub fn by_node(&self, panels: &Panels, others: &[Option<&FaceLight>], sum: &mut SparseSum) -> (f64, Counts) {
         let mut rest = self.rest;
         for (surface, at, counts) in &self.parts {
@@ -50,7 +50,7 @@ impl Received {
 /// Surface and coordinates of a place, as bits.
 type Key = (usize, [u64; 2]);
 
-/// Views of places, kept as far as there is room for them.
+/// Views of places, cached up to a limit.
 pub(super) struct Views<'a> {
     scenery: &'a Scenery<'a>,
     ground: &'a OpenGround,
@@ -58,12 +58,12 @@ pub(super) struct Views<'a> {
 }
 
 impl<'a> Views<'a> {
-    /// Keeps none yet.
+    /// Creates an empty cache.
     pub fn new(scenery: &'a Scenery<'a>, ground: &'a OpenGround) -> Self {
         Self { scenery, ground, kept: Mutex::default() }
     }
 
-    /// Returns what a place of a surface sees; `None` where a body covers it.
+    /// Returns the view of a place of a surface; `None` where a body covers it.
     pub fn of(&self, surface: usize, at: [f64; 2]) -> Option<Arc<Received>> {
         let key = (surface, at.map(f64::to_bits));
         // What is kept is whole even if another thread has failed while it held the lock.

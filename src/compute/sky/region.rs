@@ -16,24 +16,24 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Of an aperture in a room.
+    /// Returns the frame of an aperture in a room.
     pub fn of_aperture(orientation: Orientation, surface: Surface) -> Self {
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z]
             .map(|axis| orientation.world_from_room(Dir::from_unit(surface.room_from_facade(axis))).vector());
         Self { x, y, z }
     }
 
-    /// Of a plane given by its normal alone; x is horizontal.
+    /// Returns the frame of a plane given by its normal alone; x is horizontal.
     pub fn facing(normal: Dir<World>) -> Self {
         let z = normal.vector();
         let x = DVec3::Z.cross(z).try_normalize().unwrap_or(DVec3::X);
         Self { x, y: z.cross(x), z }
     }
 
-    /// Bearings and zenith angles: φ is the compass bearing, θ = 90° − altitude.
+    /// Frame of bearings and zenith angles: φ is the compass bearing, θ = 90° − altitude.
     pub(super) const DOME: Self = Self { x: DVec3::Y, y: DVec3::X, z: DVec3::Z };
 
-    /// Unit vector of a polar angle from the normal and an azimuth. \[rad\]
+    /// Returns the unit vector of a polar angle from the normal and an azimuth. \[rad\]
     #[inline]
     pub fn direction(&self, theta: f64, phi: f64) -> DVec3 {
         let (sin_theta, cos_theta) = theta.sin_cos();
@@ -47,7 +47,7 @@ impl Frame {
         Meridian { along: self.x * cos + self.y * sin, pole: self.z }
     }
 
-    /// (θ, φ) of a world direction. \[rad\]
+    /// Returns (θ, φ) of a world direction. \[rad\]
     pub(super) fn angles(&self, v: DVec3) -> (f64, f64) {
         let (x, y, z) = (self.x.dot(v), self.y.dot(v), self.z.dot(v));
         (x.hypot(y).atan2(z), y.atan2(x))
@@ -57,13 +57,13 @@ impl Frame {
 /// The directions of one azimuth of a frame.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meridian {
-    /// Where the polar angle is 90°, and where it is 0.
+    /// Direction at a polar angle of 90°; `pole` is that at 0.
     pub along: DVec3,
     pub pole: DVec3,
 }
 
 impl Meridian {
-    /// Returns the unit vector of a polar angle: [`Frame::direction`] but for rounding, at less cost. \[rad\]
+    /// Returns the unit vector of a polar angle like [`Frame::direction`], except for rounding, at less cost. \[rad\]
     #[inline]
     pub fn direction(&self, theta: f64) -> DVec3 {
         let (sin, cos) = theta.sin_cos();
@@ -71,17 +71,17 @@ impl Meridian {
     }
 }
 
-/// What a direction counts for.
+/// Weight of a direction in an integral.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Weight {
-    /// cosθ dω
+    /// Projected solid angle, cosθ dω.
     Projected,
-    /// dω
+    /// Solid angle, dω.
     Solid,
 }
 
 impl Weight {
-    /// Weight per θ and φ.
+    /// Returns the weight per θ and φ.
     #[inline]
     pub(super) fn density(self, theta: f64) -> f64 {
         match self {
@@ -90,7 +90,7 @@ impl Weight {
         }
     }
 
-    /// ∫ of the density from a to b.
+    /// Returns ∫ of the density from a to b.
     #[inline]
     pub(super) fn between(self, a: f64, b: f64) -> f64 {
         match self {
@@ -100,7 +100,7 @@ impl Weight {
     }
 }
 
-/// A part of the sphere: its middle, and how far it reaches. \[rad\]
+/// A part of the sphere: its middle, and its angular radius. \[rad\]
 #[derive(Clone, Copy)]
 pub(super) struct Cap {
     pub middle: DVec3,
@@ -108,14 +108,14 @@ pub(super) struct Cap {
 }
 
 impl Cap {
-    /// May both have a direction in common?
+    /// Whether both may have a direction in common.
     pub fn touches(&self, other: &Self) -> bool {
         let reach = self.reach + other.reach;
         reach >= PI || self.middle.dot(other.middle) > reach.cos()
     }
 }
 
-/// θ₀ … θ₁ × φ₀ … φ₁ of a frame. \[rad\]
+/// Rectangle θ₀ … θ₁ × φ₀ … φ₁ of a frame. \[rad\]
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
     pub frame: Frame,
@@ -124,7 +124,7 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// A cap that holds it.
+    /// Returns a cap that holds the region.
     pub fn cap(&self) -> Cap {
         let (theta, phi) = (0.5 * (self.theta.0 + self.theta.1), 0.5 * (self.phi.0 + self.phi.1));
         let (high, wide) = (self.theta.1 - self.theta.0, self.phi.1 - self.phi.0);
@@ -132,21 +132,22 @@ impl Region {
         Cap { middle: self.frame.direction(theta, phi), reach }
     }
 
-    /// Does it hold a direction, to rounding?
+    /// Whether the region holds a direction, to rounding.
     pub fn holds(&self, direction: DVec3, slack: f64) -> bool {
         let (theta, phi) = self.frame.angles(direction);
         let past = (phi - self.phi.0 + slack).rem_euclid(2.0 * PI);
         theta >= self.theta.0 - slack && theta <= self.theta.1 + slack && past <= self.phi.1 - self.phi.0 + 2.0 * slack
     }
 
-    /// Coefficients A, B of n·d = A sinθ + B cosθ along a line of constant φ.
+    /// Returns the coefficients A, B of n·d = A sinθ + B cosθ along a line of constant φ.
     #[inline]
     pub fn along(&self, n: DVec3, phi: f64) -> (f64, f64) {
         let (sin, cos) = phi.sin_cos();
         (self.frame.x.dot(n) * cos + self.frame.y.dot(n) * sin, self.frame.z.dot(n))
     }
 
-    /// Interval of θ within the region on which a line of constant φ is at or above the altitude of sine `level` ≥ 0.
+    /// Returns the interval of θ within the region on which a line of constant φ is at or above the altitude of sine
+    /// `level` ≥ 0.
     #[inline]
     pub fn above(&self, phi: f64, level: f64) -> Option<(f64, f64)> {
         let (a, b) = self.along(DVec3::Z, phi);
@@ -161,7 +162,7 @@ impl Region {
         (high > low).then_some((low, high))
     }
 
-    /// Azimuths within the region where the circle n·d = `level` crosses the polar angle θ.
+    /// Adds the azimuths within the region where the circle n·d = `level` crosses the polar angle θ.
     pub fn crossings(&self, n: DVec3, level: f64, theta: f64, out: &mut Vec<f64>) {
         let (sin, cos) = theta.sin_cos();
         if sin < 1e-12 {
@@ -170,7 +171,7 @@ impl Region {
         self.azimuths(n, (level - self.frame.z.dot(n) * cos) / sin, out);
     }
 
-    /// Azimuths within the region where the component A(φ) of n has a value.
+    /// Adds the azimuths within the region where the component A(φ) of n has a value.
     fn azimuths(&self, n: DVec3, value: f64, out: &mut Vec<f64>) {
         let (x, y) = (self.frame.x.dot(n), self.frame.y.dot(n));
         let rho = x.hypot(y);
@@ -183,7 +184,7 @@ impl Region {
         }
     }
 
-    /// Adds an azimuth, turned into the region's range, if it lies in it.
+    /// Adds an azimuth, shifted by whole turns into the region's range, if it lies in it.
     pub fn push_azimuth(&self, phi: f64, out: &mut Vec<f64>) {
         let turned = self.phi.0 + (phi - self.phi.0).rem_euclid(2.0 * PI);
         if turned < self.phi.1 {
@@ -191,7 +192,7 @@ impl Region {
         }
     }
 
-    /// Azimuths at which the cut at an altitude of sine `level` meets the region's border or begins.
+    /// Adds the azimuths at which the cut at an altitude of sine `level` meets the region's border or begins.
     pub fn cut_knots(&self, level: f64, out: &mut Vec<f64>) {
         for theta in [self.theta.0, self.theta.1] {
             self.crossings(DVec3::Z, level, theta, out);
@@ -204,7 +205,7 @@ impl Region {
         }
     }
 
-    /// The same azimuths as a rising list from φ₀ to φ₁, slivers left out.
+    /// Returns azimuths as a rising list from φ₀ to φ₁, without slivers.
     pub fn sorted(&self, mut inner: Vec<f64>) -> Vec<f64> {
         inner.sort_by(f64::total_cmp);
         let mut knots = vec![self.phi.0];

@@ -22,8 +22,8 @@ pub struct SkySamples {
 }
 
 impl SkySamples {
-    /// Directions above a skyline's `altitude` \[rad\] (0: above the horizon), no further apart than about `spacing`
-    /// \[rad\], in all cells that reach above the horizon.
+    /// Creates directions above a skyline's `altitude` \[rad\] (0: above the horizon), no further apart than about
+    /// `spacing` \[rad\], in all cells that reach above the horizon.
     pub fn new(basis: &RingBasis, frame: &Frame, altitude: f64, spacing: f64) -> Self {
         let mut samples = Self { cells: Vec::new(), first: vec![0], directions: Vec::new(), weights: Vec::new() };
         let rules: Vec<Vec<(f64, f64)>> = (0..=MOST_POINTS).map(gauss_legendre).collect();
@@ -53,7 +53,7 @@ impl SkySamples {
         samples
     }
 
-    /// Adds the points of a region.
+    /// Adds the points of the part of a region above the altitude of sine `level`.
     fn cut(&mut self, region: &Region, level: f64, rules: &[Vec<(f64, f64)>], points: impl Fn(f64) -> usize) {
         for (from, to) in strips(region, level) {
             let begin = self.weights.len();
@@ -82,8 +82,8 @@ impl SkySamples {
         }
     }
 
-    /// Leaves out what is hidden; `open`: the projected solid angle that each of [`Self::cells`] keeps, to which the weights
-    /// of what is left are scaled. \[sr\]
+    /// Removes hidden directions; `open`: projected solid angle that each of [`Self::cells`] keeps, to which the
+    /// weights of the remaining directions are scaled. \[sr\]
     pub fn without(&mut self, hidden: impl Fn(DVec3) -> bool, open: &[f64]) {
         let (mut first, mut directions, mut weights) = (vec![0], Vec::new(), Vec::new());
         for (pair, open) in self.first.windows(2).zip(open) {
@@ -94,7 +94,7 @@ impl SkySamples {
                     weights.push(self.weights[k]);
                 }
             }
-            // A cell of which but a corner shows, between the directions: they stand for it.
+            // A cell of which only a corner shows, between the directions: all of them represent it.
             if weights.len() == begin && *open > 0.0 {
                 directions.extend(&self.directions[pair[0]..pair[1]]);
                 weights.extend(&self.weights[pair[0]..pair[1]]);
@@ -108,17 +108,17 @@ impl SkySamples {
         (self.first, self.directions, self.weights) = (first, directions, weights);
     }
 
-    /// The cells that reach above the horizon, rising.
+    /// Returns the indices of the cells that reach above the horizon, rising.
     pub fn cells(&self) -> &[usize] {
         &self.cells
     }
 
-    /// Number of directions.
+    /// Returns the number of directions.
     pub fn len(&self) -> usize {
         self.directions.len()
     }
 
-    /// Numbers that only the same directions with the same weights have.
+    /// Returns a hash that only the same directions with the same weights have.
     pub fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         self.first.hash(&mut hasher);
@@ -128,13 +128,13 @@ impl SkySamples {
         hasher.finish()
     }
 
-    /// No direction at all: the aperture sees no sky.
+    /// Whether there is no direction: the aperture sees no sky.
     pub fn is_empty(&self) -> bool {
         self.directions.is_empty()
     }
 
-    /// Illuminance \[lx\] through every one of [`Self::cells`] by the open sky alone, without ground and skyline.
-    /// The outside's skyline must be the one these samples were made for.
+    /// Computes the illuminance through every one of [`Self::cells`] by the open sky alone, without ground and skyline.
+    /// \[lx\] The outside's skyline must be the one these samples were made for.
     pub fn illuminances(&self, outside: &Outside, out: &mut Vec<f64>) {
         out.clear();
         out.extend(self.first.windows(2).map(|pair| {
@@ -145,10 +145,10 @@ impl SkySamples {
     }
 }
 
-/// Most points along one side of a piece.
+/// Maximum number of points along one side of a piece.
 const MOST_POINTS: usize = 8;
 
-/// Intervals of azimuth on which the part above a level is bounded by smooth limits.
+/// Returns the intervals of azimuth on which the part above a level is bounded by smooth limits.
 fn strips(region: &Region, level: f64) -> Vec<(f64, f64)> {
     let mut inner = Vec::new();
     region.cut_knots(level, &mut inner);
@@ -157,7 +157,7 @@ fn strips(region: &Region, level: f64) -> Vec<(f64, f64)> {
     knots.windows(2).filter(|pair| open(pair)).map(|pair| (pair[0], pair[1])).collect()
 }
 
-/// Projected solid angle above a level. \[sr\]
+/// Returns the projected solid angle above a level. \[sr\]
 fn solid(region: &Region, level: f64, rules: &[Vec<(f64, f64)>]) -> f64 {
     let share = |(from, to): (f64, f64)| -> f64 {
         let at = |s: f64| region.above(from + (to - from) * s, level);

@@ -12,18 +12,18 @@ pub struct Scan {
 }
 
 impl Scan {
-    /// From exactly 145 values; `None` when their number differs, or one is negative or not finite.
+    /// Creates the sky from exactly 145 values; `None` when their number differs, or one is negative or not finite.
     pub fn new(values: &[f64]) -> Option<Self> {
         let values: [f64; 145] = values.try_into().ok()?;
         values.iter().all(|value| value.is_finite() && *value >= 0.0).then_some(Self { values })
     }
 
-    /// The 145 luminances. \[cd/m²\]
+    /// Returns the 145 luminances. \[cd/m²\]
     pub const fn values(&self) -> &[f64; 145] {
         &self.values
     }
 
-    /// Index of the cell that holds a direction above the horizon.
+    /// Returns the index of the cell that holds a direction above the horizon.
     pub fn index(v: DVec3) -> usize {
         let altitude = v.z.atan2(v.truncate().length()).max(0.0);
         let row = ((altitude / ROW_HEIGHT) as usize).min(ROWS.len() - 1);

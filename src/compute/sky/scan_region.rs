@@ -13,7 +13,7 @@ use crate::compute::quadrature::{Tolerance, integrate};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Normals of the vertical planes that hold the borders of the rows' sectors, each once.
+/// Returns the normals of the vertical planes that hold the borders of the rows' sectors, each once.
 fn meridian_planes() -> Vec<DVec3> {
     let mut bearings: Vec<f64> = ROWS[..7]
         .iter()
@@ -24,7 +24,7 @@ fn meridian_planes() -> Vec<DVec3> {
     bearings.into_iter().map(|bearing| DVec3::new(bearing.cos(), -bearing.sin(), 0.0)).collect()
 }
 
-/// Bearings of all borders between sectors. \[rad\]
+/// Returns the bearings of all borders between sectors. \[rad\]
 pub(super) fn sector_bearings() -> Vec<f64> {
     let of = |&count: &usize| (0..count).map(move |k| (k as f64 + 0.5) * 2.0 * PI / count as f64);
     let mut bearings: Vec<f64> = ROWS[..7].iter().flat_map(of).collect();
@@ -33,7 +33,7 @@ pub(super) fn sector_bearings() -> Vec<f64> {
     bearings
 }
 
-/// Corners of the lattice's cells.
+/// Returns the corners of the lattice's cells as unit vectors.
 fn corners() -> Vec<DVec3> {
     let mut corners = Vec::new();
     for (row, &count) in ROWS[..7].iter().enumerate() {
@@ -48,7 +48,8 @@ fn corners() -> Vec<DVec3> {
     corners
 }
 
-/// ∫ L · weight over the part of a region above the skyline. `cuts`: azimuths φ₀ … φ₁ at which that part has knots.
+/// Computes ∫ L · weight over the part of a region above the skyline. `cuts`: azimuths φ₀ … φ₁ at which that part has
+/// knots.
 pub(super) fn integrate_scan(
     outside: &Outside,
     region: &Region,

@@ -23,18 +23,18 @@ pub enum Finish {
 /// Obstructions of a scene in one frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
-    /// Overhangs, fins, neighbours: what rises above the ground.
+    /// Overhangs, fins and neighbours: boxes that rise above the ground.
     pub boxes: Vec<(Solid, Finish)>,
     /// The room's own box.
     pub room: Solid,
-    /// The building that holds it, and its reflectance.
+    /// The building that holds the room, and its reflectance.
     pub building: Option<(Solid, f64)>,
     /// Height of the ground. \[m\]
     pub ground: f64,
 }
 
 impl Setting {
-    /// The whole turned about the vertical through the origin; cosine and sine of the angle.
+    /// Returns the setting rotated about the vertical through the origin; `turn`: cosine and sine of the angle.
     pub fn turned(&self, turn: [f64; 2]) -> Self {
         Self {
             boxes: self.boxes.iter().map(|(solid, finish)| (solid.turned(turn), *finish)).collect(),
@@ -48,12 +48,12 @@ impl Setting {
     fn bodies(&self) -> Vec<Solid> {
         let above = |solid: &Solid| solid.above(self.ground);
         let mut bodies: Vec<Solid> = self.boxes.iter().map(|(solid, _)| above(solid)).collect();
-        // What a room above the ground stands on hides from faces what is behind it, whatever it is.
+        // The base below a room above the ground hides from faces whatever lies behind it.
         bodies.push(self.building.as_ref().map_or(self.room.down_to(self.ground), |(solid, _)| above(solid)));
         bodies
     }
 
-    /// Number of bodies that stand before the ground: all, or without a building all but the last.
+    /// Returns the number of bodies in front of the ground: all, or without a building all but the last.
     fn before_ground(&self) -> usize {
         self.boxes.len() + usize::from(self.building.is_some())
     }
@@ -72,11 +72,11 @@ pub(super) struct Surface {
     pub face: Face,
     /// Diffuse reflectance.
     pub reflectance: f64,
-    /// Luminance of all of it, whatever falls on it. \[cd/m²\]
+    /// Luminance of the whole surface where it is given, independent of incident light. \[cd/m²\]
     pub stated: Option<f64>,
     /// Luminance that the whole disc of the sun adds where nothing hides it. \[cd/m²\]
     pub sun: f64,
-    /// Shadows on it: convex, counter-clockwise, in its own coordinates.
+    /// Shadows on the surface: convex, counter-clockwise, in its own coordinates.
     pub shadows: Vec<Vec<DVec2>>,
 }
 
@@ -88,9 +88,9 @@ pub(super) struct Scenery<'a> {
     pub skyline: Option<&'a Skyline>,
     /// The boxes; last the building, or the room's own box.
     pub bodies: Vec<Solid>,
-    /// Number of bodies that the ground sees: all, or all but the last.
+    /// Number of bodies in front of the ground: all, or all but the last.
     pub from_ground: usize,
-    /// Six of each body, as [`Solid::face`] counts them; last the ground.
+    /// Six surfaces of each body, as [`Solid::face`] counts them; last the ground.
     pub surfaces: Vec<Surface>,
 }
 
@@ -100,7 +100,7 @@ impl Surface {
         self.reflectance > 0.0 && self.stated.is_none()
     }
 
-    /// Ground at a height \[m\]; cosine and sine of the turn of its first axis.
+    /// Returns ground at a height \[m\]; cosine and sine of the rotation of its first axis.
     pub fn ground(height: f64, reflectance: f64, [cos, sin]: [f64; 2]) -> Self {
         let (u, v) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
         let face = Face { origin: height * DVec3::Z, normal: DVec3::Z, u, v, limits: [[-1e6, 1e6]; 2] };
@@ -116,7 +116,7 @@ fn shadows<'a>(face: &Face, bodies: impl Iterator<Item = &'a Solid>, sun: DVec3)
     bodies.map(|solid| shadow(solid, face, sun)).filter(|outline| outline.len() >= 3).collect()
 }
 
-/// Share of the sun's disc above horizon and skyline.
+/// Returns the share of the sun's disc above horizon and skyline.
 pub(super) fn share_above(outside: &Outside, skyline: Option<&Skyline>, sun: &Sun) -> f64 {
     match skyline {
         Some(skyline) => skyline.free_share(sun.direction.vector(), SUN_HALF_ANGLE),
@@ -125,17 +125,17 @@ pub(super) fn share_above(outside: &Outside, skyline: Option<&Skyline>, sun: &Su
 }
 
 impl Scenery<'_> {
-    /// The ground's place among the surfaces.
+    /// Returns the ground's index among the surfaces.
     pub fn ground(&self) -> usize {
         self.surfaces.len() - 1
     }
 
-    /// Height of the ground. \[m\]
+    /// Returns the height of the ground. \[m\]
     pub fn ground_height(&self) -> f64 {
         self.surfaces[self.ground()].face.origin.z
     }
 
-    /// Bodies that stand before a surface, by their index.
+    /// Returns the bodies in front of a surface, with their indices.
     pub fn others(&self, surface: usize) -> impl Iterator<Item = (usize, &Solid)> {
         let (own, count) =
             if surface == self.ground() { (usize::MAX, self.from_ground) } else { (surface / 6, self.bodies.len()) };
@@ -164,7 +164,7 @@ pub(super) fn scenery<'a>(
     let mut surfaces = Vec::with_capacity(6 * bodies.len() + 1);
     for (solid, finish) in bodies.iter().zip(finishes.chain([Finish::Reflectance(last)])) {
         for number in 0..6 {
-            // What stands on the ground shows nothing of its underside.
+            // The underside of a body on the ground is hidden.
             let hidden = number == 4 && solid.heights()[0] <= height + 1e-9;
             let (reflectance, stated) = match finish {
                 Finish::Reflectance(rho) => (if hidden { 0.0 } else { rho }, None),

@@ -6,23 +6,23 @@ use std::f64::consts::PI;
 /// Mean angular radius of the sun's disc: 0.2665°. \[rad\]
 pub const SUN_HALF_ANGLE: f64 = 0.2665 * PI / 180.0;
 
-/// A uniform disc of angular radius [`SUN_HALF_ANGLE`].
+/// The sun as a uniform disc of angular radius [`SUN_HALF_ANGLE`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sun {
-    /// Towards the centre of the disc.
+    /// Direction towards the centre of the disc.
     pub direction: Dir<World>,
     /// Illuminance on a plane that faces the sun. \[lx\]
     pub direct_normal: f64,
 }
 
 impl Sun {
-    /// Illuminance on the open horizontal plane; 0 with the centre below the horizon. \[lx\]
+    /// Returns the illuminance on the open horizontal plane; 0 with the centre below the horizon. \[lx\]
     pub fn horizontal(&self) -> f64 {
         self.direct_normal * self.direction.vector().z.max(0.0)
     }
 
-    /// Share of the disc above a horizontal edge at an altitude \[rad\], 0 … 1: the edge is taken as a straight chord
-    /// of the disc, good to the square of the disc's radius (2e-5).
+    /// Returns the share of the disc above a horizontal edge at an altitude \[rad\], 0 … 1. The edge is taken as a
+    /// straight chord of the disc, good to the square of the disc's radius (2e-5).
     pub fn share_above(&self, altitude: f64) -> f64 {
         let t = ((self.direction.altitude() - altitude) / SUN_HALF_ANGLE).clamp(-1.0, 1.0);
         // Circular segment of the unit disc with its chord at distance t below the centre.

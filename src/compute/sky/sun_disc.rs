@@ -1,4 +1,4 @@
-//! The sun as a uniform disc of 0.533°: how much of it a receiver sees past straight edges.
+//! The sun as a uniform disc of 0.533°, seen by a receiver past straight edges.
 //!
 //! On the disc's scale every edge (of an aperture, the receiver's own plane, the horizon) is a straight line in the
 //! plane that touches the sphere at the sun's centre.
@@ -10,19 +10,19 @@ use glam::{DVec2, DVec3};
 /// One edge: directions ω with `normal · ω ≥ offset` are free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Need not be of unit length.
+    /// Normal of the edge, not necessarily of unit length.
     pub normal: DVec3,
-    /// 0 for a great circle; sin(altitude) for a skyline with the zenith as normal.
+    /// Offset along the normal: 0 for a great circle; sin(altitude) for a skyline with the zenith as normal.
     pub offset: f64,
 }
 
 impl Edge {
-    /// The half of the sphere on the normal's side.
+    /// Returns the edge that leaves free the half of the sphere on the normal's side.
     pub const fn great_circle(normal: DVec3) -> Self {
         Self { normal, offset: 0.0 }
     }
 
-    /// The edge across a unit normal that leaves a share of the sun's disc free, 0 … 1; `height`: normal · sun.
+    /// Returns the edge across a unit normal that leaves a share of the sun's disc free, 0 … 1; `height`: normal · sun.
     pub fn leaving(normal: DVec3, height: f64, share: f64) -> Self {
         // The segment's chord at distance t of the radius below the centre, by halving.
         let (mut low, mut high) = (-1.0_f64, 1.0_f64);
@@ -42,21 +42,21 @@ impl Edge {
     }
 }
 
-/// Of the disc's radius, what a part spans whose area is taken by its sides alone.
+/// Extent, relative to the disc's radius, below which a part's area is computed from its own corner.
 const SPECK: f64 = 1e-5;
 
-/// Vertices of the polygon that stands for a partly hidden disc.
+/// Number of vertices of the polygon that represents a partly hidden disc.
 const CORNERS: usize = 180;
 
-/// Illuminance of a receiver per normal illuminance of the whole sun: share of the disc that is free, times the mean
+/// Returns the illuminance of a receiver per normal illuminance of the whole sun: free share of the disc times the mean
 /// cosine to the receiver's normal. Exact `receiver · sun` for a free disc, 0 for a hidden one; between them within
 /// 1e-4. The receiver's own plane must be among the edges.
 pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>) -> f64 {
     share_past(sun, receiver, edges, &[])
 }
 
-/// The same where convex bodies hide parts of the disc, too: each by the normals of the planes through the receiver that
-/// hold it, so that it is seen in directions ω with n·ω > 0 for all of them.
+/// Returns [`share`] where convex bodies hide parts of the disc in addition. Each body is given by the normals of the
+/// planes through the receiver that hold it: it is seen in directions ω with n·ω > 0 for all of them.
 pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]) -> f64 {
     match free(sun, edges, bodies) {
         Free::None => 0.0,
@@ -65,7 +65,8 @@ pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = E
     }
 }
 
-/// Towards the middle of what of the disc is free: the sun itself for a free disc, `None` for a hidden one.
+/// Returns the direction towards the middle of the free part of the disc: the sun itself for a free disc, `None` for a
+/// hidden one.
 pub fn middle(sun: DVec3, edges: impl IntoIterator<Item = Edge>) -> Option<DVec3> {
     match free(sun, edges, &[]) {
         Free::None => None,
@@ -74,11 +75,11 @@ pub fn middle(sun: DVec3, edges: impl IntoIterator<Item = Edge>) -> Option<DVec3
     }
 }
 
-/// What of the disc is not hidden.
+/// Part of the disc that is not hidden.
 enum Free {
     None,
     All,
-    /// A share of it; its middle, on the plane that touches the sphere at the sun.
+    /// Share of the disc, and its middle on the plane that touches the sphere at the sun.
     Part {
         share: f64,
         middle: DVec3,
@@ -158,7 +159,8 @@ fn free(sun: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]
     Free::Part { share, middle: sun + u * centroid.x + v * centroid.y }
 }
 
-/// What of convex pieces lies outside of a body: beyond its first border, or within that and beyond the second, …
+/// Returns the parts of convex pieces outside of a body: beyond its first border, or within that and beyond the second,
+/// and so on.
 fn outside_of(pieces: Vec<Vec<DVec2>>, borders: &[(DVec2, f64)]) -> Vec<Vec<DVec2>> {
     let mut left = Vec::with_capacity(pieces.len());
     for mut piece in pieces {
@@ -179,7 +181,7 @@ fn outside_of(pieces: Vec<Vec<DVec2>>, borders: &[(DVec2, f64)]) -> Vec<Vec<DVec
     left
 }
 
-/// The edges of a convex opening given by its corners as vectors from the receiver.
+/// Returns the edges of a convex opening given by its corners as vectors from the receiver.
 pub fn opening(corners: &[DVec3]) -> Vec<Edge> {
     let centre = corners.iter().sum::<DVec3>();
     let tiny = is_tiny(corners);

@@ -1,5 +1,5 @@
-//! Cells of faces and ground of which the sun lights a share: with them, what the sun adds to all that is seen is a sum over cells
-//! with weights that do not depend on the sun.
+//! Cells of faces and ground with a sunlit share each: with them, the light that the sun adds to a view is a sum over
+//! cells with weights that do not depend on the sun.
 
 use super::equations::Panels;
 use super::open_ground::OpenGround;
@@ -9,12 +9,12 @@ use crate::compute::surroundings::face_light::{Branch, FaceLight, Limits};
 use crate::compute::surroundings::shading::without;
 use glam::{DVec2, DVec3};
 
-/// Distance over height of the eye above the ground from which cells of the ground grow in proportion to the square of the
-/// distance: the solid angle that they are seen in falls with its cube.
+/// Distance over height of the eye above the ground from which cells of the ground grow in proportion to the square of
+/// the distance: the solid angle that they are seen in falls with its cube.
 const FAR: f64 = 6.0;
-/// Height of an eye above the ground that counts at least. \[m\]
+/// Minimum height of an eye above the ground. \[m\]
 const LOWEST: f64 = 0.5;
-/// Share of a cell's area that is nothing.
+/// Share of a cell's area that is negligible.
 const NOTHING: f64 = 1e-9;
 
 /// Cells of all surfaces that reflect, numbered throughout.
@@ -25,8 +25,8 @@ pub(super) struct SunCells {
 }
 
 impl SunCells {
-    /// Cuts the surfaces that reflect, or those of them that are `wanted`, into cells whose sides are no longer than `side` times
-    /// the distance from the nearest viewpoint, or `least`. \[m\]
+    /// Cuts the surfaces that reflect, or those of them that are `wanted`, into cells whose sides are no longer than
+    /// `side` times the distance from the nearest viewpoint, or `least`. \[m\]
     pub fn new(
         scenery: &Scenery<'_>,
         ground: &OpenGround,
@@ -97,7 +97,7 @@ struct Shadow<'a> {
     bounds: Limits,
 }
 
-/// What of a rectangle a shadow covers.
+/// Extent to which a shadow covers a rectangle.
 enum Cover {
     Nothing,
     Part,
@@ -135,8 +135,8 @@ const fn corners(&[[a, b], [c, d]]: &Limits) -> [DVec2; 4] {
     [DVec2::new(a, c), DVec2::new(b, c), DVec2::new(b, d), DVec2::new(a, d)]
 }
 
-/// Writes the luminance of the cells of a part of the tree: what `shadows` leave of `sun`, all of them that may reach the part.
-/// \[cd/m²\]
+/// Writes the luminance of the cells of a part of the tree: the part of `sun` outside of `shadows`, which holds all
+/// shadows that may reach the part. \[cd/m²\]
 fn light_up(tree: &[Branch], part: usize, shadows: &[&Shadow<'_>], sun: f64, all: &mut [f64]) {
     let Branch { limits, halves, values } = &tree[part];
     let mut near = Vec::with_capacity(shadows.len());
@@ -153,7 +153,7 @@ fn light_up(tree: &[Branch], part: usize, shadows: &[&Shadow<'_>], sun: f64, all
     }
 }
 
-/// Share of a rectangle outside of all shadows.
+/// Returns the share of a rectangle outside of all shadows.
 fn lit_share(rectangle: &Limits, shadows: &[&Shadow<'_>]) -> f64 {
     if shadows.is_empty() {
         return 1.0;

@@ -1,8 +1,8 @@
 //! View from a point of a face or of the ground past boxes with vertical sides.
 //!
-//! Along a bearing every box is a rectangle of distance and height: its front, and its top or underside. Borders of what
-//! is seen are their ends, the horizon and the skyline, in closed form; between two of them one surface alone is seen, the
-//! nearest. Where the sun lights it and where it lies in shade are intervals of the same line, in closed form, too.
+//! Along a bearing every box is a rectangle of distance and height: its front, and its top or underside. Borders in
+//! view are their ends, the horizon and the skyline, in closed form; between two of them one surface alone is seen, the
+//! nearest. Its sunlit and shaded parts are intervals of the same line, in closed form, too.
 
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
@@ -14,7 +14,7 @@ use crate::compute::sweep::rule;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Share of the view below which all small bodies together are left out.
+/// Share of the view below which all small bodies together are neglected.
 const LEFT_OUT: f64 = 3e-4;
 /// Angular radius below which a body is small. \[rad\]
 const SMALL: f64 = 0.06;
@@ -22,16 +22,17 @@ const SMALL: f64 = 0.06;
 const WITH_KNOTS: usize = 12;
 /// Maximum length of a piece of the sweep. \[rad\]
 const PIECE: f64 = 0.35;
-/// Lengths of a piece from which it has two and three Gauss points. \[rad\]
+/// Lengths of a piece above which it has two and three Gauss points. \[rad\]
 const POINTS: [f64; 2] = [0.02, 0.12];
-/// Length for a further Gauss point along a bearing: on surfaces, and in the sky. \[rad\]
+/// Length along a bearing for a further Gauss point on surfaces. \[rad\]
 const ON_SURFACE: f64 = 0.3;
+/// Length along a bearing for a further Gauss point in the sky. \[rad\]
 const IN_SKY: f64 = 0.2;
-/// The ground ends so far away. \[m\]
+/// Distance at which the ground ends. \[m\]
 const FARTHEST: f64 = 1e7;
 
-/// An outside with its open ground lit by what the skyline leaves of sky and sun, and by the skyline itself; without a
-/// skyline as it is.
+/// Returns an outside with its open ground lit by the sky and sun that the skyline leaves free, and by the skyline
+/// itself; without a skyline unchanged.
 pub fn with_ground_behind_skyline(outside: Outside, sun: Option<&Sun>) -> Outside {
     let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
     if skyline.is_none() && outside.skyline_altitude() <= 0.0 {
@@ -44,11 +45,11 @@ pub fn with_ground_behind_skyline(outside: Outside, sun: Option<&Sun>) -> Outsid
     outside.on_ground(diffuse + direct)
 }
 
-/// A body before a point.
+/// A body in front of a point.
 struct Body<'a> {
     index: usize,
     solid: &'a Solid,
-    /// Bearing of its middle, and how far from it the body is seen. \[rad\]
+    /// Bearing of the body's middle; `reach` is the angle on both sides within which it is seen. \[rad\]
     bearing: f64,
     reach: f64,
 }
@@ -56,7 +57,7 @@ struct Body<'a> {
 /// Part of a surface along a bearing between two altitudes, if nothing is nearer.
 #[derive(Clone, Copy)]
 struct Stretch {
-    /// Altitudes. \[rad\]
+    /// Lower altitude; `high` is the upper one. \[rad\]
     low: f64,
     high: f64,
     surface: usize,
@@ -67,22 +68,23 @@ struct Stretch {
 enum Place {
     /// A vertical surface at a horizontal distance. \[m\]
     Front(f64),
-    /// A horizontal surface, so much above the point. \[m\]
+    /// A horizontal surface at a height above the point. \[m\]
     Level(f64),
 }
 
 impl Place {
-    /// Level distance at an altitude's tangent. \[m\]
+    /// Returns the horizontal distance at an altitude's tangent. \[m\]
     fn distance(self, tangent: f64) -> f64 {
         match self {
             Self::Front(distance) => distance,
-            // Towards the horizon endlessly far.
+            // Towards the horizon infinitely far.
             Self::Level(above) => (above / tangent).abs().min(FARTHEST),
         }
     }
 }
 
-/// A sum over everything that is seen from a point. Each piece comes with its projected solid angle at the point. \[sr\]
+/// A sum over everything that is seen from a point. Each piece comes with its projected solid angle at the point.
+/// \[sr\]
 pub(super) trait Collector {
     /// Adds open sky around a direction.
     fn sky(&mut self, towards: DVec3, counts: f64);
@@ -94,17 +96,17 @@ pub(super) trait Collector {
     fn place(&mut self, surface: usize, at: [f64; 2], counts: f64);
     /// Adds the sunlit part of a reflecting surface.
     fn sunlit(&mut self, surface: usize, counts: f64);
-    /// Returns the length along a bearing for which a surface has a point more. \[rad\]
+    /// Returns the length along a bearing for a further point on a surface. \[rad\]
     fn step(&self) -> f64 {
         ON_SURFACE
     }
 }
 
-/// Illuminance at the point by sky, skyline, stated luminances and sunlit surfaces; the other light of surfaces is left to
-/// `place`.
+/// Illuminance at the point by sky, skyline, stated luminances and sunlit surfaces; the other light of surfaces is left
+/// to `place`.
 struct Falling<'a, F> {
     scenery: &'a Scenery<'a>,
-    /// \[lx\]
+    /// Sum of the illuminance. \[lx\]
     sum: f64,
     place: F,
 }
@@ -141,7 +143,7 @@ pub(super) struct Vista<'a> {
     sees_ground: bool,
 }
 
-/// An angle turned into −π … π.
+/// Returns an angle shifted by whole turns into −π … π.
 fn turned(angle: f64) -> f64 {
     angle - 2.0 * PI * (angle / (2.0 * PI)).round()
 }
@@ -182,16 +184,16 @@ impl<'a> Vista<'a> {
         Self { scenery, eye, normal, bodies, sees_ground }
     }
 
-    /// Light that falls on the point from what sends it whatever the surfaces' smooth light is: sky, skyline, stated
-    /// luminances, surfaces in the sun. \[lx\] Of places whose smooth light is asked for `place` gets the surface, the
-    /// coordinates on it and what its luminance counts for. \[sr\]
+    /// Computes the light on the point that does not depend on the surfaces' smooth light: from sky, skyline, stated
+    /// luminances, sunlit surfaces. \[lx\] `place` is called with the surface, the coordinates on it and the projected
+    /// solid angle of places whose smooth light counts. \[sr\]
     pub fn gather(&self, place: impl FnMut(usize, [f64; 2], f64)) -> f64 {
         let mut falling = Falling { scenery: self.scenery, sum: 0.0, place };
         self.collect(&mut falling);
         falling.sum
     }
 
-    /// Collects everything that is seen.
+    /// Calls `collector` with everything that is seen.
     pub fn collect(&self, collector: &mut impl Collector) {
         // Faces are vertical or horizontal: a wall sees half of all bearings.
         let vertical = self.normal.z.abs() < 1e-9;
@@ -224,7 +226,7 @@ impl<'a> Vista<'a> {
         self.scenery.open.sun_direction().map(crate::compute::direction::Dir::vector)
     }
 
-    /// Altitudes that the plane of the surface leaves, along a bearing.
+    /// Returns the altitudes in front of the plane of the surface, along a bearing.
     fn free(&self, along: DVec2) -> Option<[f64; 2]> {
         let (level, up) = (self.normal.truncate().dot(along), self.normal.z);
         if up > 1e-9 {
@@ -236,7 +238,7 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// Along one bearing, which stands for a range of it as wide as this.
+    /// Collects along one bearing, which represents a range of bearings of `width`. \[rad\]
     fn along(&self, at: f64, width: f64, line: &mut Line, collector: &mut impl Collector) {
         let (sin, cos) = at.sin_cos();
         let along = DVec2::new(sin, cos);
@@ -303,7 +305,7 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// ∫ cos α (n·d) dα between two altitudes.
+    /// Returns ∫ cos α (n·d) dα between two altitudes.
     fn between(&self, along: DVec2, from: f64, to: f64) -> f64 {
         let level = self.normal.truncate().dot(along);
         let of = |altitude: f64| {
@@ -313,7 +315,7 @@ impl<'a> Vista<'a> {
         (of(to) - of(from)).max(0.0)
     }
 
-    /// A stretch of one surface.
+    /// Collects a stretch of one surface.
     fn on_surface(
         &self,
         seen: &Stretch,
@@ -387,7 +389,7 @@ impl<'a> Vista<'a> {
         collector.sunlit(seen.surface, width * lit);
     }
 
-    /// Open sky between two altitudes.
+    /// Collects open sky between two altitudes.
     fn sky(&self, along: DVec2, [from, high]: [f64; 2], width: f64, collector: &mut impl Collector) {
         let steps = self.scenery.open.is_piecewise_constant();
         let peak = self.peak().map(|peak| peak.z.clamp(-1.0, 1.0).asin());
@@ -412,7 +414,7 @@ impl<'a> Vista<'a> {
     }
 }
 
-/// Buffers that all bearings share.
+/// Buffers shared by all bearings.
 #[derive(Default)]
 struct Line {
     stretches: Vec<Stretch>,

@@ -2,25 +2,25 @@
 
 use glam::DVec3;
 
-/// Levels by name and least hours.
+/// Levels of EN 17037: name and minimum number of hours.
 pub const LEVELS: [(&str, f64); 3] = [("minimum", 1.5), ("medium", 3.0), ("high", 4.0)];
 
-/// Minutes between the moments that are asked first: shadows that come and go between two are not seen.
+/// Interval between the moments that are tested first; shorter shadows are missed. \[min\]
 const STEP: f64 = 2.0;
-/// Begin and end of a span are halved to this. \[min\]
+/// Interval to which begin and end of a span are bisected. \[min\]
 const EXACT: f64 = 1.0 / 60.0;
-/// The sun's place is known to 0.01°, which it takes so long for. \[min\]
+/// Time in which the sun moves by 0.01°, the accuracy of its position. \[min\]
 const PLACE: f64 = 0.04;
 
-/// Of one opening, or of several together.
+/// Spans of exposure to sunlight on one day, of one opening or of several together.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
-    /// From and to, minutes after the local midnight.
+    /// Begin and end of every span, in minutes after local midnight.
     pub spans: Vec<[f64; 2]>,
 }
 
 impl Exposure {
-    /// When `free` holds in a day of minutes.
+    /// Finds the spans of a day in which `free`, called with minutes after midnight, holds.
     pub fn of(free: impl Fn(f64) -> bool) -> Self {
         let edge = |mut dark: f64, mut sunny: f64| {
             while (sunny - dark).abs() > EXACT {
@@ -46,30 +46,32 @@ impl Exposure {
         Self { spans }
     }
 
-    /// \[h\]
+    /// Returns the total duration of the spans. \[h\]
     pub fn hours(&self) -> f64 {
         self.spans.iter().map(|[from, to]| to - from).sum::<f64>() / 60.0
     }
 
-    /// How far that may be off for the sun's place. \[h\]
+    /// Returns the uncertainty of the duration due to the sun's position. \[h\]
     pub fn error(&self) -> f64 {
         2.0 * (PLACE + EXACT) * self.spans.len() as f64 / 60.0
     }
 
-    /// The highest of [`LEVELS`] that is reached.
+    /// Returns the highest of [`LEVELS`] that is reached.
     pub fn level(&self) -> Option<&'static str> {
         let hours = self.hours();
         LEVELS.iter().rev().find(|(_, least)| hours >= *least).map(|(name, _)| *name)
     }
 }
 
-/// The point of an opening that is asked: its middle, but no lower than 1.2 m above the floor and 0.3 m above its own lower
-/// edge, as far as it reaches so high. `low`, `high`: of the opening; heights above the floor. \[m\]
+/// Returns the height of an opening's reference point: its middle, but no lower than 1.2 m above the floor and 0.3 m
+/// above its own lower edge, as far as it reaches so high. `low`, `high`: of the opening; heights above the floor.
+/// \[m\]
 pub fn reference_height(low: f64, high: f64) -> f64 {
     (0.5 * (low + high)).max(1.2).max(low + 0.3).min(high)
 }
 
-/// Is the sun there for a point of a surface? `outward` and `sun` in one frame, of unit length, z up.
+/// Whether the sun is in front of a surface and not below `least_altitude` \[rad\]. `outward` and `sun`: in one frame,
+/// of unit length, z up.
 pub fn is_before(sun: DVec3, outward: DVec3, least_altitude: f64) -> bool {
     sun.z >= least_altitude.sin() && sun.dot(outward) > 0.0
 }

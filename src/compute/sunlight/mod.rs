@@ -1,6 +1,6 @@
-//! An opening by EN 17037:2018+A1:2021 beside its light: hours of sun on it, and the view out of it.
+//! Openings by EN 17037:2018+A1:2021: hours of exposure to sunlight, and view out.
 //!
-//! | file | what |
+//! | file | contents |
 //! | --- | --- |
 //! | `exposure` | exposure to sunlight on a cloudless day |
 //! | `view_out` | sight angle, distance and layers of the view |

@@ -1,53 +1,53 @@
-//! The view out of a room from its points (EN 17037, 5.2): how wide, how far, which layers. Geometry alone.
+//! The view out of a room from its points (EN 17037, 5.2): sight angle, distance, layers. Geometry alone.
 
 use crate::compute::direction::Surface;
 use crate::compute::room::aperture::Aperture;
 use glam::DVec3;
 
-/// Height of an eye that sits. \[m\]
+/// Eye height of a seated person. \[m\]
 pub const EYE_HEIGHT: f64 = 1.2;
-/// Share of the points that a level has to be reached from.
+/// Share of the points from which a level has to be reached.
 pub const SHARE: f64 = 0.75;
-/// Levels: name, least horizontal sight angle \[rad\], least distance \[m\], least number of layers.
+/// Levels: name, minimum horizontal sight angle \[rad\], minimum distance \[m\], minimum number of layers.
 pub const LEVELS: [(&str, f64, f64, usize); 3] = [
     ("minimum", 14.0 * std::f64::consts::PI / 180.0, 6.0, 1),
     ("medium", 28.0 * std::f64::consts::PI / 180.0, 20.0, 2),
     ("high", 54.0 * std::f64::consts::PI / 180.0, 50.0, 3),
 ];
-/// Horizontal rays through the sight angle that the distance is the median of.
+/// Number of horizontal rays through the sight angle; the distance is their median.
 const RAYS: usize = 90;
-/// Rays a side of an opening that layers are looked for with.
+/// Number of rays along each side of an opening by which layers are found.
 const SIDE: usize = 24;
 
-/// What a ray meets outside.
+/// Object that a ray meets outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Met {
-    /// Nothing above the horizon.
+    /// Nothing, above the horizon.
     Sky,
-    /// Nothing below it.
+    /// Nothing, below the horizon.
     Ground,
-    /// Something at a distance from the eye; `None` where that is not known, as of a skyline. \[m\]
+    /// Obstruction at a distance from the eye; `None` where that is not known, as of a skyline. \[m\]
     Thing(Option<f64>),
 }
 
-/// From one point.
+/// View out from one point.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ViewOut {
     /// Horizontal angle of all openings of the façade together. \[rad\]
     pub sight_angle: f64,
-    /// Half of the sight angle reaches so far or farther; infinite where it meets nothing. `None` where the scene does not
-    /// say, or without a view. \[m\]
+    /// Distance that half of the sight angle reaches at least; infinite where it meets nothing. `None` where the scene
+    /// does not specify it, or without a view. \[m\]
     pub distance: Option<f64>,
-    /// Is the sky seen?
+    /// Whether the sky is seen.
     pub sky: bool,
-    /// The horizon, or what stands before it?
+    /// Whether the horizon, or an obstruction in front of it, is seen.
     pub landscape: bool,
-    /// The ground?
+    /// Whether the ground is seen.
     pub ground: bool,
 }
 
 impl ViewOut {
-    /// Of a point in the room's axes; `met`: what a ray from it meets outside.
+    /// Computes the view from a point in the room's axes; `met`: returns the object that a ray from it meets outside.
     pub fn of(point: DVec3, apertures: &[Aperture], met: impl Fn(DVec3) -> Met) -> Self {
         let mut view = Self::default();
         let mut spans = Vec::new();
@@ -87,13 +87,13 @@ impl ViewOut {
         view
     }
 
-    /// Number of layers.
+    /// Returns the number of layers.
     pub fn layers(&self) -> usize {
         [self.sky, self.landscape, self.ground].into_iter().filter(|seen| *seen).count()
     }
 
-    /// The highest of [`LEVELS`] that angle, distance and layers reach together; the lowest asks for the landscape.
-    /// `None` where none is reached, or where the distance is not known.
+    /// Returns the highest of [`LEVELS`] that angle, distance and layers reach together; the lowest requires the
+    /// landscape. `None` where none is reached, or where the distance is not known.
     pub fn level(&self) -> Option<&'static str> {
         let distance = self.distance.filter(|_| self.landscape)?;
         LEVELS
@@ -104,7 +104,7 @@ impl ViewOut {
     }
 }
 
-/// What is reached from [`SHARE`] of the points: each figure by itself.
+/// Returns the figures that are reached from at least [`SHARE`] of the points, each figure separately.
 pub fn from_most(views: &[ViewOut]) -> ViewOut {
     // So many points from the best down are enough.
     let rank = (SHARE * views.len() as f64 - 1e-9).ceil() as usize;
@@ -124,7 +124,7 @@ pub fn from_most(views: &[ViewOut]) -> ViewOut {
     }
 }
 
-/// Spans that overlap as one.
+/// Merges spans that overlap.
 fn merged(mut spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut all: Vec<[f64; 2]> = Vec::new();
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn what_stands_before_it_is_as_far_as_it_is() {
-        // A wall 10 m before the façade, 4 m high.
+        // A wall 10 m in front of the façade, 4 m high.
         let eye = DVec3::new(2.5, 4.0, EYE_HEIGHT);
         let wall = |ray: DVec3| {
             let distance = 14.0 / -ray.y;

@@ -1,60 +1,61 @@
-//! The luminance of one face: smooth light in panels of polynomials, the sun's as a constant with sharp shadows.
+//! Luminance of one face: smooth light in panels of polynomials, the sun's as a constant with sharp shadows.
 
 use std::ops::Range;
 
-/// Nodes along each side of a panel.
+/// Number of nodes along each side of a panel.
 const NODES: usize = 3;
-/// Of a panel, places at which its polynomial is tried, as shares of its sides: between its nodes, and beyond them on
-/// every side.
+/// Places at which a panel's polynomial is checked, as shares of its sides: between its nodes, and beyond them on every
+/// side.
 const TRIES: [[f64; 2]; 5] = [[0.28, 0.73], [0.98, 0.33], [0.36, 0.02], [0.02, 0.62], [0.65, 0.98]];
 
-/// Of the mean misfit at these, what counts in light from many places: what is too much here is too little there.
+/// Share of the mean misfit at these places that remains in light from many places, where positive and negative misfits
+/// cancel.
 const TRIED_SHARE: f64 = 0.3;
 
-/// From and to along both axes. \[m\]
+/// Lower and upper limit along both axes. \[m\]
 pub type Limits = [[f64; 2]; 2];
 
 /// Light of a face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaceLight {
-    /// A tree, its root first.
+    /// Tree of the parts, its root first.
     parts: Vec<Part>,
-    /// Of all panels. \[cd/m²\]
+    /// Luminances at the nodes of all panels. \[cd/m²\]
     values: Vec<f64>,
     /// Luminance that the whole disc of the sun adds where nothing hides it. \[cd/m²\]
     pub sun: f64,
-    /// How far the smooth light may be off beside what panels leave over between their nodes, relative.
+    /// Relative error of the smooth light, in addition to the misfit of panels between their nodes.
     pub error: f64,
 }
 
 /// A part of a face.
 #[derive(Debug, Clone, PartialEq)]
 enum Part {
-    /// The same luminance all over. \[cd/m²\]
+    /// Uniform luminance. \[cd/m²\]
     Even(f64),
     /// Two parts on both sides of a line across an axis.
     Cut { axis: usize, at: f64, sides: [usize; 2] },
-    /// A rectangle with so many nodes along each side, the first of their values, and what its polynomial is off between
-    /// them in the mean. \[cd/m²\]
+    /// A rectangle with `nodes` nodes along each side; `first` is the index of the first of their values, `off` the
+    /// mean misfit of its polynomial between them. \[cd/m²\]
     Panel { limits: Limits, nodes: usize, first: usize, off: f64 },
 }
 
 /// A part of a face with all panels in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch {
-    /// Its borders. \[m\]
+    /// Borders of the part. \[m\]
     pub limits: Limits,
-    /// Places of its halves in the tree; `None` for a panel.
+    /// Indices of the part's halves in the tree; `None` for a panel.
     pub halves: Option<[usize; 2]>,
-    /// Places of its values among those of the face.
+    /// Indices of the part's values among those of the face.
     pub values: Range<usize>,
 }
 
-/// A panel that is still to be judged.
+/// A panel whose misfit is still to be compared.
 struct Open {
     part: usize,
     limits: Limits,
-    /// How far its polynomial is off between the nodes, times its area and weight.
+    /// Misfit of the panel's polynomial between the nodes, times its area and weight.
     off: f64,
 }
 
@@ -66,7 +67,7 @@ fn lagrange(t: f64) -> [f64; NODES] {
     [0.5 * t * (t + 1.0), 1.0 - t * t, 0.5 * t * (t - 1.0)]
 }
 
-/// Places within limits by shares of their sides.
+/// Returns the point within limits at the given shares of their sides.
 fn place(limits: &Limits, shares: [f64; 2]) -> [f64; 2] {
     std::array::from_fn(|axis| limits[axis][0] + (limits[axis][1] - limits[axis][0]) * shares[axis])
 }
@@ -90,12 +91,13 @@ fn weights(limits: &Limits, point: [f64; 2]) -> [f64; NODES * NODES] {
 }
 
 impl FaceLight {
-    /// The same luminance all over. \[cd/m²\]
+    /// Creates uniform light of one luminance. \[cd/m²\]
     pub fn even(luminance: f64) -> Self {
         Self { parts: vec![Part::Even(luminance)], values: Vec::new(), sun: 0.0, error: 0.0 }
     }
 
-    /// Dark panels. `cut` says across which axis and where a rectangle is cut in two; `single`: each has one value.
+    /// Creates dark panels. `cut` returns the axis across which and the coordinate at which a rectangle is cut in two;
+    /// `single`: each panel has one value.
     pub fn panelled(limits: Limits, single: bool, cut: &dyn Fn(&Limits) -> Option<(usize, f64)>) -> Self {
         let mut light = Self::even(0.0);
         let mut open = vec![(0, limits)];
@@ -108,12 +110,12 @@ impl FaceLight {
         light
     }
 
-    /// Smooth light, fitted to what `measure` finds at places \[cd/m²\], `NaN` where nothing can be: dark panels
-    /// ([`Self::panelled`]), the worst of them halved until their polynomials are off by no more than `relative` of the mean,
-    /// or there are `most`. Places count by `weight`.
+    /// Returns smooth light fitted to `measure`, which returns the light at places \[cd/m²\], `NaN` where there is
+    /// none. The worst of the dark panels ([`Self::panelled`]) are halved until their polynomials are off by no more
+    /// than `relative` of the mean, or there are `most`. Places are weighted by `weight`.
     ///
     /// # Errors
-    /// Those of `measure`.
+    /// Returns the errors of `measure`.
     pub fn fitted<E>(
         mut self,
         relative: f64,
@@ -153,7 +155,7 @@ impl FaceLight {
         }
     }
 
-    /// Drops the values of panels that were cut.
+    /// Removes the values of panels that were cut.
     fn without_former_values(mut self) -> Self {
         let all = std::mem::take(&mut self.values);
         for part in &mut self.parts {
@@ -182,7 +184,7 @@ impl FaceLight {
         })
     }
 
-    /// Values at the nodes of panels, and how far they are off between them.
+    /// Computes the values at the nodes of panels, and their misfit between the nodes.
     fn measure<E>(
         &mut self,
         panels: &mut [Open],
@@ -215,7 +217,7 @@ impl FaceLight {
         Ok(())
     }
 
-    /// The axis along which a panel is bent more.
+    /// Returns the axis along which a panel is bent more.
     fn bent(&self, part: usize) -> usize {
         let Part::Panel { first, .. } = self.parts[part] else { return 0 };
         let values = &self.values[first..];
@@ -225,7 +227,7 @@ impl FaceLight {
         usize::from(across > along)
     }
 
-    /// ∫ of the panels' light over their areas, weighted.
+    /// Returns the weighted integral of the panels' light over their areas.
     fn integral(&self, weight: &dyn Fn([f64; 2]) -> f64) -> f64 {
         let of = |part: &Part| match part {
             Part::Panel { limits, nodes, first, .. } => {
@@ -237,7 +239,7 @@ impl FaceLight {
         self.parts.iter().map(of).sum()
     }
 
-    /// Its weighted mean over the panels. \[cd/m²\]
+    /// Returns the weighted mean luminance of the panels. \[cd/m²\]
     pub fn mean(&self, weight: &dyn Fn([f64; 2]) -> f64) -> f64 {
         let of = |part: &Part| match part {
             Part::Panel { limits, .. } => area(limits) * weight(place(limits, [0.5; 2])),
@@ -247,12 +249,12 @@ impl FaceLight {
         if area > 0.0 { self.integral(weight) / area } else { 0.0 }
     }
 
-    /// How many panels it has.
+    /// Returns the number of panels.
     pub fn panels(&self) -> usize {
         self.parts.iter().filter(|part| !matches!(part, Part::Cut { .. })).count()
     }
 
-    /// Places at which its panels hold values.
+    /// Returns the places at which the panels hold values, in the face's coordinates. \[m\]
     pub fn places(&self) -> Vec<[f64; 2]> {
         let mut places = vec![[0.0; 2]; self.values.len()];
         for part in &self.parts {
@@ -263,7 +265,7 @@ impl FaceLight {
         places
     }
 
-    /// Returns the tree of its panels, the whole of `limits` first, every part before its halves.
+    /// Returns the tree of the panels, the whole of `limits` first, every part before its halves.
     pub fn branches(&self, limits: Limits) -> Vec<Branch> {
         let mut tree: Vec<Branch> = self.parts.iter().map(|_| Branch { limits, halves: None, values: 0..0 }).collect();
         for (index, part) in self.parts.iter().enumerate() {
@@ -289,13 +291,13 @@ impl FaceLight {
         tree
     }
 
-    /// Its panels' values. \[cd/m²\]
+    /// Returns the values of the panels. \[cd/m²\]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The values at these places; where one is `NaN`, that of the nearest of its panel, or else 0. What a panel is off
-    /// between its nodes changes as its light does. \[cd/m²\]
+    /// Sets the values at the places of the nodes; where one is `NaN`, that of the nearest of its panel, or else 0. The
+    /// misfit of a panel changes in proportion to its light. \[cd/m²\]
     pub fn set(&mut self, values: &[f64]) {
         let places = self.places();
         for part in &mut self.parts {
@@ -309,7 +311,7 @@ impl FaceLight {
         }
     }
 
-    /// The part at a place.
+    /// Returns the part at a place.
     fn part(&self, at: [f64; 2]) -> &Part {
         &self.parts[self.index(at)]
     }
@@ -322,7 +324,8 @@ impl FaceLight {
         index
     }
 
-    /// What the values count for in the light at a place; nothing where it has no panel.
+    /// Calls `tell` with the index and weight of each value in the light at a place; not at all where there is no
+    /// panel.
     pub fn weigh(&self, at: [f64; 2], mut tell: impl FnMut(usize, f64)) {
         if let Part::Panel { limits, nodes, first, .. } = self.part(at) {
             if *nodes == 1 {
@@ -333,13 +336,13 @@ impl FaceLight {
         }
     }
 
-    /// Smooth light at a point by its coordinates on the face, and how far it may be off. \[cd/m²\]
+    /// Returns the smooth light at a point by its coordinates on the face, and its uncertainty. \[cd/m²\]
     pub fn at(&self, u: f64, v: f64) -> [f64; 2] {
         self.near(&mut 0, [u, v])
     }
 
-    /// Returns smooth light and its error at a point by its coordinates on the face. `last`: part in which the previous point was
-    /// found, 0 for the first; near points are found faster. \[cd/m²\]
+    /// Returns smooth light and its uncertainty at a point by its coordinates on the face. `last`: part in which the
+    /// previous point was found, 0 for the first; near points are found faster. \[cd/m²\]
     pub fn near(&self, last: &mut usize, at: [f64; 2]) -> [f64; 2] {
         let inside = |limits: &Limits| (0..2).all(|axis| at[axis] > limits[axis][0] && at[axis] < limits[axis][1]);
         if !matches!(&self.parts[*last], Part::Panel { limits, .. } if inside(limits)) {
@@ -360,12 +363,12 @@ impl FaceLight {
         [light, off + self.error * light]
     }
 
-    /// The light alone. \[cd/m²\]
+    /// Returns the smooth light at a point, without its uncertainty. \[cd/m²\]
     pub fn diffuse(&self, u: f64, v: f64) -> f64 {
         self.at(u, v)[0]
     }
 
-    /// All light times a factor.
+    /// Multiplies all light by a factor.
     pub fn scale(&mut self, factor: f64) {
         for part in &mut self.parts {
             match part {
@@ -377,14 +380,14 @@ impl FaceLight {
         self.sun *= factor;
     }
 
-    /// Is there any light?
+    /// Whether there is any light.
     pub fn is_lit(&self) -> bool {
         let shines = |part: &Part| matches!(part, Part::Even(luminance) if *luminance > 0.0);
         self.sun > 0.0 || self.values.iter().any(|value| *value > 0.0) || self.parts.iter().any(shines)
     }
 }
 
-/// Where a rectangle's nodes lie.
+/// Returns the places of a rectangle's nodes.
 fn places_of(limits: &Limits, count: usize) -> Vec<[f64; 2]> {
     if count == 1 {
         return vec![place(limits, [0.5; 2])];
@@ -394,7 +397,7 @@ fn places_of(limits: &Limits, count: usize) -> Vec<[f64; 2]> {
     both.map(|shares| place(limits, shares)).collect()
 }
 
-/// Values with the nearest of them where there is none.
+/// Returns the values, with `NaN` replaced by the value of the nearest place that has one.
 fn filled(values: &[f64], places: &[[f64; 2]]) -> Vec<f64> {
     let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
     let known = || (0..values.len()).filter(|k| !values[*k].is_nan());

@@ -1,16 +1,17 @@
-//! What stands before a façade or above a roof: upright boxes, and a skyline that rises and falls with the bearing.
+//! Obstructions in front of a façade or above a roof: boxes with vertical sides, and a skyline that changes with the
+//! bearing.
 //!
-//! | file | what |
+//! | file | contents |
 //! | --- | --- |
-//! | `solid` | a box: where a ray enters it, its edges, faces and outline as seen from a point |
+//! | `solid` | a box: its intersection with a ray, its edges, faces and outline as seen from a point |
 //! | `skyline` | altitude by bearing |
 //! | `face_light` | the luminance of a face |
-//! | `shading` | what of a rectangle the sun reaches past boxes |
+//! | `shading` | sunlit part of a rectangle past boxes |
 //!
 //! Everything is in the world's frame (x east, y north, z up) about the room's own origin, in metres: boxes near enough
 //! to be seen differently from different points have a place, a skyline has only directions.
 //!
-//! Light on faces and on the ground comes from all that they see: sky, sun and each other. Of that they send ρE/π alike in
+//! Light on faces and on the ground comes from all that they see: sky, sun and each other. They reflect ρE/π alike in
 //! all directions. See [`crate::compute::sky::faces`].
 
 pub mod face_light;
@@ -23,10 +24,10 @@ use glam::DVec3;
 use skyline::Skyline;
 use solid::{Face, Solid};
 
-/// What a direction meets.
+/// Obstruction or ground that a direction meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Seen {
-    /// The uniform luminance of what stands below the skyline.
+    /// The area below the skyline, of uniform luminance.
     Skyline,
     /// A face of a box.
     Face {
@@ -34,12 +35,12 @@ pub enum Seen {
         solid: usize,
         /// Number of the face, see [`Solid::face`].
         face: usize,
-        /// Does the middle of the sun's disc light it there?
+        /// Whether the middle of the sun's disc lights the point of the face.
         sunlit: bool,
     },
     /// The ground.
     Ground {
-        /// Does the middle of the sun's disc light it there?
+        /// Whether the middle of the sun's disc lights the point of the ground.
         sunlit: bool,
     },
 }
@@ -47,13 +48,13 @@ pub enum Seen {
 /// The ground that boxes stand on or above.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    /// Its plane.
+    /// Plane of the ground.
     pub face: Face,
-    /// Its light as far as boxes change it.
+    /// Light of the ground as far as boxes change it.
     pub light: FaceLight,
-    /// How far that is, in the plane's coordinates. \[m\]
+    /// Limits of the part that boxes change, in the plane's coordinates. \[m\]
     pub limits: Limits,
-    /// Luminance beyond, without the sun's own light. \[cd/m²\]
+    /// Luminance beyond the limits, without the sun's own light. \[cd/m²\]
     pub open: f64,
 }
 
@@ -61,24 +62,24 @@ pub struct Ground {
 #[derive(Debug)]
 pub struct Plane<'a> {
     normal: DVec3,
-    /// Axes of its coordinates.
+    /// Axes of the plane's coordinates.
     axes: [DVec3; 2],
-    /// Distance from the point along the normal, and the coordinates of the point. \[m\]
+    /// Distance from the point along the normal; `foot` holds the coordinates of the point. \[m\]
     height: f64,
     foot: [f64; 2],
     light: &'a FaceLight,
-    /// What the sun adds. \[cd/m²\]
+    /// Luminance that the sun adds. \[cd/m²\]
     sun: f64,
-    /// Where in the light the last direction was found.
+    /// Part of the light in which the last direction was found.
     last: usize,
 }
 
-/// What is met from a point.
+/// Surface that is met from a point, prepared for several directions.
 #[derive(Debug)]
 pub enum Shown<'a> {
     /// Luminance that does not depend on the direction. \[cd/m²\]
     Even(f64),
-    /// A surface; of the ground its light beyond the panels, too.
+    /// A surface; for the ground with its light beyond the panels.
     Plane(Plane<'a>, Option<&'a Ground>),
 }
 
@@ -97,7 +98,7 @@ impl<'a> Plane<'a> {
 }
 
 impl Shown<'_> {
-    /// Luminance in a direction that meets it, and how far it may be off. \[cd/m²\]
+    /// Returns the luminance in a direction that meets the surface, and its uncertainty. \[cd/m²\]
     pub fn luminance(&mut self, direction: DVec3) -> [f64; 2] {
         let (plane, ground) = match self {
             Self::Even(luminance) => return [*luminance, 0.0],
@@ -114,7 +115,7 @@ impl Shown<'_> {
 }
 
 impl Ground {
-    /// Whether boxes change its light there.
+    /// Whether boxes change the ground's light at a place.
     fn holds(&self, [u, v]: [f64; 2]) -> bool {
         let [[a, b], [c, d]] = self.limits;
         (a..=b).contains(&u) && (c..=d).contains(&v)
@@ -126,32 +127,32 @@ impl Ground {
 pub struct Surroundings {
     /// The boxes.
     pub solids: Vec<Solid>,
-    /// The building, or without one the room's own box: it keeps the sun from faces, and is never seen from inside.
+    /// The building, or without one the room's own box: it blocks the sun from faces, and is never seen from inside.
     pub building: Solid,
-    /// Does it keep the sun from the ground, too?
+    /// Whether the building blocks the sun from the ground, too.
     pub shades_ground: bool,
     /// The ground; `None` where it is black.
     pub ground: Option<Ground>,
     /// Light of every face of every box.
     pub faces: Vec<[FaceLight; 6]>,
-    /// Towards the sun that lights faces; `None` where it lights none.
+    /// Direction towards the sun that lights faces; `None` where it lights none.
     pub sun: Option<DVec3>,
     /// Lines on faces at which the luminance may jump, beside the boxes' own edges: of shadows, and where faces meet.
     pub lines: Vec<Line>,
-    /// Altitude of what is far away, by bearing.
+    /// Skyline: altitude of distant obstructions by bearing.
     pub skyline: Option<Skyline>,
 }
 
 /// A line on one face or on two at which the luminance may jump.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Its ends.
+    /// Ends of the line. \[m\]
     pub ends: [DVec3; 2],
-    /// The faces that it lies on; twice the same where it is one.
+    /// The two faces that the line lies on, equal for a line on one face.
     pub faces: [Face; 2],
 }
 
-/// The nearest of some boxes that a ray enters: its index, the distance and the face.
+/// Returns the nearest of some boxes that a ray enters: its index, the distance and the face.
 pub fn first_hit<'a>(
     solids: impl Iterator<Item = (usize, &'a Solid)>,
     from: DVec3,
@@ -168,13 +169,13 @@ pub fn first_hit<'a>(
     nearest
 }
 
-/// Does one of some boxes stand between a point and the sun?
+/// Whether one of some boxes stands between a point and the sun.
 fn hidden<'a>(mut solids: impl Iterator<Item = &'a Solid>, point: DVec3, sun: DVec3) -> bool {
     solids.any(|solid| solid.enter(point, sun).is_some())
 }
 
 impl Surroundings {
-    /// Dark boxes and a skyline, above dark ground.
+    /// Creates dark boxes and a skyline, above dark ground.
     pub fn dark(solids: Vec<Solid>, skyline: Option<Skyline>) -> Self {
         Self {
             faces: solids.iter().map(|_| std::array::from_fn(|_| FaceLight::even(0.0))).collect(),
@@ -188,12 +189,13 @@ impl Surroundings {
         }
     }
 
-    /// What is met in a direction; `None`: sky or ground. Without a point to see from, boxes do not count.
+    /// Returns the obstruction or ground met in a direction; `None`: sky or ground of the open outside. Without a point
+    /// to see from, boxes do not count.
     pub fn seen(&self, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
         self.seen_among(0..self.solids.len(), eye, direction)
     }
 
-    /// The same where no other boxes than these can be met.
+    /// Returns [`Self::seen`] with only the given boxes, where no others can be met.
     pub fn seen_among(&self, boxes: impl Iterator<Item = usize>, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
         if let Some(eye) = eye {
             let met = first_hit(boxes.map(|index| (index, &self.solids[index])), eye, direction);
@@ -215,18 +217,18 @@ impl Surroundings {
         self.skyline.as_ref().filter(|skyline| skyline.covers(direction)).map(|_| Seen::Skyline)
     }
 
-    /// The ground in a direction, and how far away it is. \[m\]
+    /// Returns the distance of the ground in a direction, and the ground. \[m\]
     fn ground_along(&self, eye: DVec3, direction: DVec3) -> Option<(f64, &Ground)> {
         let ground = self.ground.as_ref().filter(|_| direction.z < 0.0)?;
         Some((((ground.face.origin.z - eye.z) / direction.z).max(0.0), ground))
     }
 
-    /// Luminance of what is met, and how far it may be off. \[cd/m²\]
+    /// Returns the luminance of an obstruction or of the ground as met, and its uncertainty. \[cd/m²\]
     pub fn luminance(&self, seen: Seen, eye: Option<DVec3>, direction: DVec3) -> [f64; 2] {
         self.shown(seen, eye).luminance(direction)
     }
 
-    /// Returns what is met from a point, to be looked at in directions that meet nothing else.
+    /// Returns the surface met from a point, for evaluation in directions that meet nothing else.
     pub fn shown(&self, seen: Seen, eye: Option<DVec3>) -> Shown<'_> {
         match (seen, eye) {
             (Seen::Skyline, _) => Shown::Even(self.skyline.as_ref().map_or(0.0, |skyline| skyline.luminance)),
@@ -242,14 +244,14 @@ impl Surroundings {
         }
     }
 
-    /// Does the middle of the sun's disc light a point of a face?
+    /// Whether the middle of the sun's disc lights a point of a face.
     pub fn sunlit(&self, solid: usize, face: usize, point: DVec3) -> bool {
         let Some(sun) = self.sun.filter(|_| self.faces[solid][face].sun > 0.0) else { return false };
         let others = self.solids.iter().enumerate().filter(|(other, _)| *other != solid).map(|(_, other)| other);
         !hidden(others.chain([&self.building]), point, sun)
     }
 
-    /// Does the middle of the sun's disc light a point of the ground?
+    /// Whether the middle of the sun's disc lights a point of the ground.
     fn sun_on_ground(&self, point: DVec3) -> bool {
         let lit = self.ground.as_ref().is_some_and(|ground| ground.light.sun > 0.0);
         let Some(sun) = self.sun.filter(|_| lit) else { return false };
@@ -257,7 +259,7 @@ impl Surroundings {
         !hidden(self.solids.iter().chain(building), point, sun)
     }
 
-    /// Segments at which the luminance may jump, as vectors from a point.
+    /// Returns segments at which the luminance may jump, as vectors from a point.
     pub fn edges_from(&self, eye: DVec3) -> Vec<[DVec3; 2]> {
         let edges = self.solids.iter().flat_map(|solid| solid.visible_edges(eye));
         let turned = |face: &Face| face.normal.dot(eye - face.origin) > 0.0;
@@ -265,7 +267,7 @@ impl Surroundings {
         edges.chain(lines).map(|edge| edge.map(|p| p - eye)).collect()
     }
 
-    /// The same with all light times a factor.
+    /// Returns the surroundings with all light multiplied by a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
         scaled.faces.iter_mut().flatten().for_each(|light| light.scale(factor));
@@ -279,7 +281,7 @@ impl Surroundings {
         scaled
     }
 
-    /// Does any face or the skyline shine?
+    /// Whether any face, the ground or the skyline has a luminance above 0.
     pub fn is_lit(&self) -> bool {
         self.faces.iter().flatten().any(FaceLight::is_lit)
             || self.ground.as_ref().is_some_and(|ground| ground.light.is_lit() || ground.open > 0.0)

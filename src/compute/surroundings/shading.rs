@@ -1,4 +1,4 @@
-//! What of a rectangle the sun reaches past boxes: convex pieces with the shadows' edges as borders.
+//! Sunlit part of a rectangle past boxes: convex pieces with the shadows' edges as borders.
 //!
 //! Shadows are those of the middle of the sun's disc.
 
@@ -6,22 +6,22 @@ use super::solid::{Face, Solid};
 use crate::compute::polygon::{area, cut};
 use glam::{DVec2, DVec3};
 
-/// Pieces smaller than this share of the rectangle are nothing.
+/// Share of the rectangle below which pieces are negligible.
 const NOTHING: f64 = 1e-12;
-/// Nearer to a plane is in it. \[m\]
+/// Distance below which a point lies in a plane. \[m\]
 const TOUCHING: f64 = 1e-9;
 
-/// The convex shadow of a box on a plane in the plane's coordinates, counter-clockwise; fewer than three corners where it
-/// throws none. `sun` points to the sun, before the plane.
+/// Returns the convex shadow of a box on a plane in the plane's coordinates, counter-clockwise; fewer than three
+/// corners where there is none. `sun` points to the sun, in front of the plane.
 pub fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
     let towards = face.normal.dot(sun);
     let height = |p: DVec3| face.normal.dot(p - face.origin);
     let corners = solid.corners();
-    // What only touches the plane from behind shades nothing.
+    // A box that only touches the plane from behind shades nothing.
     if corners.iter().all(|p| height(*p) < TOUCHING) {
         return Vec::new();
     }
-    // Only what stands before the plane shades it: corners there, and where edges come through.
+    // Only the part in front of the plane shades it: corners there, and where edges come through.
     let mut points: Vec<DVec3> = corners.iter().copied().filter(|p| height(*p) >= 0.0).collect();
     if points.len() < corners.len() {
         for i in 0..8_usize {
@@ -38,7 +38,7 @@ pub fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
     hull(thrown.collect())
 }
 
-/// Convex hull, counter-clockwise (Andrew's chains).
+/// Returns the convex hull, counter-clockwise (Andrew's chains).
 fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup_by(|a, b| a.distance(*b) < 1e-12);
@@ -63,7 +63,7 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     lower
 }
 
-/// Takes a convex, counter-clockwise polygon out of convex pieces; what remains is convex pieces again.
+/// Subtracts a convex, counter-clockwise polygon from convex pieces; the remainder is convex pieces again.
 pub fn without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2], least: f64) -> Vec<Vec<DVec2>> {
     let mut left = Vec::with_capacity(pieces.len());
     for mut piece in pieces {
@@ -86,7 +86,7 @@ pub fn without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2], least: f64) -> Vec<Vec<D
     left
 }
 
-/// What of a face the sun reaches past boxes, in the face's coordinates; nothing where it turns away from the sun.
+/// Returns the sunlit part of a face past boxes, in the face's coordinates; nothing where it turns away from the sun.
 pub fn lit_pieces<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<Vec<DVec2>> {
     if face.normal.dot(sun) <= 1e-9 {
         return Vec::new();
@@ -100,7 +100,7 @@ pub fn lit_pieces<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun:
     })
 }
 
-/// Edges of the shadows that boxes throw on a face, as far as they lie on it.
+/// Returns the edges of the shadows of boxes on a face, as far as they lie on it.
 pub fn shadow_edges<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<[DVec3; 2]> {
     if face.normal.dot(sun) <= 1e-6 {
         return Vec::new();

@@ -1,20 +1,20 @@
-//! A skyline that rises and falls with the bearing.
+//! A skyline whose altitude changes with the bearing.
 
 use crate::compute::sweep::rule;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Altitudes between which the skyline runs straight over the bearing, all round.
+/// Altitudes between which the skyline is linear in the bearing, all round.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skyline {
-    /// Bearing and altitude, bearings rising within one turn. \[rad\]
+    /// Bearing and altitude of every corner, bearings rising within one turn. \[rad\]
     knots: Vec<[f64; 2]>,
-    /// Of what stands below it. \[cd/m²\]
+    /// Luminance of the area below the skyline. \[cd/m²\]
     pub luminance: f64,
 }
 
 impl Skyline {
-    /// From compass bearings and altitudes \[rad\], in any order; `None` without any.
+    /// Creates a skyline from compass bearings and altitudes \[rad\], in any order; `None` without any.
     pub fn new(knots: impl IntoIterator<Item = [f64; 2]>, luminance: f64) -> Option<Self> {
         let turned = knots.into_iter().map(|[bearing, altitude]| [bearing.rem_euclid(2.0 * PI), altitude]);
         let mut knots: Vec<[f64; 2]> = turned.collect();
@@ -22,17 +22,17 @@ impl Skyline {
         (!knots.is_empty()).then_some(Self { knots, luminance })
     }
 
-    /// The same with another luminance.
+    /// Returns the skyline with another luminance.
     pub fn with_luminance(self, luminance: f64) -> Self {
         Self { luminance, ..self }
     }
 
-    /// Does another one rise and fall at the same places, whatever its luminance?
+    /// Whether another skyline has the same corners, whatever its luminance.
     pub fn same_shape(&self, other: &Self) -> bool {
         self.knots == other.knots
     }
 
-    /// Altitude at a compass bearing. \[rad\]
+    /// Returns the altitude at a compass bearing. \[rad\]
     pub fn altitude(&self, bearing: f64) -> f64 {
         let count = self.knots.len();
         let bearing = bearing.rem_euclid(2.0 * PI);
@@ -43,29 +43,29 @@ impl Skyline {
         if width > 0.0 { a[1] + (b[1] - a[1]) * (along / width).min(1.0) } else { b[1] }
     }
 
-    /// How far a direction lies above the skyline. \[rad\]
+    /// Returns the altitude of a direction above the skyline, negative below it. \[rad\]
     pub fn above(&self, direction: DVec3) -> f64 {
         direction.z.clamp(-1.0, 1.0).asin() - self.altitude(direction.x.atan2(direction.y))
     }
 
-    /// Is a direction between horizon and skyline?
+    /// Whether a direction lies between horizon and skyline.
     pub fn covers(&self, direction: DVec3) -> bool {
         direction.z >= 0.0 && self.above(direction) < 0.0
     }
 
-    /// Its highest altitude. \[rad\]
+    /// Returns the highest altitude of the skyline. \[rad\]
     pub fn highest(&self) -> f64 {
         self.knots.iter().map(|knot| knot[1]).fold(0.0, f64::max)
     }
 
-    /// Directions of its corners.
+    /// Returns the directions of the corners.
     pub fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.knots.iter().map(|&[bearing, altitude]| direction(bearing, altitude))
     }
 
-    /// Share of a small disc about a direction that lies above the skyline and the horizon, 0 … 1; its corners and steps
-    /// within the disc count. `radius` \[rad\]. Heights are counted upright in the disc's plane, good to the square of its
-    /// radius.
+    /// Returns the share of a small disc about a direction that lies above the skyline and the horizon, 0 … 1; corners
+    /// and steps of the skyline within the disc count. `radius` \[rad\]. Heights are counted vertically in the disc's
+    /// plane, good to the square of its radius.
     pub fn free_share(&self, direction: DVec3, radius: f64) -> f64 {
         const POINTS: usize = 12;
         let sideways = DVec3::new(direction.y, -direction.x, 0.0).try_normalize().unwrap_or(DVec3::X);
@@ -104,8 +104,8 @@ impl Skyline {
         }
     }
 
-    /// Normal of the great circle that the skyline follows about a bearing, upwards: on the scale of the sun's disc it is
-    /// straight but at corners.
+    /// Returns the upward normal of the great circle that the skyline follows about a bearing: on the scale of the
+    /// sun's disc the skyline is straight except at corners.
     pub fn plane(&self, bearing: f64) -> DVec3 {
         const NEAR: f64 = 0.1 * PI / 180.0;
         let [a, b] = [-NEAR, NEAR].map(|by| direction(bearing + by, self.altitude(bearing + by)));

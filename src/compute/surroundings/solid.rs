@@ -1,51 +1,51 @@
-//! An upright box, turned about the vertical.
+//! A box with vertical sides, rotated about the vertical.
 
 use glam::{DVec2, DVec3};
 
-/// A box that stands upright.
+/// A box with vertical sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solid {
     centre: DVec2,
     half: DVec2,
     z: [f64; 2],
-    /// Cosine and sine of the turn.
+    /// Cosine and sine of the rotation.
     turn: [f64; 2],
 }
 
 /// One face of a box: a rectangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
-    /// A point of its plane from which `u` and `v` are counted.
+    /// Point of the face's plane from which `u` and `v` are counted.
     pub origin: DVec3,
-    /// Outward.
+    /// Outward unit normal.
     pub normal: DVec3,
-    /// First axis.
+    /// First axis of the plane, of unit length.
     pub u: DVec3,
-    /// Second axis.
+    /// Second axis of the plane, of unit length.
     pub v: DVec3,
-    /// From and to along both axes. \[m\]
+    /// Lower and upper limit along both axes. \[m\]
     pub limits: [[f64; 2]; 2],
 }
 
 impl Face {
-    /// A point of the plane by its two coordinates.
+    /// Returns the point of the plane with the given two coordinates.
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.origin + u * self.u + v * self.v
     }
 
-    /// The coordinates of a point of the plane.
+    /// Returns the coordinates of a point of the plane.
     pub fn coordinates(&self, point: DVec3) -> [f64; 2] {
         let from = point - self.origin;
         [from.dot(self.u), from.dot(self.v)]
     }
 
-    /// In order.
+    /// Returns the corners in order round the face.
     pub fn corners(&self) -> [DVec3; 4] {
         let [[a, b], [c, d]] = self.limits;
         [self.point(a, c), self.point(b, c), self.point(b, d), self.point(a, d)]
     }
 
-    /// The segment in which two faces cross; `None` where they lie apart or in planes alike.
+    /// Returns the segment in which two faces cross; `None` where they do not meet or lie in parallel planes.
     pub fn meets(&self, other: &Self) -> Option<[DVec3; 2]> {
         let height = |p: DVec3| self.normal.dot(p - self.origin);
         let corners = other.corners();
@@ -58,7 +58,7 @@ impl Face {
         self.clip([from, to])
     }
 
-    /// What of a segment in the face's plane lies on the face.
+    /// Returns the part of a segment in the face's plane that lies on the face.
     fn clip(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let (mut first, mut last) = (0.0_f64, 1.0_f64);
         let (p, q) = (self.coordinates(from), self.coordinates(to));
@@ -79,14 +79,14 @@ impl Face {
     }
 }
 
-/// A ray that meets less of a box than this only touches it. \[m\]
+/// Length within a box below which a ray only touches it. \[m\]
 const TOUCH: f64 = 1e-9;
-/// A box that is left nearer than this lies behind the ray's start. \[m\]
+/// Distance to the exit from a box below which the box lies behind the ray's start. \[m\]
 const BEHIND: f64 = 1e-7;
 
 impl Solid {
-    /// From two opposite corners of the unturned box; `turn` \[rad\] about the vertical through its centre,
-    /// counter-clockwise seen from above.
+    /// Creates a box from two opposite corners before its rotation by `turn` \[rad\] about the vertical through its
+    /// centre, counter-clockwise seen from above.
     pub fn new(from: DVec3, to: DVec3, turn: f64) -> Self {
         let (low, high) = (from.min(to), from.max(to));
         let (sin, cos) = turn.sin_cos();
@@ -98,37 +98,37 @@ impl Solid {
         }
     }
 
-    /// The whole turned about the vertical through the origin; cosine and sine of the angle.
+    /// Returns the box rotated about the vertical through the origin; cosine and sine of the angle.
     pub fn turned(self, [cos, sin]: [f64; 2]) -> Self {
         let by = DVec2::new(cos, sin);
         let turn = by.rotate(DVec2::from_array(self.turn));
         Self { centre: by.rotate(self.centre), turn: turn.to_array(), ..self }
     }
 
-    /// A vector in the box's own axes.
+    /// Returns a vector in the box's own axes.
     fn local(&self, v: DVec3) -> DVec3 {
         let [cos, sin] = self.turn;
         DVec3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)
     }
 
-    /// Out of the box's own axes.
+    /// Returns a vector of the box's own axes in the outer axes.
     fn world(&self, v: DVec3) -> DVec3 {
         let [cos, sin] = self.turn;
         DVec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
     }
 
-    /// Middle of the box.
+    /// Returns the middle of the box.
     pub fn middle(&self) -> DVec3 {
         self.centre.extend(0.5 * (self.z[0] + self.z[1]))
     }
 
-    /// From the middle to a corner. \[m\]
+    /// Returns the distance from the middle to a corner. \[m\]
     pub fn radius(&self) -> f64 {
         self.half.extend(0.5 * (self.z[1] - self.z[0])).length()
     }
 
-    /// Distance at which a ray enters, and through which face; 0 where it starts inside. A box that is only touched, and
-    /// one that lies behind, do not count.
+    /// Returns the distance at which a ray enters, and the face that it enters through; 0 where it starts inside. A box
+    /// that is only touched, and one that lies behind, do not count.
     pub fn enter(&self, from: DVec3, direction: DVec3) -> Option<(f64, usize)> {
         let start = self.local(from - self.centre.extend(0.0));
         let along = self.local(direction);
@@ -153,8 +153,8 @@ impl Solid {
         (far > BEHIND && far - near.max(0.0) > TOUCH).then_some((near.max(0.0), face))
     }
 
-    /// Distances at which a level ray enters and leaves the box's outline, above, below or beside it, and through which
-    /// face it enters; `None` where it only touches or passes by. `along`: of unit length.
+    /// Returns the distances at which a horizontal ray enters and leaves the box's outline, above, below or beside it,
+    /// and the face that it enters through; `None` where it only touches or passes by. `along`: of unit length.
     pub fn passage(&self, from: DVec2, along: DVec2) -> Option<([f64; 2], usize)> {
         let start = self.local((from - self.centre).extend(0.0));
         let along = self.local(along.extend(0.0));
@@ -177,45 +177,45 @@ impl Solid {
         (far - near > TOUCH).then_some(([near, far], face))
     }
 
-    /// Heights of its foot and its top. \[m\]
+    /// Returns the heights of the box's foot and top. \[m\]
     pub fn heights(&self) -> [f64; 2] {
         self.z
     }
 
-    /// From its middle to a corner of its outline. \[m\]
+    /// Returns the distance from the middle to a corner of the box's outline. \[m\]
     pub fn outline_radius(&self) -> f64 {
         self.half.length()
     }
 
-    /// What of it lies above a height \[m\]; nothing is left of its height where it lies below.
+    /// Returns the part of the box above a height \[m\], without any height where the box lies below.
     pub fn above(&self, height: f64) -> Self {
         Self { z: self.z.map(|z| z.max(height)), ..*self }
     }
 
-    /// The box extended downwards to a height, if it ends above. \[m\]
+    /// Returns the box extended downwards to a height, if it ends above. \[m\]
     pub fn down_to(&self, height: f64) -> Self {
         Self { z: [self.z[0].min(height), self.z[1]], ..*self }
     }
 
-    /// Does a point lie inside?
+    /// Whether a point lies inside.
     pub fn holds(&self, point: DVec3) -> bool {
         let own = self.local(point - self.centre.extend(0.0));
         own.x.abs() < self.half.x && own.y.abs() < self.half.y && own.z > self.z[0] && own.z < self.z[1]
     }
 
-    /// Corner by three bits: x, y, z.
+    /// Returns a corner by three bits: x, y, z.
     fn corner(&self, bits: usize) -> DVec3 {
         let side = |bit: usize, half: f64| if bits >> bit & 1 == 1 { half } else { -half };
         self.centre.extend(0.0)
             + self.world(DVec3::new(side(0, self.half.x), side(1, self.half.y), self.z[bits >> 2 & 1]))
     }
 
-    /// All eight.
+    /// Returns all eight corners.
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|bits| self.corner(bits))
     }
 
-    /// Faces 0 … 5 look along −x, +x, −y, +y, −z, +z of the box's own axes.
+    /// Returns a face by its number; 0 … 5 look along −x, +x, −y, +y, −z, +z of the box's own axes.
     pub fn face(&self, number: usize) -> Face {
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| self.world(axis));
         let sign = if number % 2 == 1 { 1.0 } else { -1.0 };
@@ -228,13 +228,13 @@ impl Solid {
         }
     }
 
-    /// Is a face turned to a point?
+    /// Whether a face is turned to a point.
     fn faces(&self, number: usize, eye: DVec3) -> bool {
         let face = self.face(number);
         face.normal.dot(eye - face.origin) > 0.0
     }
 
-    /// Every edge with the two faces that meet in it.
+    /// Returns every edge with the two faces that meet in it.
     fn edges(&self) -> [([DVec3; 2], [usize; 2]); 12] {
         std::array::from_fn(|index| {
             let (axis, place) = (index / 4, index % 4);
@@ -245,14 +245,14 @@ impl Solid {
         })
     }
 
-    /// Edges of faces that are turned to a point.
+    /// Returns the edges of faces that are turned to a point.
     pub fn visible_edges(&self, eye: DVec3) -> impl Iterator<Item = [DVec3; 2]> + use<> {
         let turned: [bool; 6] = std::array::from_fn(|number| self.faces(number, eye));
         self.edges().into_iter().filter(move |(_, [a, b])| turned[*a] || turned[*b]).map(|(ends, _)| ends)
     }
 
-    /// Normals of the planes through a point that hold the box: directions d with n·d > 0 for all of them meet it. Empty
-    /// where the point lies inside, or on a face with nothing of the box before it.
+    /// Returns the normals of the planes through a point that hold the box: directions d with n·d > 0 for all of them
+    /// meet it. Empty where the point lies inside, or on a face with nothing of the box in front of it.
     pub fn cone(&self, eye: DVec3) -> Vec<DVec3> {
         let turned: [bool; 6] = std::array::from_fn(|number| self.faces(number, eye));
         let middle = self.middle() - eye;
@@ -268,7 +268,7 @@ impl Solid {
             .collect()
     }
 
-    /// The least gap to the box round some points, each along the world's axes. \[m\]
+    /// Returns the smallest gap between the bounding boxes of the box and of some points, along the world's axes. \[m\]
     pub fn gap_to(&self, points: &[DVec3]) -> f64 {
         let bounds = |points: &[DVec3]| {
             let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -278,7 +278,7 @@ impl Solid {
         (c - b).max(a - d).max(DVec3::ZERO).length()
     }
 
-    /// Do two boxes share more than a touch? \[m\]
+    /// Whether two boxes overlap by more than `slack`. \[m\]
     pub fn overlaps(&self, other: &Self, slack: f64) -> bool {
         if self.z[0].max(other.z[0]) >= self.z[1].min(other.z[1]) - slack {
             return false;

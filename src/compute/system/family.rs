@@ -1,14 +1,14 @@
-//! What every family of systems answers: the one interface between a description and the rest of the program.
+//! Interface of the families of systems, between a description and the rest of the program.
 
 use super::measure::Specimen;
 
-/// Why a description makes no specimen: what is wrong and what would be right.
+/// Error of a description without optical model: what is wrong and what would be right.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct NoSpecimen(pub String);
 
 impl NoSpecimen {
-    /// From what refused the values.
+    /// Creates the error from the cause.
     pub fn because(error: impl std::fmt::Display) -> Self {
         Self(error.to_string())
     }
@@ -17,59 +17,61 @@ impl NoSpecimen {
 /// Closed polygons (outward, upward), their first points not repeated. \[m\]
 pub type Polygons = Vec<Vec<[f64; 2]>>;
 
-/// A family of systems by its geometry and material. States are asked for by keys that [`Family::states`] lists.
+/// Family of systems by geometry and material. States are given by keys that [`Family::states`] lists.
 pub trait Family {
-    /// The word used in files and in the catalogue.
+    /// Returns the key of the family in files and in the catalogue.
     fn word(&self) -> &'static str;
 
-    /// How its data are computed, in words with the source.
+    /// Returns the method by which its data are computed, in words with the source.
     fn method(&self) -> &'static str;
 
-    /// Which face of the description looks into the room.
+    /// Returns the name of the face of the description that looks into the room.
     fn inside_face(&self) -> &'static str {
         "room side of the description"
     }
 
-    /// Keys of the states: angles in degrees as shortest decimals; one empty key for a system without states.
+    /// Returns the keys of the states: angles in degrees as shortest decimals; one empty key for a system without
+    /// states.
     fn states(&self) -> Vec<String> {
         vec![String::new()]
     }
 
-    /// Period of what is to be seen of it. \[m\] `None` for plain sheets and stacks.
+    /// Returns the period of its visible structure \[m\]; `None` for plain sheets and stacks.
     fn structure(&self) -> Option<f64> {
         None
     }
 
-    /// One period of a state in section, for drawings. A slat without thickness goes there and back on the same line.
-    /// Empty for geometry that encloses nothing, and for a stack, whose layers only its caller can find.
+    /// Returns one period of a state in section, for drawings. A slat without thickness goes there and back on the same
+    /// line. Empty for geometry that encloses nothing, and for a stack, whose layers only its caller can find.
     fn drawing(&self, state: &str) -> Polygons;
 
-    /// Vertical distance at which the polygons of the drawing repeat. \[m\]
+    /// Returns the vertical distance at which the polygons of the drawing repeat. \[m\]
     fn drawing_period(&self) -> Option<f64> {
         self.structure()
     }
 
-    /// Is the drawing a picture of the principle rather than of the described lengths?
+    /// Whether the drawing shows the principle rather than the described lengths.
     fn is_schematic(&self) -> bool {
         false
     }
 
-    /// What can be measured of a state.
+    /// Creates the optical model of a state.
     ///
     /// # Errors
-    /// Geometry that encloses nothing, values that nothing has; a stack.
+    /// Returns an error if the geometry encloses nothing, if values are impossible, or for a stack.
     fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen>;
 }
 
 /// Height of the piece of a plain sheet that is drawn. \[m\]
 pub(super) const PIECE: f64 = 0.1;
 
-/// A rectangle between two corners.
+/// Returns the rectangle between two corners.
 pub(super) fn rectangle(low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]> {
     vec![low, [high[0], low[1]], high, [low[0], high[1]]]
 }
 
-/// Key of the state at an angle \[rad\]: degrees as shortest decimal, free of the last digits that the conversion adds.
+/// Returns the key of the state at an angle \[rad\]: degrees as shortest decimal, free of the last digits that the
+/// conversion adds.
 pub fn state_key(angle: f64) -> String {
     let degrees = (angle.to_degrees() * 1e9).round() / 1e9;
     // Minus zero is zero.

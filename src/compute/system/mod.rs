@@ -1,9 +1,10 @@
-//! Described systems, a room a family: slats, clear profiles, panes, laser-cut panels, thin sheets, stacks of all.
+//! Described systems, one module per family: slats, clear profiles, panes, laser-cut panels, thin sheets, stacks of
+//! all.
 //!
-//! Every family answers the same questions ([`Family`]): its words, states and structure, a drawing of its section, and
-//! a [`Specimen`] that the numerical goniophotometer ([`measure`]) makes data from. A family is added
-//! by a room of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in system files are
-//! in `formats::system_toml`.
+//! Every family implements the same interface ([`Family`]): its keys, states and structure, a drawing of its section,
+//! and a [`Specimen`], the optical model from which the virtual goniophotometer ([`measure`]) computes data. A family
+//! is added by a module of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in
+//! system files are in `formats::system_toml`.
 
 pub mod clear;
 mod family;
@@ -26,21 +27,21 @@ use sheets::{Diffuser, Perforated, Woven};
 use slats::Venetian;
 use stack::Layer;
 
-/// A described system.
+/// Described system: name, description, geometry and material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SystemDescription {
     /// Product name.
     pub name: String,
-    /// Free text.
+    /// Description in free text.
     pub description: String,
     /// Geometry and material.
     pub kind: SystemKind,
-    /// Turned by 90° about the normal, so that what is horizontal in the description stands upright (vertical louvres):
-    /// what was up points to the right as seen from outside.
+    /// Whether the system is rotated by 90° about the normal, so that horizontal slats become vertical louvres: the
+    /// upward direction then points to the right as seen from outside.
     pub upright: bool,
 }
 
-/// What can be computed.
+/// Kinds of systems that can be computed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SystemKind {
     /// Endless array of slats.
@@ -64,7 +65,7 @@ pub enum SystemKind {
 }
 
 impl SystemKind {
-    /// The family's answers.
+    /// Returns the family of the system.
     pub fn family(&self) -> &dyn Family {
         match self {
             Self::Venetian(blind) => blind,
@@ -81,20 +82,21 @@ impl SystemKind {
 }
 
 impl SystemDescription {
-    /// The family's answers.
+    /// Returns the family of the system.
     pub fn family(&self) -> &dyn Family {
         self.kind.family()
     }
 
-    /// Keys of the states; one empty key for a system without states.
+    /// Returns the keys of the states; one empty key for a system without states.
     pub fn states(&self) -> Vec<String> {
         self.family().states()
     }
 
-    /// The specimen of one state of a system that needs no other files.
+    /// Creates the optical model of one state of a system that needs no other files.
     ///
     /// # Errors
-    /// A state that is not there, geometry that encloses nothing; a stack, whose layers only its caller can find.
+    /// Returns an error for an unknown state, for geometry that encloses nothing, and for a stack, whose layers only
+    /// its caller can find.
     pub fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
         let family = self.family();
         let states = self.states();

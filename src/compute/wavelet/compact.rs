@@ -1,4 +1,4 @@
-//! Many indicatrices on the same cells, each kept as few numbers and made again when it is asked for.
+//! Many indicatrices on the same cells, each kept as few numbers and restored on request.
 
 use super::hierarchy::Hierarchy;
 use super::quantise::{Criterion, QuantisedRow, quantise, step_factors};
@@ -8,36 +8,37 @@ use rayon::prelude::*;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Most cells of an indicatrix in compact form, 0.4° apart: preparing the transforms takes time and memory.
+/// Maximum number of cells of an indicatrix in compact form, 0.4° apart: preparing the transforms takes time and
+/// memory.
 pub const MOST_CELLS: usize = 1 << 17;
 
-/// Why indicatrices cannot be kept in this form.
+/// Reason why indicatrices have no compact form.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CompactError {
-    /// More cells than any instrument resolves.
+    /// Number of cells above [`MOST_CELLS`].
     #[error("indicatrices of {0} cells (allowed: {MOST_CELLS})")]
     Cells(usize),
-    /// A threshold that makes no sense.
+    /// Threshold out of range.
     #[error("a threshold of {0} (allowed: 1e-6 to below 1)")]
     Threshold(f64),
-    /// Negative, not a number, or infinite.
+    /// Value that is negative or not finite.
     #[error("indicatrix {row} holds the value {value}; only finite values from 0 up have a compact form")]
     Value {
         /// Number of the indicatrix.
         row: usize,
-        /// The value.
+        /// Rejected value.
         value: f64,
     },
 }
 
-/// A transform with what is needed to use it.
+/// Transform with its step factors.
 #[derive(Debug)]
 struct Prepared {
     transform: Transform,
     factors: Vec<f64>,
 }
 
-/// One indicatrix: a list of (gap, level) in variable-length numbers.
+/// Packed indicatrix: a list of (gap, level) in variable-length numbers.
 #[derive(Debug, Clone, PartialEq)]
 struct Packed {
     order: Order,
@@ -47,7 +48,7 @@ struct Packed {
     list: Box<[u8]>,
 }
 
-/// What all rows on the same cells share: transforms and weights.
+/// Transforms and weights that all rows on the same cells share.
 #[derive(Debug, Clone)]
 pub struct RowDecoder {
     basis: RingBasis,
@@ -58,7 +59,7 @@ pub struct RowDecoder {
 }
 
 impl RowDecoder {
-    /// For rows of the orders given.
+    /// Creates a decoder for rows of the given orders.
     pub fn new(basis: RingBasis, exponent: u8, orders: impl IntoIterator<Item = Order>) -> Self {
         let mut all = [None, None, None];
         for order in orders {
@@ -67,18 +68,18 @@ impl RowDecoder {
         Self { weights: basis.projected_solid_angles().into(), basis, exponent, prepared: all }
     }
 
-    /// The cells.
+    /// Returns the cells of the rows.
     pub const fn basis(&self) -> &RingBasis {
         &self.basis
     }
 
-    /// The transform of an order, where it was asked for.
+    /// Returns the transform of an order; `None` if the decoder was created without it.
     pub fn transform(&self, order: Order) -> Option<&Transform> {
         self.prepared[order as usize].as_ref().map(|prepared| &prepared.transform)
     }
 
-    /// The indicatrix of quantised coefficients. \[1/sr\] `None` when they are not of these cells and orders, or beyond
-    /// what is ever written.
+    /// Restores the indicatrix of quantised coefficients. \[1/sr\] `None` when they are not of these cells and orders,
+    /// or beyond the values that are ever written.
     pub fn row(&self, order: Order, row: &QuantisedRow) -> Option<Vec<f64>> {
         self.fits(order, row).then(|| self.restore(order, row).0)
     }
@@ -102,19 +103,20 @@ impl RowDecoder {
 pub struct CompactRows {
     decoder: RowDecoder,
     rows: Vec<Packed>,
-    /// The indicatrix made last: pictures and point queries ask for the same one again and again.
+    /// Indicatrix restored last: pictures and point queries request the same one repeatedly.
     last: Mutex<Option<(usize, Arc<[f64]>)>>,
 }
 
-/// The orders in the sequence of their numbers in files.
+/// Orders in the sequence of their numbers in files.
 pub const ORDERS: [Order; 3] = [Order::Constant, Order::Linear, Order::Quadratic];
 
 impl CompactRows {
-    /// Compresses rows of values in 1/sr, one value a cell of `basis`. Of the three orders each row takes the one that
-    /// is smallest by an estimate of its entropy.
+    /// Compresses rows of values in 1/sr, one value per cell of `basis`. Of the three orders each row takes the one
+    /// that is smallest by an estimate of its entropy.
     ///
     /// # Errors
-    /// Values below 0 or not finite; a threshold out of range.
+    /// Returns an error if a value is below 0 or not finite, if the threshold is out of range, or if there are more
+    /// than [`MOST_CELLS`] cells.
     pub fn compress(
         basis: &RingBasis,
         count: usize,
@@ -154,62 +156,63 @@ impl CompactRows {
         Ok(Self { decoder, rows, last: Mutex::new(None) })
     }
 
-    /// From quantised rows, as a file holds them. `None` when a row does not fit the decoder, or holds numbers that
-    /// [`Self::compress`] never writes.
+    /// Creates compact rows from quantised rows, as a file holds them. `None` when a row does not fit the decoder, or
+    /// holds numbers that [`Self::compress`] never writes.
     pub fn from_rows(decoder: RowDecoder, rows: Vec<(Order, QuantisedRow)>) -> Option<Self> {
         let fits = rows.iter().all(|(order, row)| decoder.fits(*order, row));
         let packed = || rows.iter().map(|(order, row)| pack(*order, row)).collect();
         fits.then(|| Self { rows: packed(), decoder, last: Mutex::new(None) })
     }
 
-    /// The cells.
+    /// Returns the cells of the rows.
     pub fn basis(&self) -> &RingBasis {
         &self.decoder.basis
     }
 
-    /// Number of indicatrices.
+    /// Returns the number of indicatrices.
     pub fn len(&self) -> usize {
         self.rows.len()
     }
 
-    /// True without any.
+    /// Whether there are no indicatrices.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()
     }
 
-    /// Tenths of the exponent by which steps follow the support of a wavelet.
+    /// Returns the tenths of the exponent by which steps follow the support of a wavelet.
     pub const fn exponent(&self) -> u8 {
         self.decoder.exponent
     }
 
-    /// ∫q cosθ dω of an indicatrix, as it was before.
+    /// Returns ∫q cosθ dω of an indicatrix, as it was before compression.
     pub fn tau(&self, row: usize) -> f64 {
         self.rows[row].tau
     }
 
-    /// The quantised coefficients of an indicatrix.
+    /// Returns the quantised coefficients of an indicatrix.
     pub fn quantised(&self, row: usize) -> (Order, QuantisedRow) {
         let packed = &self.rows[row];
         (packed.order, unpack(packed, self.decoder.basis.len()))
     }
 
-    /// The transform of an order, where any row uses it.
+    /// Returns the transform of an order; `None` if no row uses it.
     pub fn transform(&self, order: Order) -> Option<&Transform> {
         self.decoder.transform(order)
     }
 
-    /// The indicatrix: nothing negative, its τ to rounding. \[1/sr\]
+    /// Restores the indicatrix: not negative, its τ to rounding. \[1/sr\]
     pub fn row(&self, row: usize) -> Vec<f64> {
         self.restored(row).0
     }
 
-    /// The indicatrix, and the share of its cells that would be negative without clamping.
+    /// Restores the indicatrix, and returns the share of its cells that would be negative without clamping.
     pub fn restored(&self, row: usize) -> (Vec<f64>, f64) {
         let (order, quantised) = self.quantised(row);
         self.decoder.restore(order, &quantised)
     }
 
-    /// One value. \[1/sr\] The indicatrix is made once and kept until another is asked for.
+    /// Returns the value of one cell of an indicatrix. \[1/sr\] The indicatrix is restored once and kept until another
+    /// is requested.
     pub fn value(&self, row: usize, cell: usize) -> f64 {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {
@@ -223,12 +226,12 @@ impl CompactRows {
         }
     }
 
-    /// Numbers kept: coefficients that are not 0, and τ.
+    /// Returns the count of the numbers kept: coefficients that are not 0, and τ.
     pub fn numbers(&self) -> usize {
         self.rows.iter().map(|row| row.count as usize).sum()
     }
 
-    /// Bytes that the rows take in memory, without the transforms that all data on these cells share.
+    /// Returns the bytes that the rows take in memory, without the transforms that all data on these cells share.
     pub fn bytes_in_use(&self) -> usize {
         self.rows.iter().map(|row| size_of::<Packed>() + row.list.len()).sum()
     }
@@ -252,7 +255,8 @@ impl fmt::Debug for CompactRows {
     }
 }
 
-/// Bits of a row by the entropy of its zeros and the magnitudes of the others; only compared with one another.
+/// Estimates the bits of a row by the entropy of its zeros and the magnitudes of the others; only compared with one
+/// another.
 fn cost(row: &QuantisedRow) -> f64 {
     let n = row.levels.len() as f64;
     let kept = row.levels.iter().filter(|level| **level != 0);
@@ -303,7 +307,8 @@ fn unpack(packed: &Packed, cells: usize) -> QuantisedRow {
     QuantisedRow { tau: packed.tau, step: packed.step, levels }
 }
 
-/// Transforms kept for the bases that were used last; building one takes a third of a second for 20 000 cells.
+/// Number of transforms kept for the bases that were used last; building one takes a third of a second for 20 000
+/// cells.
 const REMEMBERED: usize = 9;
 
 fn prepared(basis: &RingBasis, order: Order, exponent: u8) -> Arc<Prepared> {

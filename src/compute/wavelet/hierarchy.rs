@@ -1,27 +1,27 @@
-//! Cells of a division of the hemisphere, halved again and again: what the wavelets live on.
+//! Cells of a division of the hemisphere, halved recursively: the tree on which the wavelets are defined.
 //!
-//! Rings of any instrument are halved in the square that Shirley and Chiu map to the disk, with the disk's radius
-//! taken as √(1 − cosθ), so that equal areas are equal solid angles: groups of cells stay about as wide as high, and
-//! their borders follow the rings.
+//! Rings of any instrument are halved in the square that Shirley and Chiu map to the disk, with the disk's radius taken
+//! as √(1 − cosθ), so that equal areas are equal solid angles: groups of cells stay about as wide as high, and their
+//! borders follow the rings.
 
 use crate::compute::basis::{RingBasis, square_from_disk};
 use glam::DVec3;
 
-/// A cell as the wavelets see it.
+/// Cell reduced to weight and direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellPoint {
-    /// ∫cosθ dω. \[sr\]
+    /// Projected solid angle ∫cosθ dω. \[sr\]
     pub weight: f64,
-    /// Where it lies; a unit vector, façade frame, through-name.
+    /// Direction of the centre; a unit vector, façade frame, through direction.
     pub centre: DVec3,
 }
 
-/// A group of cells: a few of them, or smaller groups.
+/// Group of cells: a few of them, or smaller groups.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Group {
     /// Indices of cells.
     Cells(Vec<u32>),
-    /// Groups side by side.
+    /// Smaller groups.
     Groups(Vec<Group>),
 }
 
@@ -30,12 +30,12 @@ pub enum Group {
 pub struct Hierarchy {
     /// Cells, in the order in which values are given.
     pub cells: Vec<CellPoint>,
-    /// All of them.
+    /// Group of all cells.
     pub root: Group,
 }
 
 impl Hierarchy {
-    /// Over the cells of a ring basis, halved down to groups of at most `most` cells (≥ 1).
+    /// Builds the tree over the cells of a ring basis, halved down to groups of at most `most` cells (≥ 1).
     pub fn of_rings(basis: &RingBasis, most: usize) -> Self {
         let mut cells = Vec::with_capacity(basis.len());
         let mut places = Vec::with_capacity(basis.len());
@@ -62,7 +62,7 @@ fn halve(cells: &mut [u32], places: &[[f64; 2]], most: usize) -> Group {
         let range = cells.iter().map(|&cell| places[cell as usize][axis]);
         range.clone().fold(f64::NEG_INFINITY, f64::max) - range.fold(f64::INFINITY, f64::min)
     };
-    // A tie goes to the vertical: borders must not hang on rounding.
+    // A tie goes to the vertical: borders must not depend on rounding.
     let axis = usize::from(extent(1) > 0.999_999 * extent(0));
     // Places that differ by rounding are the same place; the other coordinate, then the number decide.
     let key = |cell: u32| {
@@ -76,7 +76,8 @@ fn halve(cells: &mut [u32], places: &[[f64; 2]], most: usize) -> Group {
     Group::Groups(vec![halve(low, places, most), halve(high, places, most)])
 }
 
-/// Where to part a sorted list: at the change of place nearest to the middle, if one lies within its inner 40 %.
+/// Returns where a sorted list is divided: at the change of place nearest to the middle, if one lies within its inner
+/// 40 %.
 fn middle(count: usize, place: impl Fn(usize) -> i64) -> usize {
     let half = count / 2;
     for step in 0..=count / 5 {

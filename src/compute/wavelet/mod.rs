@@ -4,11 +4,11 @@
 //!  cells ─ Hierarchy ─ Transform ─► coefficients ─ QuantisedRow ─► CompactRows ─► formats::compact_rows (bytes)
 //! ```
 //!
-//! # What was chosen, and why
+//! # Choices and reasons
 //!
 //! The report puts indicatrices on a triangle quadtree and uses the Haar wavelets of Schröder and Sweldens (1995). Here
 //! the wavelets live on the cells of the data themselves, halved down from the hemisphere, and are orthonormal under
-//! the cells' projected solid angles: nothing is resampled, all values come back when nothing is dropped, Σ w q² = Σ c²,
+//! the cells' projected solid angles: nothing is resampled, all values return if nothing is dropped, Σ w q² = Σ c²,
 //! and one coefficient is τ. Besides Haar (constants) the wavelets may be blind to what is linear or quadratic in the
 //! direction ([`Order`]); every indicatrix takes the order that is smallest.
 //!
@@ -22,14 +22,13 @@
 //! | the same, 2 % noise | 3.8 (3.1) | 6.4 (5.3) | 3.4 (2.9) | 6.3 (5.2) | **6.8 (5.6)** |
 //! | a lobe of 2° | 109 (86) | 59 (46) | **138 (111)** | 98 (74) | 69 (56) |
 //!
-//! So the tree matters little and the order much: smooth parts are what Haar is bad at, single peaks what it is best
-//! at.
+//! So the tree matters little and the order much: Haar is worst at smooth parts and best at single peaks.
 //!
 //! Steps may follow the support W of a wavelet as (W/W_all)^−β. For a square norm β = 0 is best; for misplaced flux,
 //! which forgives large errors on small places, β = 0.3 saves up to a tenth of the bytes.
 //!
-//! Noise is not worth its bytes: 2 % of it on a diffuser costs 50 kB at 0.5 % of the flux and 1 kB at 1.5 %. A threshold
-//! below the noise of a measurement only keeps the noise.
+//! Noise is not worth its bytes: 2 % of it on a diffuser costs 50 kB at 0.5 % of the flux and 1 kB at 1.5 %. A
+//! threshold below the noise of a measurement only keeps the noise.
 
 mod compact;
 mod hierarchy;

@@ -1,38 +1,38 @@
-//! One indicatrix in few numbers: quantised coefficients, the step found by bisection so that a stated error is kept.
+//! Quantisation of one indicatrix: the step is found by bisection so that a stated error is kept.
 
 use super::transform::Transform;
 
-/// What must not be exceeded by the indicatrix that comes back, quantisation, clamping and rescaling included.
+/// Error that the restored indicatrix must not exceed, quantisation, clamping and rescaling included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Criterion {
     /// Share of the flux that goes elsewhere: ½∫|f̃ − f| cosθ dω / τ.
     Misplaced(f64),
-    /// √(∫(f̃ − f)² cosθ dω / ∫f² cosθ dω).
+    /// Relative rms error √(∫(f̃ − f)² cosθ dω / ∫f² cosθ dω).
     Rms(f64),
     /// Share of the energy Σc² = ∫f² cosθ dω that is dropped: the square of [`Self::Rms`].
     Energy(f64),
 }
 
 impl Criterion {
-    /// 0.5 % of the flux misplaced: for keeping.
+    /// 0.5 % of the flux misplaced: for archives.
     pub const ARCHIVE: Self = Self::Misplaced(0.005);
     /// 1.5 % of the flux misplaced.
     pub const NORMAL: Self = Self::Misplaced(0.015);
 
-    /// The threshold as it was given.
+    /// Returns the threshold as it was given.
     pub const fn threshold(self) -> f64 {
         match self {
             Self::Misplaced(e) | Self::Rms(e) | Self::Energy(e) => e,
         }
     }
 
-    /// Can it be asked for? Thresholds from 1e-6 to below 1 (energy: 1e-12).
+    /// Whether the threshold is allowed: from 1e-6 to below 1 (energy: from 1e-12).
     pub fn is_valid(self) -> bool {
         let least = if matches!(self, Self::Energy(_)) { 1e-12 } else { 1e-6 };
         (least..1.0).contains(&self.threshold())
     }
 
-    /// Error of one indicatrix in the criterion's own measure; 0 for a dark one.
+    /// Computes the error of one indicatrix in the criterion's own measure; 0 for a dark one.
     pub fn error(self, weights: &[f64], given: &[f64], back: &[f64]) -> f64 {
         match self {
             Self::Misplaced(_) => {
@@ -54,28 +54,29 @@ impl Criterion {
 /// Quantised coefficients of one indicatrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuantisedRow {
-    /// ∫f cosθ dω, kept as it is.
+    /// τ = ∫f cosθ dω, not quantised.
     pub tau: f64,
-    /// log₂ of the step in sixteenths.
+    /// Step in sixteenths of an octave: log₂ of the step times 16.
     pub step: i16,
-    /// A whole number a coefficient; the first, which stands for τ, is 0.
+    /// Whole number per coefficient; the first, which represents τ, is 0.
     pub levels: Vec<i32>,
 }
 
-/// Steps an octave.
+/// Number of steps per octave.
 const STEPS: f64 = 16.0;
-/// Least magnitude that is not dropped, in steps. Above one half: what is nearly dropped costs more than it gives.
+/// Minimum magnitude that is not dropped, in steps. It is above one half because a coefficient just above one half
+/// costs more than it gives.
 const DEAD_ZONE: f64 = 0.62;
-/// Largest magnitude in steps.
+/// Maximum magnitude in steps.
 const LARGEST: f64 = 16_777_216.0;
 
-/// The step of a number of sixteenths of an octave.
+/// Returns the step of a number of sixteenths of an octave.
 pub(crate) fn step_of(number: i16) -> f64 {
     (f64::from(number) / STEPS).exp2()
 }
 
-/// How steps follow the support of a wavelet: step · (W/W_all)^−β. With β = 0 all coefficients have the same error, which
-/// is best for a square norm. Misplaced flux forgives large errors on small places.
+/// Returns the factors by which steps follow the support of a wavelet: step · (W/W_all)^−β. With β = 0 all coefficients
+/// have the same error, which is best for a square norm. Misplaced flux forgives large errors on small places.
 pub(crate) fn step_factors(transform: &Transform, exponent: f64) -> Vec<f64> {
     let all = transform.weight();
     transform.supports().into_iter().map(|support| (support / all).powf(-exponent)).collect()
@@ -95,12 +96,12 @@ impl QuantisedRow {
         Self { tau, step, levels }
     }
 
-    /// Numbers that differ from 0, τ among them.
+    /// Returns the number of values that differ from 0, τ among them.
     pub fn count(&self) -> usize {
         usize::from(self.tau != 0.0) + self.levels.iter().filter(|level| **level != 0).count()
     }
 
-    /// Coefficients in their unit.
+    /// Returns the coefficients in their unit.
     pub(crate) fn coefficients(&self, transform: &Transform, factors: &[f64]) -> Vec<f64> {
         let unit = step_of(self.step);
         let mut out: Vec<f64> =
@@ -109,7 +110,8 @@ impl QuantisedRow {
         out
     }
 
-    /// The indicatrix: nothing negative, and with its τ to rounding. Also the share of cells that were negative before.
+    /// Restores the indicatrix: not negative, and with its τ to rounding. Also returns the share of cells that were
+    /// negative before.
     pub(crate) fn restore(&self, transform: &Transform, factors: &[f64], weights: &[f64]) -> (Vec<f64>, f64) {
         if self.tau <= 0.0 {
             return (vec![0.0; transform.len()], 0.0);
@@ -135,7 +137,7 @@ impl QuantisedRow {
     }
 }
 
-/// The coarsest quantisation that keeps the criterion; a dark indicatrix has no coefficients.
+/// Finds the coarsest quantisation that keeps the criterion; a dark indicatrix has no coefficients.
 pub(crate) fn quantise(
     transform: &Transform,
     factors: &[f64],

@@ -1,27 +1,27 @@
-//! What the compact form of a dataset saves and what it costs.
+//! Saving and errors of the compact form of a dataset.
 
 use super::compact::CompactRows;
 use super::quantise::Criterion;
 
-/// Saved numbers and errors of all indicatrices of one function. Dark ones (τ = 0) come back as they are and are left
+/// Saved numbers and errors of all indicatrices of one function. Dark ones (τ = 0) are restored exactly and are left
 /// out of means.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CompactReport {
-    /// Indicatrices.
+    /// Number of indicatrices.
     pub rows: usize,
-    /// Emergent cells of each.
+    /// Number of emergent cells of each indicatrix.
     pub cells: usize,
-    /// Numbers kept: coefficients that are not 0, and one τ a row.
+    /// Count of the numbers kept: coefficients that are not 0, and one τ per row.
     pub numbers: usize,
-    /// √(∫(f̃ − f)² / ∫f²) over all rows together.
+    /// Relative rms error √(∫(f̃ − f)² / ∫f²) over all rows together.
     pub rms: f64,
-    /// The same for the worst row.
+    /// Relative rms error √(∫(f̃ − f)² / ∫f²) of the worst row.
     pub rms_worst: f64,
     /// Largest |f̃ − f| of any cell over the largest f of its row.
     pub largest: f64,
-    /// ½∫|f̃ − f| cosθ dω / τ, mean of the rows.
+    /// Misplaced share of the flux, ½∫|f̃ − f| cosθ dω / τ, mean of the rows.
     pub misplaced: f64,
-    /// The same for the worst row.
+    /// Misplaced share of the flux, ½∫|f̃ − f| cosθ dω / τ, of the worst row.
     pub misplaced_worst: f64,
     /// Largest |τ̃ − τ| / τ.
     pub tau_error: f64,
@@ -30,7 +30,7 @@ pub struct CompactReport {
 }
 
 impl CompactReport {
-    /// Compares rows with what they were made of; `row` gives the latter.
+    /// Compares compact rows with their originals, which `row` returns.
     pub fn new(compact: &CompactRows, row: impl Fn(usize) -> Vec<f64>) -> Self {
         let weights = compact.basis().projected_solid_angles();
         let mut report =
@@ -67,7 +67,7 @@ impl CompactReport {
         report
     }
 
-    /// Values given for every number kept.
+    /// Returns the number of given values per number kept.
     pub fn ratio(&self) -> f64 {
         (self.rows * self.cells) as f64 / self.numbers.max(1) as f64
     }

@@ -10,7 +10,7 @@
 use super::hierarchy::{Group, Hierarchy};
 use glam::DVec3;
 
-/// What a group of cells expresses without wavelets.
+/// Functions that a group of cells expresses without wavelets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Order {
     /// Constants: Haar.
@@ -22,7 +22,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// Number of its polynomials.
+    /// Returns the number of polynomials of the order.
     pub const fn functions(self) -> usize {
         match self {
             Self::Constant => 1,
@@ -32,54 +32,54 @@ impl Order {
     }
 }
 
-/// One group: an orthonormal matrix from what its parts keep to what it keeps and its wavelets.
+/// Group of cells with an orthonormal matrix from the coefficients of its parts to its own and its wavelets.
 #[derive(Debug, Clone, Copy)]
 pub struct Block {
-    /// Generations from the root.
+    /// Number of generations from the root.
     pub level: u32,
-    /// The block that it is part of; itself for the root.
+    /// Index of the block that contains this one; its own index for the root.
     pub parent: u32,
-    /// First block inside.
+    /// Index of the first block inside.
     pub first_child: u32,
-    /// Number of blocks inside; none: its parts are cells.
+    /// Number of blocks inside; 0 where the parts are cells.
     pub children: u32,
-    /// ∫cosθ dω of all its cells. \[sr\]
+    /// Projected solid angle ∫cosθ dω of all cells of the group. \[sr\]
     pub weight: f64,
-    /// Where its wavelets' coefficients begin.
+    /// Index of the first coefficient of the block's wavelets.
     pub wavelets: u32,
     inputs: u32,
     kept: u32,
     input_at: u32,
     kept_at: u32,
     matrix_at: usize,
-    /// Its cells, as places in the order of the tree.
+    /// Range of the group's cells in `order`.
     cells: [u32; 2],
 }
 
 impl Block {
-    /// Number of its wavelets.
+    /// Returns the number of the block's wavelets.
     pub fn wavelet_count(&self) -> usize {
         (self.inputs - self.kept) as usize
     }
 }
 
-/// The transform for one tree of cells.
+/// Transform for one tree of cells.
 #[derive(Debug, Clone)]
 pub struct Transform {
     root_weight: Vec<f64>,
     inverse_root_weight: Vec<f64>,
-    /// Cells in the order of the tree, with the root of the weight of each.
+    /// Indices of the cells in the order of the tree.
     order: Vec<u32>,
     blocks: Vec<Block>,
     matrices: Vec<f64>,
     kept: usize,
 }
 
-/// A column that keeps less than this of its length after what is already there was taken away is no new function.
+/// Share of its length below which the rest of a column, orthogonal to the rows before, is not a new function.
 const INDEPENDENT: f64 = 1e-6;
 
-/// Powers of x, y, z: those of the orders, then one degree more. The wavelets follow them as far as they go, which
-/// gathers what is smooth in few of them. On the sphere z² is no function of its own.
+/// Powers of x, y, z: those of the orders, then one degree more. The wavelets follow them as far as possible, which
+/// gathers the smooth part in few of them. On the sphere z² is not independent and left out.
 const POWERS: [[i32; 3]; 16] = [
     [0, 0, 0],
     [1, 0, 0],
@@ -100,7 +100,7 @@ const POWERS: [[i32; 3]; 16] = [
 ];
 
 impl Transform {
-    /// Prepares the matrices.
+    /// Prepares the matrices for a tree of cells and an order.
     pub fn new(hierarchy: &Hierarchy, order: Order) -> Self {
         let mut builder = Builder {
             hierarchy,
@@ -113,32 +113,32 @@ impl Transform {
         builder.finish(root_weight)
     }
 
-    /// Number of cells, and of coefficients.
+    /// Returns the number of cells, which is also that of the coefficients.
     pub fn len(&self) -> usize {
         self.root_weight.len()
     }
 
-    /// True without cells; never for a hierarchy of a basis.
+    /// Whether there are no cells; never for a hierarchy of a basis.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Blocks, coarse to fine; parents before their parts.
+    /// Returns the blocks, coarse to fine; parents before their parts.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// Coefficients that are no wavelets: what the root keeps. The first is the constant's.
+    /// Returns the number of coefficients of the root's scaling functions. The first is the constant's.
     pub fn root_count(&self) -> usize {
         self.blocks.first().map_or(0, |root| root.kept as usize)
     }
 
-    /// Σ w of all cells. \[sr\]
+    /// Returns Σ w of all cells. \[sr\]
     pub fn weight(&self) -> f64 {
         self.blocks.first().map_or(0.0, |root| root.weight)
     }
 
-    /// ∫cosθ dω of the group to which each coefficient belongs. \[sr\]
+    /// Returns ∫cosθ dω of the group to which each coefficient belongs. \[sr\]
     pub fn supports(&self) -> Vec<f64> {
         let mut supports = vec![self.weight(); self.len()];
         for block in &self.blocks {
@@ -148,7 +148,7 @@ impl Transform {
         supports
     }
 
-    /// Coefficients of a function given by its cell means; Σ w f² = Σ c².
+    /// Computes the coefficients of a function given by its cell means; Σ w f² = Σ c².
     pub fn forward(&self, values: &[f64]) -> Vec<f64> {
         assert_eq!(values.len(), self.len(), "one value a cell");
         let leaves: Vec<f64> =
@@ -177,7 +177,7 @@ impl Transform {
         coefficients
     }
 
-    /// Cell means of a function given by its coefficients.
+    /// Computes the cell means of a function given by its coefficients.
     pub fn inverse(&self, coefficients: &[f64]) -> Vec<f64> {
         assert_eq!(coefficients.len(), self.len(), "one coefficient a cell");
         let flat = self.flat(coefficients);
@@ -218,7 +218,7 @@ impl Transform {
         values
     }
 
-    /// Blocks without any wavelet in them or below them.
+    /// Returns for each block whether it has no wavelet in it or below it.
     fn flat(&self, coefficients: &[f64]) -> Vec<bool> {
         let mut flat = vec![true; self.blocks.len()];
         for (index, block) in self.blocks.iter().enumerate().rev() {
@@ -234,7 +234,7 @@ impl Transform {
     }
 }
 
-/// A group while the tree is numbered.
+/// Group while the tree is numbered.
 struct Numbered {
     level: u32,
     parent: u32,
@@ -251,7 +251,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Breadth first, so that the parts of a group stand side by side.
+    /// Numbers the groups breadth first, so that the parts of a group are consecutive.
     fn number(&mut self, root: &Group) {
         fn cells(group: &Group, out: &mut Vec<u32>) {
             match group {
@@ -351,7 +351,7 @@ impl Builder<'_> {
         self.lay_out(root_weight, &functions, matrices)
     }
 
-    /// Polynomials about the group's middle, times √w, by their [`POWERS`].
+    /// Returns a function that gives polynomials about the group's middle, times √w, by their [`POWERS`].
     fn columns(&self, cells: &[u32], root_weight: &[f64]) -> impl Fn(&[i32; 3]) -> Vec<f64> {
         let points = &self.hierarchy.cells;
         let weight: f64 = cells.iter().map(|&cell| points[cell as usize].weight).sum();
@@ -411,7 +411,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// What of a vector is orthogonal to the rows, of unit length; `None` when nothing is left.
+/// Returns the part of a vector that is orthogonal to the rows, of unit length; `None` when nothing is left.
 fn independent(mut vector: Vec<f64>, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     let before = dot(&vector, &vector).sqrt();
     // Twice is enough (Kahan, Parlett); a third time for columns that are almost dependent.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A day as a weather file writes it. The 29th of February counts in any year: rows are believed.
+/// Day as a weather file writes it. 29 February is accepted in any year, since rows are used as given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Day {
     /// Year.
@@ -13,13 +13,13 @@ pub struct Day {
     pub day: u8,
 }
 
-/// Days before each month of a common year.
+/// Number of days before each month of a common year.
 const BEFORE: [u16; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
-/// Days of each month, February with its leap day.
+/// Number of days of each month, February with its leap day.
 const LENGTHS: [u8; 12] = [31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
 
 impl Day {
-    /// `None` where no year has such a day.
+    /// Creates a day; `None` where no year has such a day.
     pub fn new(year: i16, month: u8, day: u8) -> Option<Self> {
         let most = *LENGTHS.get(usize::from(month).checked_sub(1)?)?;
         (1..=most).contains(&day).then_some(Self { year, month, day })
@@ -45,7 +45,7 @@ impl Day {
         }
     }
 
-    /// Days since 1 January 1970. A 29th of February in a common year is the day behind the 28th, as its 1st of March.
+    /// Returns the days since 1 January 1970. A 29 February in a common year is the day after the 28th, as its 1 March.
     pub fn number(self) -> i64 {
         // Years from March on, so that the leap day is the last.
         let shifted = i64::from(self.month < 3);
@@ -57,20 +57,20 @@ impl Day {
         era * 146_097 + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - 719_468
     }
 
-    /// Day of a common year, 1 … 365; the 29th of February as the 28th.
+    /// Returns the day of a common year, 1 … 365; 29 February as the 28th.
     pub fn of_common_year(self) -> u16 {
         let day = if self.month == 2 { self.day.min(28) } else { self.day };
         BEFORE[usize::from(self.month.clamp(1, 12)) - 1] + u16::from(day)
     }
 
-    /// Day of the week, 0 (Monday) … 6 (Sunday).
+    /// Returns the day of the week, 0 (Monday) … 6 (Sunday).
     pub fn weekday(self) -> u8 {
         // 1 January 1970 was a Thursday.
         (self.number() + 3).rem_euclid(7) as u8
     }
 
-    /// Square of the mean distance of the sun over that of the day, by which the solar constant is multiplied: Spencer
-    /// 1971 on the day of a common year.
+    /// Returns the square of the mean distance of the sun over that of the day, by which the solar constant is
+    /// multiplied: Spencer 1971 on the day of a common year.
     pub fn eccentricity(self) -> f64 {
         crate::compute::sky::perez::eccentricity(self.of_common_year())
     }

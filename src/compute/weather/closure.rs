@@ -1,22 +1,22 @@
-//! Is the file's clock right? Global = diffuse + direct · sin h closes where the sun stands in the right place.
+//! Test of a weather file's clock: global = diffuse + direct · sin h closes where the sun is in the right position.
 
 use super::record::{Closure, Quantity, Weather};
 use super::sun_path::{SunPath, SunPathError};
 
-/// How far to both sides the clock is searched. \[min\]
+/// Maximum clock offset that is tried, to both sides. \[min\]
 pub const SEARCHED: i32 = 120;
-/// Distance of the places tried. \[min\]
+/// Step of the clock offsets tried. \[min\]
 const STEP: i32 = 10;
-/// Fewer hours with sun tell nothing about a clock.
+/// Minimum number of hours with sun for a test of the clock.
 const LEAST_HOURS: usize = 20;
-/// Least beam that counts: what is less is lost in the rounding of the others. \[W/m²\]
+/// Minimum direct irradiance that counts: smaller values are lost in the rounding of the others. \[W/m²\]
 const LEAST_BEAM: f64 = 1.0;
 
 impl Weather {
     /// Tests the clock; `None` for files without global irradiance or with too few hours of sun.
     ///
     /// # Errors
-    /// Of the sun's place.
+    /// Returns an error if the sun's position cannot be computed.
     pub fn closure(&self) -> Result<Option<Closure>, SunPathError> {
         if self.quantity != Quantity::NormalIrradiance {
             return Ok(None);

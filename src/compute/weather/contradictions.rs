@@ -1,7 +1,7 @@
 //! Contradictions within a weather file: global, direct and diffuse irradiances that do not belong together, another
-//! unit than W/m², a clock that no place has.
+//! unit than W/m², a clock that belongs to no place.
 //!
-//! Nothing is changed here: which of two figures is wrong, only who made the file knows.
+//! Nothing is changed here: only the author of the file knows which of two values is wrong.
 
 use super::count::Count;
 use super::record::{Closure, MAX_RMS, Quantity, Station, Weather};
@@ -13,14 +13,14 @@ use crate::compute::sky::perez::SOLAR_CONSTANT;
 pub(super) const DIRECT_HORIZONTAL: &str = "direct-horizontal";
 /// Altitude of the sun above which a row has to close: below it sunrise falls into the interval. \[°\]
 const ROW_ALTITUDE: f64 = 10.0;
-/// Largest rest of a row in global − diffuse − direct · sin h: in four measured and modelled years no row with such a sun
-/// leaves more than 25, and a sun that is 10 min off leaves up to 40. \[W/m²\]
+/// Largest rest of a row in global − diffuse − direct · sin h: in four measured and modelled years no row with such a
+/// sun leaves more than 25, and a sun that is 10 min off leaves up to 40. \[W/m²\]
 const MAX_REST: f64 = 150.0;
 /// Direct irradiance from which a row counts as sunny. \[W/m²\]
 const SUNNY: f64 = 50.0;
-/// Rows that are needed to judge all of them.
+/// Minimum number of rows needed to judge all of them.
 const MIN_ROWS: usize = 10;
-/// Largest rest of global − diffuse − direct that is nothing: rounding of three figures \[W/m²\], and share of direct.
+/// Largest rest of global − diffuse − direct that counts as 0: rounding of three values \[W/m²\], and share of direct.
 const SAME: (f64, f64) = (2.0, 0.005);
 /// Rest of global − diffuse − direct · sin h that shows that direct is not normal: the sun is not always high. \[W/m²\]
 const NOT_NORMAL: f64 = 10.0;
@@ -28,10 +28,11 @@ const NOT_NORMAL: f64 = 10.0;
 const CLEAR_ALTITUDE: f64 = 20.0;
 /// Share of diffuse in global irradiance under a clear sky.
 const CLEAR_DIFFUSE: f64 = 0.4;
-/// Share of the extraterrestrial irradiance that the brightest of some clear rows has at least: in five measured and modelled
+/// Minimum share of the extraterrestrial irradiance in the brightest of some clear rows: in five measured and modelled
 /// years that of any month has 0.59 or more.
 const MIN_CLEARNESS: f64 = 0.5;
-/// Difference of a clock and the sun's that no country has: 3.2 h in the west of China. \[h\]
+/// Largest difference between clock and solar time that a country may have; the largest is 3.2 h in the west of China.
+/// \[h\]
 const MAX_FROM_SUN: f64 = 3.5;
 /// Latitude beyond which clocks do not follow the sun. \[°\]
 const POLAR: f64 = 80.0;
@@ -56,7 +57,7 @@ struct Balance {
 }
 
 impl Weather {
-    /// Returns what contradicts itself; `closure`: the test of the clock.
+    /// Returns findings about contradictions; `closure`: the test of the clock.
     pub(super) fn contradictions(&self, closure: Option<Closure>) -> Result<Vec<Finding>, SunPathError> {
         let mut findings = Vec::new();
         check_zone(&self.station, &mut findings);
@@ -105,7 +106,7 @@ impl Weather {
 }
 
 impl Balance {
-    /// Adds what the sums show.
+    /// Adds the findings that the sums show.
     fn say(&self, weather: &Weather, findings: &mut Vec<Finding>) {
         let rms = (self.squares / self.sunny.max(1) as f64).sqrt();
         if self.sunny >= MIN_ROWS && 100 * self.flat >= 99 * self.sunny && rms > NOT_NORMAL {
@@ -146,7 +147,7 @@ impl Balance {
     }
 }
 
-/// Adds a finding about a clock that is not that of a time zone, or that is far from that of the sun.
+/// Adds a finding about a clock that does not belong to any time zone, or that is far from solar time.
 fn check_zone(station: &Station, findings: &mut Vec<Finding>) {
     let (offset, sun) = (station.utc_offset, station.longitude / 15.0);
     let nearest = (4.0 * offset).round() / 4.0;
@@ -179,8 +180,8 @@ mod tests {
     use super::*;
     use crate::compute::weather::{Day, Hour, Reading, Record};
 
-    /// A clear day in records of `interval` minutes, on the meridian of its zone: 800 W/m² of direct normal and 100 W/m² of
-    /// diffuse irradiance, and the global one that belongs to them.
+    /// A clear day in records of `interval` minutes, on the meridian of its zone: 800 W/m² of direct normal and 100
+    /// W/m² of diffuse irradiance, and the global one that belongs to them.
     fn clear_day(interval: u16) -> Weather {
         let station = Station { latitude: 45.0, longitude: 15.0, utc_offset: 1.0, ..Station::default() };
         let day = Day::new(2018, 6, 21).unwrap();

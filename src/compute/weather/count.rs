@@ -1,8 +1,8 @@
-//! Rows of a weather file that have a finding in common: how many, and where the first one is.
+//! Count of the rows of a weather file that have a finding in common, with the line of the first one.
 
 use super::record::Record;
 
-/// Rows that have something in common.
+/// Count of rows that have something in common.
 #[derive(Default)]
 pub(super) struct Count {
     /// Number of rows.
@@ -17,7 +17,7 @@ impl Count {
         self.first.get_or_insert(record.line);
     }
 
-    /// Number and first line: `12 rows, first in line 40`.
+    /// Returns number and first line: `12 rows, first in line 40`.
     pub(super) fn words(&self) -> String {
         let rows = if self.number == 1 { "row" } else { "rows" };
         format!("{} {rows}, first in line {}", self.number, self.first.unwrap_or(0))

@@ -1,4 +1,4 @@
-//! What is to be said about a weather file: period, gaps, clock, light with the sun down, sums.
+//! Examination of a weather file: period, gaps, clock, light with the sun down, sums.
 
 use super::contradictions::DIRECT_HORIZONTAL;
 use super::count::Count;
@@ -7,62 +7,63 @@ use super::record::{Closure, Field, Quantity, Weather};
 use super::sun_path::SunPath;
 use crate::compute::btdf::Finding;
 
-/// Over all records. Irradiations in kWh/m², light in klx·h.
+/// Sums over all records. Irradiations in kWh/m², light in klx·h.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sums {
-    /// Global horizontal as the file tells it, 0 where it does not.
+    /// Global horizontal irradiation as the file states it, 0 where it does not. \[kWh/m²\]
     pub global: f64,
-    /// On a plane that follows the sun.
+    /// Direct irradiation on a plane that follows the sun. \[kWh/m²\]
     pub direct_normal: f64,
-    /// Of the sky, on the horizontal plane.
+    /// Diffuse irradiation of the sky on the horizontal plane. \[kWh/m²\]
     pub diffuse: f64,
-    /// Diffuse horizontal illuminance.
+    /// Diffuse horizontal illuminance. \[klx·h\]
     pub diffuse_light: f64,
-    /// Illuminance on a plane that follows the sun.
+    /// Illuminance on a plane that follows the sun. \[klx·h\]
     pub direct_light: f64,
-    /// Global horizontal illuminance.
+    /// Global horizontal illuminance. \[klx·h\]
     pub global_light: f64,
 }
 
-/// A weather file at a glance.
+/// Summary of a weather file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// Sums.
+    /// Sums over all records.
     pub sums: Sums,
     /// Hours with any light.
     pub lit_hours: f64,
     /// Hours of sunshine: 120 W/m² or more on a plane that faces the sun (WMO).
     pub sunshine_hours: f64,
-    /// Records whose illuminances the file tells plausibly.
+    /// Number of records for which the file has plausible illuminances.
     pub told: usize,
-    /// Records with light but without sky: no diffuse part.
+    /// Number of records with light but without diffuse part.
     pub without_sky: usize,
-    /// Intervals that are not there.
+    /// Number of missing intervals.
     pub missing: usize,
-    /// The clock's test; `None` where it cannot be tested.
+    /// Test of the clock; `None` where it cannot be tested.
     pub closure: Option<Closure>,
-    /// What was found, the reader's findings first.
+    /// Findings, the reader's first.
     pub findings: Vec<Finding>,
 }
 
-/// Beam above which the sun shines. \[W/m²\]
+/// Direct irradiance from which the sun shines (WMO). \[W/m²\]
 const SUNSHINE: f64 = 120.0;
-/// A beam that no sun below the horizon sends. \[W/m²\]
+/// Direct irradiance that a sun below the horizon never causes. \[W/m²\]
 const BEAM_AT_NIGHT: f64 = 50.0;
-/// One row of so many may lie at a sunset that another year's day has: it says nothing about the clock.
+/// Number of rows per row with light at night that is tolerated: it may lie at the sunset of another year's day and is
+/// not evidence against the clock.
 const STRAY: usize = 1000;
 
-/// `true` if a number of days is that of whole years, with their leap days or without.
+/// Whether a number of days is that of whole years, with their leap days or without.
 fn are_years(days: usize) -> bool {
     let years = days / 365;
     years > 0 && days % 365 <= years.div_ceil(4)
 }
 
 impl Weather {
-    /// Reads every record once.
+    /// Examines all records and sums them up.
     ///
     /// # Errors
-    /// Of the sun's place.
+    /// Returns an error if the sun's position cannot be computed.
     pub fn examine(&self) -> Result<Summary, HourError> {
         let closure = match self.tested {
             Some(tested) => Some(tested),
@@ -71,7 +72,7 @@ impl Weather {
         let mut findings = self.findings.clone();
         let missing = self.sequence(&mut findings);
         let contradictions = self.contradictions(closure)?;
-        // A sum that holds another quantity says nothing about the clock.
+        // A sum that holds another quantity is not evidence about the clock.
         let testable = contradictions.iter().all(|finding| finding.code != DIRECT_HORIZONTAL);
         let closure = closure.filter(|_| testable);
         if testable {
@@ -92,7 +93,7 @@ impl Weather {
         Ok(summary)
     }
 
-    /// Gaps and repetitions; the number of intervals that are not there.
+    /// Adds findings about gaps and repetitions, and returns the number of missing intervals.
     fn sequence(&self, findings: &mut Vec<Finding>) -> usize {
         let step = 60 * i64::from(self.interval);
         let (mut missing, mut gaps, mut back) = (0, Count::default(), Count::default());

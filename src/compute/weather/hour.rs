@@ -1,26 +1,26 @@
-//! A record with its sun: where it stands in the lit part of the interval, and how much light there is.
+//! Record with its sun: position in the lit part of the interval, and illuminances.
 
 use super::record::{Field, Quantity, Record, Weather};
 use super::sun_path::{SunPath, SunPathError};
 use crate::compute::direction::{Dir, World};
 use crate::compute::sky::perez::{Air, PerezState, SOLAR_CONSTANT};
 
-/// Where the illuminances of an hour come from.
+/// Source of the illuminances of an hour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LightSource {
     /// Irradiances times the luminous efficacies of Perez 1990.
     #[default]
     Efficacy,
-    /// The file's own illuminances where they are there and plausible, else as [`Self::Efficacy`].
+    /// Illuminances of the file where it has plausible ones, else as [`Self::Efficacy`].
     File,
 }
 
-/// Where the intervals lie against what the file says.
+/// Offset of the intervals from the times that the file states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SunOffset {
-    /// Minutes later.
+    /// Number of minutes by which the intervals lie later.
     Minutes(f64),
-    /// Where global = diffuse + direct · sin h closes best.
+    /// Offset at which global = diffuse + direct · sin h closes best.
     Auto,
 }
 
@@ -30,30 +30,30 @@ impl Default for SunOffset {
     }
 }
 
-/// Altitude of the sun above which every sky is bright: in typical years (CZ2010, TMY3) rows that are dark at sunrise and
-/// sunset end at 8.6°, what is above is a gap. \[°\]
+/// Altitude of the sun above which every sky is bright: in typical years (CZ2010, TMY3) rows that are dark at sunrise
+/// and sunset end at 8.6°, dark rows above are gaps. \[°\]
 pub const HIGH_SUN: f64 = 10.0;
 
-/// Altitude of the sun below which no direct irradiance is computed: at 5° half a watt of rounding in global and diffuse
-/// irradiance are 6 W/m² of it, and a clock that is off by 10 min a third of it. \[°\]
+/// Altitude of the sun below which no direct irradiance is computed: at 5° half a watt of rounding in global and
+/// diffuse irradiance causes 6 W/m², and a clock that is off by 10 min a third of it. \[°\]
 pub(super) const MIN_ALTITUDE: f64 = 5.0;
 
-/// Furthest that intervals can be moved. \[min\]
+/// Maximum offset of the intervals, to both sides. \[min\]
 pub const WIDEST_OFFSET: f64 = 180.0;
 
-/// How a weather file is read into light.
+/// Options for reading a weather file as illuminances.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reading {
-    /// Illuminances.
+    /// Source of the illuminances.
     pub light: LightSource,
-    /// Clock.
+    /// Offset of the clock.
     pub offset: SunOffset,
 }
 
-/// Why there is no hour.
+/// Reason why an hour has no light data.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HourError {
-    /// A missing code while the sun is up.
+    /// Missing code while the sun is up.
     #[error(
         "line {line}: {field} is missing while the sun is up ({time}); expected a number: repair the row, or leave the hour out"
     )]
@@ -62,66 +62,66 @@ pub enum HourError {
         line: u32,
         /// Name and number of the field.
         field: &'static str,
-        /// Of the interval.
+        /// Day, begin and end of the interval.
         time: String,
     },
-    /// The clock cannot be found in the file.
+    /// Clock that cannot be tested with the file's data.
     #[error(
         "\"auto\" needs global horizontal irradiances beside direct and diffuse ones, and hours with sun: give minutes"
     )]
     NoClosure,
-    /// Not a shift of a clock.
+    /// Offset out of range. \[min\]
     #[error("{0} min is out of range (allowed: −180 to 180)")]
     Offset(f64),
-    /// No such record.
+    /// Index without a record.
     #[error("there is no record {0}")]
     Index(usize),
-    /// Of the sun's place.
+    /// Position of the sun that cannot be computed.
     #[error(transparent)]
     Sun(#[from] SunPathError),
 }
 
-/// An interval with its light.
+/// Interval with its light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hour {
-    /// Of the record.
+    /// Index of the record.
     pub index: usize,
-    /// Towards the sun's centre: in the middle of the lit part, of the whole interval when none is lit.
+    /// Direction towards the sun's centre: in the middle of the lit part, of the whole interval when none is lit.
     pub sun: Dir<World>,
     /// Share of the interval with the sun's centre above the horizon.
     pub lit: f64,
-    /// Mean over the interval; 0 with the sun down. \[W/m²\]
+    /// Direct normal irradiance, mean over the interval; 0 with the sun down. \[W/m²\]
     pub direct_normal_irradiance: f64,
-    /// Mean over the interval. \[W/m²\]
+    /// Diffuse horizontal irradiance, mean over the interval. \[W/m²\]
     pub diffuse_horizontal_irradiance: f64,
-    /// On a plane facing the sun. \[lx\]
+    /// Illuminance by the sun on a plane facing it. \[lx\]
     pub direct_normal: f64,
-    /// On the open horizontal plane, of the sky alone. \[lx\]
+    /// Illuminance by the sky alone on the open horizontal plane. \[lx\]
     pub diffuse_horizontal: f64,
-    /// Where the illuminances come from.
+    /// Source of the illuminances.
     pub light: LightSource,
-    /// Of the sky; `None` when it is dark and the sun too.
+    /// Perez parameters of the sky; `None` when sky and sun are dark.
     pub state: Option<PerezState>,
 }
 
 impl Hour {
-    /// Is there any light?
+    /// Whether there is any light.
     pub fn is_lit(&self) -> bool {
         self.direct_normal > 0.0 || self.diffuse_horizontal > 0.0
     }
 
-    /// Is the sky black with the sun high up, which no sky is?
+    /// Whether the sky has no diffuse light although the sun is higher than `HIGH_SUN`.
     pub fn lacks_sky(&self) -> bool {
         self.diffuse_horizontal <= 0.0 && self.sun.altitude().to_degrees() > HIGH_SUN
     }
 
-    /// Where the sky's circumsolar part peaks: the sun, on the horizon while it is below.
+    /// Returns the direction of the sky's circumsolar peak: the sun, or the horizon below which it is.
     pub fn sky_sun(&self) -> Dir<World> {
         if self.sun.vector().z >= 0.0 { self.sun } else { Dir::from_altitude_bearing(0.0, self.sun.bearing()) }
     }
 }
 
-/// Reads hours one by one; neighbours are cheap.
+/// Reader of hours one by one; consecutive ones are cheap.
 #[derive(Debug, Clone)]
 pub struct Hours<'a> {
     weather: &'a Weather,
@@ -133,10 +133,10 @@ pub struct Hours<'a> {
 }
 
 impl Weather {
-    /// Reads records as light, in any order or as an iterator over all.
+    /// Creates a reader of records as light, in any order or as an iterator over all.
     ///
     /// # Errors
-    /// `"auto"` without anything to test the clock by, or an offset out of range.
+    /// Returns an error if the offset is out of range, or `"auto"` without data that the clock can be tested by.
     pub fn hours(&self, reading: Reading) -> Result<Hours<'_>, HourError> {
         let offset = match reading.offset {
             SunOffset::Minutes(minutes) if minutes.abs() <= WIDEST_OFFSET => minutes,
@@ -152,30 +152,30 @@ impl Weather {
 }
 
 impl Hours<'_> {
-    /// Minutes by which intervals lie later than the records say, the file's own clock included.
+    /// Returns the minutes by which intervals lie later than the records state, the file's own clock included.
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// Whole hours of what the reading moves the intervals by, in minutes: the file's clock is wrong by them (rows by UTC
-    /// under a header of local time), so that people and schedules move with the sun. The rest says where in its
-    /// interval the light belongs and moves the sun alone.
+    /// Returns the whole hours of the reading's offset, in minutes: the file's clock is wrong by them (rows by UTC
+    /// under a header of local time), so that people and schedules move with the sun. The rest is the place of the
+    /// light within its interval and moves the sun alone.
     pub fn moved_clock(&self) -> i32 {
         self.moved_clock
     }
 
-    /// The light of a record.
+    /// Returns the light of a record.
     ///
     /// # Errors
-    /// A missing code by day; no such record.
+    /// Returns an error if a value is missing by day, or if there is no such record.
     pub fn at(&mut self, index: usize) -> Result<Hour, HourError> {
         self.part(index, 0, 1)
     }
 
-    /// The light in a part of a record's interval, of `parts` equal ones: the sun moves, its irradiances stay.
+    /// Returns the light in one of `parts` equal parts of a record's interval: the sun moves, its irradiances stay.
     ///
     /// # Errors
-    /// As [`Self::at`].
+    /// Returns an error if a value is missing by day, or if there is no such record.
     pub fn part(&mut self, index: usize, part: u32, parts: u32) -> Result<Hour, HourError> {
         let record = self.weather.records.get(index).ok_or(HourError::Index(index))?;
         self.path.turn_to(record.day.number())?;
@@ -185,8 +185,8 @@ impl Hours<'_> {
         self.with_sun(index, record.completed(whole), sun, lit)
     }
 
-    /// Returns where the sun stands in a part of a record's interval, of `parts` equal ones, and the share of the part with
-    /// the sun above the horizon.
+    /// Returns the position of the sun in one of `parts` equal parts of a record's interval, and the share of the part
+    /// with the sun above the horizon.
     fn sun(&self, record: &Record, part: u32, parts: u32) -> (Dir<World>, f64) {
         let interval = f64::from(self.weather.interval) / f64::from(parts);
         let middle = record.middle_seconds(self.weather.interval, part, parts) / 60.0 + self.offset;
@@ -242,7 +242,7 @@ impl Hours<'_> {
         let (irradiances, light) = match weather.quantity {
             Quantity::NormalIrradiance => ([direct, diffuse], None),
             Quantity::HorizontalIrradiance => {
-                // Of a sun that just stands above the horizon no more than the sun sends.
+                // With the sun just above the horizon, no more than the solar constant.
                 let most = SOLAR_CONSTANT * air.eccentricity;
                 let normal = if up { (direct / sun.vector().z).min(most) } else { 0.0 };
                 ([normal, diffuse], None)
@@ -272,7 +272,7 @@ impl Hours<'_> {
 }
 
 impl Record {
-    /// Returns the irradiance that the row lacks and that its two others tell.
+    /// Returns the irradiance that the row lacks and that follows from its two others.
     pub(super) fn completion(&self) -> Option<Field> {
         match (self.global, self.direct, self.diffuse) {
             (Some(_), None, Some(_)) => Some(Field::Direct),
@@ -300,7 +300,7 @@ impl Record {
     }
 }
 
-/// Rounds from illuminance back to irradiance: each brings the rest down to a tenth.
+/// Number of iterations from illuminance back to irradiance: each reduces the rest to a tenth.
 const ROUNDS: usize = 8;
 
 impl Iterator for Hours<'_> {
@@ -313,12 +313,12 @@ impl Iterator for Hours<'_> {
     }
 }
 
-/// Precipitable water for a dew point \[°C\], in cm.
+/// Returns the precipitable water for a dew point \[°C\]. \[cm\]
 fn water(dew_point: f64) -> f64 {
     (0.07 * dew_point - 0.075).exp()
 }
 
-/// The file's own illuminances where both are there and plausible for their irradiances.
+/// Returns the file's own illuminances where both are present and plausible for their irradiances.
 fn told(record: &Record, [direct, diffuse]: [f64; 2]) -> Option<[f64; 2]> {
     let plausible = |light: Option<f64>, power: f64, least: f64, most: f64| match light {
         _ if power <= 0.0 => Some(0.0),
@@ -331,8 +331,8 @@ fn told(record: &Record, [direct, diffuse]: [f64; 2]) -> Option<[f64; 2]> {
     ])
 }
 
-/// Share and middle \[min\] of the part of an interval in which the sun's centre is above the horizon; of two parts the
-/// longer. `None`: it stays down.
+/// Returns share and middle \[min\] of the part of an interval in which the sun's centre is above the horizon; of two
+/// parts the longer. `None` if it stays down.
 fn lit_part(path: &SunPath, from: f64, to: f64) -> Option<(f64, f64)> {
     /// Sine of an altitude that the sun does not cross between three places of an hour.
     const CLEAR: f64 = 0.01;
@@ -344,7 +344,7 @@ fn lit_part(path: &SunPath, from: f64, to: f64) -> Option<(f64, f64)> {
     if ends.iter().all(|z| *z < -CLEAR) {
         return None;
     }
-    // Minute by minute, straight between.
+    // Minute by minute, linear between.
     let steps = ((to - from).round() as usize).clamp(12, 60);
     let step = (to - from) / steps as f64;
     let (mut best, mut begun, mut last) = (None::<(f64, f64)>, (ends[0] > 0.0).then_some(from), ends[0]);

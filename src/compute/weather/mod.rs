@@ -1,19 +1,19 @@
-//! Weather of a place, interval by interval: what a file told, where the sun stood, how much light that is.
+//! Weather of a place, interval by interval: content of a weather file, position of the sun, and illuminances.
 //!
-//! | file | what |
+//! | file | content |
 //! | --- | --- |
 //! | `calendar` | days of the civil calendar, the earth's distance from the sun |
-//! | `record` | what a file tells: station, records, their quantities |
+//! | `record` | content of a file: station, records, their quantities |
 //! | `weekdays` | days of the week, also of spliced years |
-//! | `sun_path` | the sun's place at any minute of a day, fast |
+//! | `sun_path` | the sun's position at any minute of a day, fast |
 //! | `hour` | a record with its sun in the lit part, irradiances and illuminances |
-//! | `closure` | is the file's clock right? |
+//! | `closure` | test of the file's clock |
 //! | `contradictions` | irradiances, unit and clock that contradict each other or the place |
 //! | `count` | rows with a finding in common |
 //! | `examine` | gaps, missing values, light with the sun down, sums |
 //!
 //! Intervals are those of the file (an hour mostly), in local standard time all the year round. The sun of an interval
-//! stands where it is at the middle of the part in which its centre is above the horizon (true altitude, no
+//! is at its position in the middle of the part in which its centre is above the horizon (true altitude, no
 //! refraction); irradiances stay the means over the whole interval. The sun is never binned.
 
 mod calendar;

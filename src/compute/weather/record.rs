@@ -1,30 +1,30 @@
-//! What a weather file tells, as numbers: the station, and a record for every interval.
+//! Content of a weather file in numbers: the station, and a record for every interval.
 
 use super::calendar::Day;
 use crate::compute::btdf::Finding;
 
-/// Where the records belong, and whose clock counts.
+/// Weather station: place and clock of the records.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Station {
     /// Name of the place.
     pub name: String,
-    /// State or province.
+    /// State or province of the place.
     pub region: String,
-    /// Country.
+    /// Country of the place.
     pub country: String,
-    /// Who measured or modelled, and the station's number.
+    /// Source of the data: who measured or modelled, and the station's number.
     pub source: String,
-    /// \[°\], north positive.
+    /// Latitude, north positive. \[°\]
     pub latitude: f64,
-    /// \[°\], east positive.
+    /// Longitude, east positive. \[°\]
     pub longitude: f64,
-    /// Hours that local standard time is ahead of UTC.
+    /// UTC offset of local standard time, positive ahead of UTC. \[h\]
     pub utc_offset: f64,
-    /// Above the sea. \[m\]
+    /// Elevation of the station above sea level. \[m\]
     pub elevation: f64,
 }
 
-/// What the two figures of light in a record are.
+/// Quantities of the direct and diffuse values of a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Quantity {
     /// Direct normal and diffuse horizontal irradiance. \[W/m²\]
@@ -37,7 +37,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// In words, with the unit.
+    /// Returns the quantities in words, with the unit.
     pub const fn words(self) -> &'static str {
         match self {
             Self::NormalIrradiance => "direct normal and diffuse horizontal irradiance, W/m²",
@@ -47,26 +47,26 @@ impl Quantity {
     }
 }
 
-/// A figure of a record, for messages.
+/// Value of a record that a message names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
-    /// The sun's.
+    /// Value of the sun.
     Direct,
-    /// The sky's.
+    /// Value of the sky.
     Diffuse,
 }
 
-/// One interval.
+/// Weather data of one interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Record {
-    /// Day that holds its middle, in local standard time; the row's own year.
+    /// Day that holds the interval's middle, in local standard time; the year is the row's own.
     pub day: Day,
     /// Time from the midnight with which `day` begins to the begin of the interval, below 0 for an interval that holds
     /// that midnight. \[s\]
     pub start: i32,
-    /// Of the sun, see [`Quantity`]; `None` where the file has a missing code.
+    /// Direct value of the sun, see [`Quantity`]; `None` where the file has a missing code.
     pub direct: Option<f64>,
-    /// Of the sky, see [`Quantity`]; `None` where the file has a missing code.
+    /// Diffuse value of the sky, see [`Quantity`]; `None` where the file has a missing code.
     pub diffuse: Option<f64>,
     /// Global horizontal irradiance. \[W/m²\]
     pub global: Option<f64>,
@@ -80,67 +80,67 @@ pub struct Record {
     pub line: u32,
 }
 
-/// What is left over in global − diffuse − direct · sin h, root of the mean square over the hours with sun.
+/// Test of the clock: rms of global − diffuse − direct · sin h over the hours with sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closure {
-    /// With the intervals where the file says that they are. \[W/m²\]
+    /// Rms with the intervals where the file states them. \[W/m²\]
     pub rms: f64,
-    /// Minutes by which the intervals lie later at the best of the places tried.
+    /// Offset with the smallest rms of all offsets tried; positive if the intervals lie later. \[min\]
     pub best_offset: f64,
-    /// There. \[W/m²\]
+    /// Rms at `best_offset`. \[W/m²\]
     pub best_rms: f64,
 }
 
-/// Maximum that is left over where irradiances belong together: files of measured and modelled years leave 0.5 to 5.7 W/m² at
-/// their best clock. \[W/m²\]
+/// Maximum rms where irradiances belong together: files of measured and modelled years leave 0.5 to 5.7 W/m² at their
+/// best clock. \[W/m²\]
 pub(super) const MAX_RMS: f64 = 30.0;
 
 impl Closure {
-    /// `true` if global = diffuse + direct · sin h holds at one of the clocks tried.
+    /// Whether global = diffuse + direct · sin h holds at one of the offsets tried.
     pub fn closes(&self) -> bool {
         self.best_rms <= MAX_RMS
     }
 
-    /// Does the file's clock disagree with its own irradiances: by 20 minutes and 10 W/m² or more?
+    /// Whether the file's clock disagrees with its own irradiances by 20 minutes and 10 W/m² or more.
     pub fn is_off(&self) -> bool {
         self.best_offset.abs() >= 20.0 && self.rms - self.best_rms >= 10.0
     }
 }
 
-/// A weather file.
+/// Content of a weather file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weather {
     /// Name of the format.
     pub format: &'static str,
-    /// Where.
+    /// Station of the records.
     pub station: Station,
-    /// What the records' figures of light are.
+    /// Quantities of the records' direct and diffuse values.
     pub quantity: Quantity,
     /// Length of every record. \[min\]
     pub interval: u16,
-    /// Minutes by which all intervals lie later than the records say, as the file itself states it.
+    /// Offset by which all intervals lie later than the records state, as the file itself specifies it. \[min\]
     pub clock: f64,
-    /// How the clock was found where the file states one: it was tested before the global irradiances were left out.
+    /// Test of the clock where the file specifies an offset: it was tested before the global irradiances were left out.
     pub tested: Option<Closure>,
     /// Day of the week on which the records begin, as the file states it; 0 (Monday) … 6 (Sunday).
     pub first_weekday: Option<u8>,
-    /// In the file's order; at least one.
+    /// Records in the file's order; at least one.
     pub records: Vec<Record>,
-    /// What the reader had to say.
+    /// Findings of the reader.
     pub findings: Vec<Finding>,
-    /// What the fields are called in the file, direct and diffuse.
+    /// Names of the direct and diffuse fields in the file.
     pub field_names: [&'static str; 2],
 }
 
 impl Weather {
-    /// Returns the record whose interval holds a moment, given by month, day and second of the day in local standard time;
-    /// the first of several (a file of several years).
+    /// Returns the record whose interval holds a moment, given by month, day and second of the day in local standard
+    /// time; the first of several (a file of several years).
     pub fn find(&self, month: u8, day: u8, second: u32) -> Option<usize> {
         let second = i32::try_from(second).ok()?;
         self.records.iter().position(|record| record.holds(self.interval, (month, day), second))
     }
 
-    /// What a field is called in the file.
+    /// Returns the name of a field in the file.
     pub const fn field_name(&self, field: Field) -> &'static str {
         match field {
             Field::Direct => self.field_names[0],
@@ -148,7 +148,7 @@ impl Weather {
         }
     }
 
-    /// Years that occur, rising.
+    /// Returns the years that occur, rising.
     pub fn years(&self) -> Vec<i16> {
         let mut years: Vec<i16> = self.records.iter().map(|record| record.day.year).collect();
         years.sort_unstable();
@@ -160,13 +160,13 @@ impl Weather {
 /// Length of a day. \[s\]
 const DAY: i32 = 86_400;
 
-/// Length of an interval of `minutes`. \[s\]
+/// Returns the length of an interval of `minutes`. \[s\]
 fn seconds(minutes: u16) -> i32 {
     60 * i32::from(minutes)
 }
 
 impl Record {
-    /// `true` if the interval of `interval` minutes holds a second of a day, given by month and day.
+    /// Whether the interval of `interval` minutes holds a second of a day, given by month and day.
     fn holds(&self, interval: u16, date: (u8, u8), second: i32) -> bool {
         let within = |day: Day, second: i32| {
             (self.start..self.start + seconds(interval)).contains(&second) && (day.month, day.day) == date
@@ -210,17 +210,17 @@ impl Record {
         }
     }
 
-    /// Minutes from the midnight of its day to its middle, moved by an offset.
+    /// Returns the minutes from the midnight of the record's day to its middle, moved by an offset.
     pub fn middle_minutes(&self, interval: u16, offset: f64) -> f64 {
         f64::from(self.start) / 60.0 + 0.5 * f64::from(interval) + offset
     }
 
-    /// Seconds from the midnight of its day to the middle of a part, of `parts` equal ones.
+    /// Returns the seconds from the midnight of the record's day to the middle of one of `parts` equal parts.
     pub fn middle_seconds(&self, interval: u16, part: u32, parts: u32) -> f64 {
         f64::from(self.start) + 60.0 * f64::from(interval) * (f64::from(part) + 0.5) / f64::from(parts)
     }
 
-    /// The nominal middle as `2005-06-21T12:30:00`, local standard time.
+    /// Returns the nominal middle as `2005-06-21T12:30:00`, local standard time.
     pub fn middle(&self, interval: u16) -> String {
         let second = self.start + seconds(interval) / 2;
         format!("{}T{:02}:{:02}:{:02}", self.day, second / 3600, second / 60 % 60, second % 60)

@@ -1,6 +1,6 @@
-//! Where the sun is at any minute of a day: the Solar Position Algorithm at midnights, smooth between them.
+//! Position of the sun at any minute of a day: the Solar Position Algorithm at midnights, smooth between them.
 //!
-//! Seen from the middle of the earth the sun's declination and its hour angle against mean time change slowly and
+//! Seen from the centre of the earth, the sun's declination and its hour angle against mean time change slowly and
 //! smoothly, so that a cubic through four midnights is as good as the algorithm itself (1e-7°) at a hundredth of its
 //! cost; the turn of the earth and the parallax of the place are exact. A year of hours with its sunrises costs some
 //! milliseconds.
@@ -11,12 +11,12 @@ use solar_positioning::time::JulianDate;
 use solar_positioning::{Location, SolarPositions, delta_t};
 use std::f64::consts::{PI, TAU};
 
-/// Outside the algorithm's range.
+/// Day outside the algorithm's range.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("no position of the sun: {0}")]
 pub struct SunPathError(String);
 
-/// The sun from the middle of the earth at a moment.
+/// Sun seen from the centre of the earth at a moment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Node {
     /// Hour angle at Greenwich against mean time. \[rad\]
@@ -27,20 +27,20 @@ struct Node {
     parallax: f64,
 }
 
-/// The sun over a place, day by day: [`Self::turn_to`] a day, then ask for minutes of it.
+/// Sun over a place, day by day: [`Self::turn_to`] selects the day whose minutes [`Self::at`] returns.
 #[derive(Debug, Clone)]
 pub struct SunPath {
     sin_latitude: f64,
     cos_latitude: f64,
     longitude: f64,
-    /// Days that the place's clock is ahead of UT.
+    /// Days by which the place's clock is ahead of UT.
     ahead: f64,
-    /// The place from the middle of the earth in units of its radius: towards the meridian's point on the equator, and
-    /// towards the pole.
+    /// Place seen from the centre of the earth in units of its radius, towards the meridian's point on the equator;
+    /// `axial` is its component towards the pole.
     radial: f64,
     axial: f64,
     day: Option<i64>,
-    /// At local midnights: of the day before, the day's begin and end, and of the day after.
+    /// Nodes at local midnights: of the day before, the day's begin and end, and of the day after.
     nodes: [Node; 4],
 }
 
@@ -48,7 +48,8 @@ pub struct SunPath {
 const FLATTENING: f64 = 0.996_647_19;
 
 impl SunPath {
-    /// Over a station at sea level, whose elevation does not matter to a thousandth of a second of arc.
+    /// Creates the path over a station at sea level; the elevation changes it by less than a thousandth of a second of
+    /// arc.
     pub fn new(station: &Station) -> Self {
         let latitude = station.latitude.to_radians();
         let (sin_latitude, cos_latitude) = latitude.sin_cos();
@@ -65,10 +66,10 @@ impl SunPath {
         }
     }
 
-    /// Makes a day (days since 1 January 1970) the one whose minutes are asked for.
+    /// Selects the day (days since 1 January 1970) that the minutes of [`Self::at`] belong to.
     ///
     /// # Errors
-    /// A day that is out of the algorithm's range.
+    /// Returns an error if the day is out of the algorithm's range.
     pub fn turn_to(&mut self, day: i64) -> Result<(), SunPathError> {
         if self.day == Some(day) {
             return Ok(());
@@ -86,7 +87,7 @@ impl SunPath {
         Ok(())
     }
 
-    /// At a local midnight.
+    /// Computes the sun's node at a local midnight.
     fn node(&self, day: i64) -> Result<Node, SunPathError> {
         let wrong = |error: solar_positioning::Error| SunPathError(error.to_string());
         let universal = day as f64 - self.ahead;
@@ -94,7 +95,7 @@ impl SunPath {
         let seconds = delta_t::estimate(1970.0 + day as f64 / 365.2425).map_err(wrong)?;
         let time = JulianDate::new(julian, seconds).map_err(wrong)?;
         let prepared = SolarPositions::new().for_time_from_julian(time).map_err(wrong)?;
-        // An observer on the equator at Greenwich: the parallax taken out, up, east and north are the earth's own axes.
+        // An observer on the equator at Greenwich: without parallax, up, east and north are the earth's own axes.
         let seen = prepared.at(Location { latitude: 0.0, longitude: 0.0 }, 0.0, None).map_err(wrong)?;
         let (sin_height, cos_height) = seen.elevation_angle().to_radians().sin_cos();
         let (sin_azimuth, cos_azimuth) = seen.azimuth().to_radians().sin_cos();
@@ -108,8 +109,8 @@ impl SunPath {
         Ok(Node { equation, declination: north.atan2(east.hypot(up)), parallax })
     }
 
-    /// Unit vector to the sun's centre (x east, y north, z up; true altitude, no refraction), minutes after the local
-    /// midnight with which the day begins; up to some hours before and after it.
+    /// Returns the unit vector to the sun's centre (x east, y north, z up; true altitude, no refraction), minutes after
+    /// the local midnight with which the day begins; up to some hours before and after it.
     pub fn at(&self, minutes: f64) -> DVec3 {
         let t = minutes / 1440.0;
         // Lagrange's polynomials on −1, 0, 1, 2.

@@ -1,5 +1,5 @@
-//! Days of the week of a weather file. A typical year is spliced of months of several years, each with weekdays of its
-//! own: one running calendar keeps five working days in every seven.
+//! Days of the week of a weather file. A typical year is spliced of months of several years, each with its own
+//! weekdays: one running calendar keeps five working days in every seven.
 
 use super::record::{Record, Weather};
 
@@ -7,9 +7,9 @@ use super::record::{Record, Weather};
 const DAY: i64 = 86_400;
 
 impl Weather {
-    /// Day of the week of every record, 0 (Monday) … 6 (Sunday): of its own date where all dates belong to one calendar;
-    /// in a spliced year of a running calendar, which begins with the weekday that the file states, else with that of the
-    /// first record's date.
+    /// Returns the day of the week of every record, 0 (Monday) … 6 (Sunday): of its own date where all dates belong to
+    /// one calendar; in a spliced year of a running calendar, which begins with the weekday that the file states, else
+    /// with that of the first record's date.
     pub fn weekdays(&self) -> Vec<u8> {
         let Some(first) = self.records.first() else { return Vec::new() };
         let stated = self.first_weekday.filter(|_| self.is_spliced());
@@ -26,7 +26,7 @@ impl Weather {
         weekdays
     }
 
-    /// Do the dates of successive records belong to different calendars, as in typical years?
+    /// Whether the dates of successive records belong to different calendars, as in typical years.
     pub fn is_spliced(&self) -> bool {
         let own = |a: &Record, b: &Record| b.day.number() - a.day.number();
         let half = 30 * i64::from(self.interval);

@@ -1,41 +1,42 @@
-//! Enough light, too much of it, and the sun on the desk: shares of all occupied steps, dark ones included.
+//! Daylight autonomy, useful daylight illuminance and sunlight exposure: shares of all occupied steps, dark ones
+//! included.
 //!
 //! - DA: share with E ≥ x (Reinhart and Walkenhorst 2001). cDA: mean of min(1, E/x) (Rogers 2006).
-//! - UDI, in the bounds that are usual since Mardaljevic et al. 2012: below 100 lx, 100 to below 300, 300 to 3000, above
-//!   3000. The four add up to 1.
-//! - sDA300/50: share of the places with DA300 ≥ 50 %, with the states as they are. IES LM-83-12 works blinds by a rule of
-//!   its own, so that this is not its figure where something moves.
-//! - ASE1000,250 (IES LM-83-12): share of the places with 1000 lx or more straight from the sun, unscattered and
+//! - UDI, in the bounds that are usual since Mardaljevic et al. 2012: below 100 lx, 100 to below 300, 300 to 3000,
+//!   above 3000. The four add up to 1.
+//! - sDA300/50: share of the places with DA300 ≥ 50 %, with the states as given. IES LM-83-12 operates blinds by its
+//!   own rule, so that this is not its figure where a shading device moves.
+//! - ASE1000,250 (IES LM-83-12): share of the places with 1000 lx or more directly from the sun, unscattered and
 //!   unreflected, in more than 250 h of the occupied ones.
 
 use super::hours::{Light, Step, occupied, share};
 use crate::compute::dot::wide;
 
-/// By place.
+/// Daylight autonomy figures, one entry per place.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Autonomy {
-    /// Mean over all steps, nights included. \[lx\]
+    /// Mean illuminance over all steps, nights included. \[lx\]
     pub mean: Vec<f64>,
-    /// DA, 300 lx.
+    /// Daylight autonomy DA300: share of the occupied steps with 300 lx or more.
     pub da_300: Vec<f64>,
-    /// DA, 500 lx.
+    /// Daylight autonomy DA500: share of the occupied steps with 500 lx or more.
     pub da_500: Vec<f64>,
-    /// Continuous DA, 300 lx.
+    /// Continuous daylight autonomy cDA300.
     pub cda_300: Vec<f64>,
-    /// UDI: too little.
+    /// UDI-n: share of the occupied steps with less than 100 lx.
     pub udi_n: Vec<f64>,
-    /// UDI: supplementary.
+    /// UDI-s, supplementary: share of the occupied steps with 100 to below 300 lx.
     pub udi_s: Vec<f64>,
-    /// UDI: autonomous.
+    /// UDI-a, autonomous: share of the occupied steps with 300 to 3000 lx.
     pub udi_a: Vec<f64>,
-    /// UDI: exceeded.
+    /// UDI-x, exceeded: share of the occupied steps with more than 3000 lx.
     pub udi_x: Vec<f64>,
-    /// sDA300/50.
+    /// Spatial daylight autonomy sDA300/50%: share of the places.
     pub sda_300_50: f64,
 }
 
 impl Autonomy {
-    /// Of a year or a part of one.
+    /// Computes the figures of a year or a part of one.
     pub fn of(steps: &[Step], light: Light<'_>) -> Self {
         let occupied = occupied(steps);
         let mut all = vec![0.0; light.places()];
@@ -71,7 +72,7 @@ impl Autonomy {
     }
 }
 
-/// Adds something of every place.
+/// Adds a function of the illuminance of every place to its sum.
 fn add(sums: &mut [f64], row: &[f64], of: impl Fn(f64) -> f64) {
     wide(|| sums.iter_mut().zip(row).for_each(|(sum, e)| *sum += of(*e)));
 }
@@ -80,20 +81,20 @@ fn one_if(yes: bool) -> f64 {
     f64::from(u8::from(yes))
 }
 
-/// Sun straight on the places.
+/// Exposure of the places to direct sun.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
-    /// Occupied hours with 1000 lx or more in use, by place.
+    /// Occupied hours with 1000 lx or more with the shading in use, by place.
     pub hours_1000: Vec<f64>,
-    /// Occupied hours with 1000 lx or more with shading retracted, by place.
+    /// Occupied hours with 1000 lx or more with the shading retracted, by place.
     pub ase_hours_1000: Vec<f64>,
     /// ASE1000,250: share of the places with more than 250 occupied hours of 1000 lx or more, shading retracted.
     pub ase_1000_250: f64,
 }
 
 impl Exposure {
-    /// Of the sun's light that comes through unscattered and unreflected, in use and with shading retracted; `length` of a
-    /// step in hours.
+    /// Computes the exposure from the unscattered and unreflected light of the sun, with the shading in use and
+    /// retracted; `length` of a step in hours.
     pub fn of(steps: &[Step], in_use: Light<'_>, retracted: Light<'_>, length: f64) -> Self {
         let occupied = occupied(steps);
         let hours = |sun: Light<'_>| -> Vec<f64> {

@@ -1,44 +1,45 @@
-//! Blinds as IES LM-83-12, § 2.2.6, works them for spatial daylight autonomy, whatever rule they follow in use.
+//! Operation of blinds by IES LM-83-12, § 2.2.6, for spatial daylight autonomy, whatever rule they follow in use.
 //!
-//! Hour by hour: while more than 2 % of the analysis points have 1000 lx or more straight from the sun, a group of openings
-//! closes, one after another. A group are openings of the same plane with the same product. Which of several groups is first
-//! the standard leaves open: here the one that by itself puts the sun on most points, then the first one.
+//! Hour by hour: while more than 2 % of the analysis points have 1000 lx or more directly from the sun, a group of
+//! apertures closes, one after another. A group consists of the apertures of the same plane with the same product. The
+//! standard does not say which of several groups is first: here the one that by itself puts the sun on most points,
+//! then the first one.
 
 use super::autonomy::Autonomy;
 use super::hours::{Light, Step};
 use crate::compute::estimate::Estimate;
 
-/// Direct sun that counts. \[lx\]
+/// Illuminance by direct sun from which a point counts. \[lx\]
 pub const DIRECT_SUN: f64 = 1000.0;
-/// Share of the points that may have it.
+/// Maximum share of the points that may have [`DIRECT_SUN`].
 pub const SHARE: f64 = 0.02;
 
-/// Sun straight at the analysis points through one group \[lx\], while it is open and while it is closed.
+/// Direct sun at the analysis points through one group of apertures \[lx\], while it is open and while it is closed.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GroupSun {
-    /// By point.
+    /// Illuminance with the group open, one entry per point. \[lx\]
     pub open: Vec<Estimate>,
-    /// By point.
+    /// Illuminance with the group closed, one entry per point. \[lx\]
     pub closed: Vec<Estimate>,
 }
 
-/// Which groups close in one step, and whether the errors of the sun's light could change that.
+/// Closed groups of one step, and whether the errors of the sun's light could change them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Worked {
-    /// By group.
+    /// Whether each group is closed.
     pub closed: Vec<bool>,
-    /// With less or with more sun, by its error, others would be closed.
+    /// Whether other groups would be closed with less or more sun, within its error.
     pub unsure: bool,
 }
 
 impl Worked {
-    /// So many groups, all open.
+    /// Creates a step in which all of `groups` groups are open.
     pub fn open(groups: usize) -> Self {
         Self { closed: vec![false; groups], unsure: false }
     }
 }
 
-/// Works the groups through one step.
+/// Determines the groups that close in one step.
 pub fn worked(groups: &[GroupSun]) -> Worked {
     let [closed, less, more] = [0.0, -1.0, 1.0].map(|sign| one_by_one(groups, sign));
     Worked { unsure: less != closed || more != closed, closed }
@@ -69,25 +70,25 @@ fn one_by_one(groups: &[GroupSun], sign: f64) -> Vec<bool> {
                 next = Some((k, own));
             }
         }
-        // Where the sun comes through what is closed there is nothing left to do.
+        // No open group brings sun to these points: closing more would not help.
         let Some((k, _)) = next else { return closed };
         closed[k] = true;
     }
 }
 
-/// What a year with blinds worked so comes to.
+/// Annual results with blinds operated by IES LM-83-12.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Blinds {
-    /// sDA300/50 with the states of the rule.
+    /// Spatial daylight autonomy sDA300/50% with the states of the rule.
     pub sda_300_50: f64,
     /// Occupied hours that each group is closed. \[h\]
     pub closed_hours: Vec<f64>,
 }
 
 impl Blinds {
-    /// Of a year or a part of one, with `light` in the states of the rule and what was `worked` in every step; `length` of a step
-    /// in hours. `sign`: −1 and 1 where steps that are unsure are to count as dark and closed least, or as lit and closed most; 0
-    /// as they are.
+    /// Computes the results of a year or a part of one, with `light` in the states of the rule and the closed groups
+    /// `worked` of every step; `length` of a step in hours. `sign`: −1 and 1 where steps that are unsure are to count
+    /// as dark and closed least, or as lit and closed most; 0 to use them as given.
     pub fn of(steps: &[Step], light: Light<'_>, worked: &[Worked], length: f64, sign: f64) -> Self {
         let mut values: Vec<f64> = (0..steps.len()).flat_map(|k| light.row(k).iter().copied()).collect();
         for (row, _) in values.chunks_exact_mut(light.places()).zip(worked).filter(|(_, one)| one.unsure && sign != 0.0)

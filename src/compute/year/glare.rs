@@ -1,29 +1,30 @@
-//! Glare at an eye through the occupied steps: the simplified daylight glare probability DGPs = 6.22e-5 E_v + 0.184
-//! (Wienold 2009), as it comes out, not clipped.
+//! Glare of an observer through the occupied steps: the simplified daylight glare probability DGPs = 6.22e-5 E_v +
+//! 0.184 (Wienold 2009), not limited.
 //!
-//! It is valid only while neither the sun's disc nor a lobe of it meets the eye. Steps with the sun straight at the eye are
-//! left out and counted; lobes are not seen here, and so the figure is too low where a system has any.
+//! It is valid only while neither the sun's disc nor a lobe of it reaches the eye. Steps with direct sun at the eye are
+//! left out and counted; lobes are not considered here, and so the figure is too low where a system has any.
 
 use super::hours::{Light, Step, share};
 use crate::compute::glare::dgps;
 
-/// Limits of the classes of EN 17037: DGP that is exceeded in 5 % of the usage time at most.
+/// Limits of the classes of EN 17037: DGP that is exceeded in at most 5 % of the usage time.
 pub const LIMITS: [f64; 3] = [0.35, 0.40, 0.45];
 /// Share of the time in which a limit may be exceeded.
 const EXCEEDED: f64 = 0.05;
 
-/// Of one eye.
+/// Annual glare figures of one observer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Glare {
-    /// Occupied steps with the sun straight at the eye, which are left out of the others.
+    /// Number of occupied steps with direct sun at the eye, which are left out of the other figures.
     pub sun_at_eye: usize,
     /// DGPs that is exceeded in 5 % of the other occupied steps.
     pub dgps_5_percent: f64,
-    /// Shares of the other occupied steps with more than [`LIMITS`].
+    /// Shares of the other occupied steps in which DGPs exceeds each of [`LIMITS`].
     pub above: [f64; 3],
 }
 
-/// Of every eye; `sun`: what of the sun comes straight to the eyes, where something lets it through unscattered.
+/// Computes the glare figures of every observer; `sun`: direct sun at the eyes, where a system transmits it
+/// unscattered.
 pub fn glare(steps: &[Step], eyes: Light<'_>, sun: Option<Light<'_>>) -> Vec<Glare> {
     let of = |eye: usize| {
         let occupied = || (0..steps.len()).filter(|&k| steps[k].occupied);

@@ -1,30 +1,31 @@
-//! What lamps take beside daylight, by steps of a year. The result has the unit of EN 15193-1's LENI, kWh/(m² a), and is
-//! not that standard's tabulated method.
+//! Energy for electric lighting beside daylight, by steps of a year. The result has the unit of EN 15193-1's LENI,
+//! kWh/(m² a), and is not that standard's tabulated method.
 
 use super::hours::{Light, Step};
 
-/// How lamps follow daylight.
+/// Control of the electric lighting by daylight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// Always on while somebody is there.
+    /// Always on while the room is occupied.
     None,
-    /// On while daylight does not suffice.
+    /// Switched on while daylight does not suffice.
     OnOff,
-    /// In so many steps of power.
+    /// Switched in the given number of steps of power.
     Stepped(u32),
-    /// Dimmed.
+    /// Daylight-linked dimming.
     Dimming {
-        /// Least light, as a share; below 1.
+        /// Minimum light, as a share; below 1.
         min_light: f64,
-        /// Power that this takes, as a share.
+        /// Power at the minimum light, as a share.
         min_power: f64,
-        /// Off when daylight suffices.
+        /// Whether the lighting is switched off when daylight suffices.
         off: bool,
     },
 }
 
 impl Control {
-    /// Share of the installed power where daylight leaves a share of the target open, 0 … 1. 0 is off.
+    /// Returns the share of the installed power for the share `open` of the target illuminance that daylight does not
+    /// provide, 0 … 1. 0 is off.
     pub fn power(self, open: f64) -> f64 {
         match self {
             Self::None => 1.0,
@@ -39,48 +40,48 @@ impl Control {
     }
 }
 
-/// Lamps that follow the mean of some places.
+/// Zone whose lighting follows the mean illuminance of some places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
-    /// Places.
+    /// Indices of the places.
     pub places: Vec<usize>,
     /// Share of the installed power.
     pub share: f64,
 }
 
-/// An installation.
+/// Electric lighting of a room.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lamps {
-    /// Installed. \[W/m²\]
+    /// Installed power. \[W/m²\]
     pub power: f64,
-    /// Illuminance to be reached. \[lx\]
+    /// Target illuminance. \[lx\]
     pub target: f64,
-    /// How it follows daylight.
+    /// Control by daylight.
     pub control: Control,
-    /// Taken while off, nights included. \[W/m²\]
+    /// Power while switched off, nights included. \[W/m²\]
     pub standby: f64,
-    /// At least one.
+    /// Zones; at least one.
     pub zones: Vec<Zone>,
 }
 
-/// Energy of a year. \[kWh/m²\]
+/// Lighting energy of a year. \[kWh/m²\]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Energy {
-    /// By month.
+    /// Energy of each month. \[kWh/m²\]
     pub months: [f64; 12],
-    /// Without any control, while somebody is there.
+    /// Energy without any control, with the lighting on in all occupied steps. \[kWh/m²\]
     pub full: f64,
 }
 
 impl Energy {
-    /// Of all months.
+    /// Returns the energy of all months. \[kWh/m²\]
     pub fn total(&self) -> f64 {
         self.months.iter().sum()
     }
 }
 
 impl Lamps {
-    /// Taken in a step. \[W/m²\]
+    /// Computes the power in a step. \[W/m²\]
     pub fn watts(&self, occupied: bool, light: &[f64]) -> f64 {
         let zone = |zone: &Zone| {
             let reading = zone.places.iter().map(|&place| light[place]).sum::<f64>() / zone.places.len().max(1) as f64;
@@ -91,7 +92,7 @@ impl Lamps {
         self.zones.iter().map(zone).sum()
     }
 
-    /// Over steps of `length` hours.
+    /// Computes the energy over steps of `length` hours.
     pub fn energy(&self, steps: &[Step], light: Light<'_>, length: f64) -> Energy {
         let mut energy = Energy::default();
         for (k, step) in steps.iter().enumerate() {

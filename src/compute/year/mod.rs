@@ -1,19 +1,19 @@
-//! A year in a room as figures: from the illuminances of its hours to what is asked of daylight, glare and lighting.
+//! Annual figures of a room: from the illuminances of its hours to figures for daylight, glare and lighting.
 //!
-//! | file | what |
+//! | file | content |
 //! | --- | --- |
 //! | `hours` | the illuminances of a year, and which of its hours are occupied |
 //! | `autonomy` | daylight autonomy, useful daylight, spatial autonomy, sunlight exposure |
-//! | `blinds` | blinds worked by IES LM-83-12's own rule |
+//! | `blinds` | blinds operated by IES LM-83-12's own rule |
 //! | `provision` | EN 17037, daylight provision by hours |
 //! | `glare` | simplified daylight glare probability |
 //! | `probability` | daylight glare probability, its classes |
-//! | `lighting` | what lamps take beside daylight |
-//! | `transmittance` | what a system lets through from any direction, as one figure |
-//! | `received` | what an aperture receives, by cell, under one outside after the other |
-//! | `solar` | solar energy straight through apertures, by month and hour |
+//! | `lighting` | lighting energy beside daylight |
+//! | `transmittance` | directional-hemispherical transmittance of a system for any direction |
+//! | `received` | light that an aperture receives, by cell, under one outside after the other |
+//! | `solar` | solar energy transmitted directly through apertures, by month and hour |
 //!
-//! Every definition is that of its edition; where an edition leaves two readings, both have names of their own.
+//! Every definition is that of its edition; where an edition allows two readings, each has its own name.
 
 pub mod autonomy;
 pub mod blinds;

@@ -1,25 +1,25 @@
-//! Glare at an eye through the occupied steps by the daylight glare probability, and its class by EN 17037, Annex E: DGP
-//! that is exceeded in no more than 5 % of the usage time. Dark steps are usage, too, and have none.
+//! Glare of an observer through the occupied steps by the daylight glare probability, and its class by EN 17037, Annex
+//! E: DGP that is exceeded in no more than 5 % of the usage time. Dark steps are usage time, too, and have no glare.
 
 use super::glare::LIMITS;
 use super::hours::share;
 
-/// Classes of EN 17037 by rising [`LIMITS`].
+/// Classes of EN 17037 in the order of the rising [`LIMITS`].
 pub const CLASSES: [&str; 3] = ["high", "medium", "minimum"];
 /// Share of the usage time in which a class's limit may be exceeded.
 const EXCEEDED: f64 = 0.05;
 
-/// Of one eye.
+/// Annual DGP figures of one observer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Probability {
-    /// DGP that is exceeded in 5 % of the occupied steps at most.
+    /// DGP that is exceeded in at most 5 % of the occupied steps.
     pub dgp_5_percent: f64,
-    /// Shares of the occupied steps with more than [`LIMITS`].
+    /// Shares of the occupied steps in which DGP exceeds each of [`LIMITS`].
     pub above: [f64; 3],
 }
 
 impl Probability {
-    /// Of the values of all occupied steps, dark ones as 0.
+    /// Computes the figures from the DGP of all occupied steps, dark ones as 0.
     pub fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(|a, b| b.total_cmp(a));
         let rank = (EXCEEDED * values.len() as f64) as usize;
@@ -29,7 +29,7 @@ impl Probability {
         }
     }
 
-    /// The best class whose limit is kept; `None` where not even the lowest is.
+    /// Returns the best class whose limit is met; `None` where not even the lowest is.
     pub fn class(&self) -> Option<&'static str> {
         LIMITS.iter().zip(CLASSES).find(|(limit, _)| self.dgp_5_percent <= **limit).map(|(_, class)| class)
     }

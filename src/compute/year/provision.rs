@@ -1,10 +1,10 @@
-//! Daylight provision by EN 17037:2018+A1:2021, method 2 (hourly illuminances; by public summaries, the standard was not at
-//! hand).
+//! Daylight provision by EN 17037:2018+A1:2021, method 2 (hourly illuminances; by public summaries, without access to
+//! the standard itself).
 //!
-//! Daylight hours are the half of the year with the most diffuse horizontal light. A level asks for a target illuminance on
-//! half of the plane and a minimum on 95 % of it, both in half of these hours. That leaves two readings: by point (how
-//! much of the plane reaches it in half of the hours) and by hour (in how many of the hours so much of the plane does),
-//! and by hour is at most as good.
+//! Daylight hours are the half of the year with the most diffuse horizontal light. A level demands a target illuminance
+//! on half of the plane and a minimum on 95 % of it, both in half of these hours. That allows two readings: by point
+//! (the share of the plane that reaches it in half of the hours) and by hour (the share of the hours in which enough of
+//! the plane reaches it), and by hour is at most as good.
 
 use super::hours::{Light, Step, share};
 
@@ -14,50 +14,51 @@ pub const LEVELS: [(&str, f64, f64); 3] = [("minimum", 300.0, 100.0), ("medium",
 const TARGET_AREA: f64 = 0.5;
 /// Share of the plane that has to reach the minimum.
 const MINIMUM_AREA: f64 = 0.95;
-/// Share of the daylight hours, and of the plane where points are asked first.
+/// Share of the daylight hours that is required, by point and by hour.
 const HALF: f64 = 0.5;
 
-/// How far an illuminance is reached.
+/// Shares of places and hours in which an illuminance is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reached {
-    /// Share of the places that reach it in half of the daylight hours.
+    /// Share of the places that reach the illuminance in half of the daylight hours.
     pub area_by_point: f64,
-    /// Share of the daylight hours in which enough of the places reach it.
+    /// Share of the daylight hours in which enough of the places reach the illuminance.
     pub time_by_hour: f64,
 }
 
-/// One level.
+/// Shares for one level of daylight provision.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Level {
-    /// The target illuminance, on half of the plane.
+    /// Shares for the target illuminance, required on half of the plane.
     pub target: Reached,
-    /// The minimum illuminance, on 95 % of it.
+    /// Shares for the minimum illuminance, required on 95 % of the plane.
     pub minimum: Reached,
 }
 
 impl Level {
-    /// Met by points?
+    /// Whether the level is met by point.
     pub fn met_by_point(&self) -> bool {
         self.target.area_by_point >= TARGET_AREA && self.minimum.area_by_point >= MINIMUM_AREA
     }
 
-    /// Met by hours?
+    /// Whether the level is met by hour.
     pub fn met_by_hour(&self) -> bool {
         self.target.time_by_hour >= HALF && self.minimum.time_by_hour >= HALF
     }
 }
 
-/// Of a whole year.
+/// Daylight provision of a whole year.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Provision {
     /// Median of the diffuse horizontal illuminance in the daylight hours. \[lx\]
     pub median_diffuse: f64,
-    /// In the order of [`LEVELS`].
+    /// Levels in the order of [`LEVELS`].
     pub levels: [Level; 3],
 }
 
 impl Provision {
-    /// Of a whole year; equal hours at the border of the daylight hours count as they come.
+    /// Computes the daylight provision of a whole year; of equal hours at the border of the daylight hours the earlier
+    /// count.
     pub fn of(steps: &[Step], light: Light<'_>) -> Self {
         let mut day: Vec<usize> = (0..steps.len()).collect();
         let brightness = |k: usize| steps[k].diffuse_horizontal;

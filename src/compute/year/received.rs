@@ -1,7 +1,7 @@
-//! What an aperture receives from sky, ground and skyline through every cell of its hemisphere, under one outside after the
-//! other: directions and weights are found once.
+//! Light that an aperture receives from sky, ground and skyline through every cell of its hemisphere, under one outside
+//! after the other: directions and weights are computed once.
 //!
-//! Outsides may be in photometric units or in W/m²: what goes in comes out.
+//! Outsides may be in photometric units or in W/m²: the results have the same unit.
 
 use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, World};
@@ -9,27 +9,27 @@ use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_ill
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Furthest that directions in a cell may stand from each other. \[rad\]
+/// Maximum distance between directions in a cell. \[rad\]
 const SPACING: f64 = 4.0 * PI / 180.0;
-/// Directions a side of a cell where something stands before sky and ground.
+/// Number of directions along a side of a cell where an obstruction hides sky and ground.
 const POINTS: usize = 6;
-/// Accuracy of ground and skyline, which are the same for all hours.
+/// Relative accuracy of ground and skyline, which are the same for all hours.
 const RELATIVE: f64 = 1e-6;
 
-/// Cells of an aperture's hemisphere.
+/// Cells of an aperture's hemisphere with the weights of sky, ground and skyline.
 #[derive(Debug, Clone)]
 pub struct Received {
     cells: RingBasis,
     frame: Frame,
     samples: SkySamples,
-    /// By cell, of a radiance of 1.
+    /// Irradiance by a ground of radiance 1, one entry per cell; `skyline` is that by a skyline.
     ground: Vec<f64>,
     skyline: Vec<f64>,
     altitude: f64,
 }
 
 impl Received {
-    /// Of a surface's frame, above a flat skyline of an altitude \[rad\], 0 without one.
+    /// Prepares the weights for a surface's frame, above a flat skyline of a given altitude \[rad\], 0 without one.
     pub fn new(cells: RingBasis, frame: Frame, altitude: f64) -> Self {
         let black = || Outside::new(Distribution::uniform(), 0.0).ok();
         let of = |outside: Option<Outside>| match outside {
@@ -43,13 +43,14 @@ impl Received {
         Self { cells, frame, samples, ground, skyline, altitude }
     }
 
-    /// The cells.
+    /// Returns the cells.
     pub const fn cells(&self) -> &RingBasis {
         &self.cells
     }
 
-    /// What is received through every cell. `eyes`: points of the aperture, in the world's axes from the room's origin, over
-    /// which what stands before sky and ground is averaged; none for what has directions alone.
+    /// Computes the light received through every cell. `eyes`: points of the aperture, in the world's axes from the
+    /// room's origin, over which obstructed sky and ground are averaged; none for an outside that depends on directions
+    /// alone.
     pub fn through(&self, outside: &Outside, eyes: &[DVec3]) -> Vec<f64> {
         let by_points = outside.surroundings().is_some()
             || outside.is_piecewise_constant()
@@ -91,8 +92,8 @@ impl Received {
         Dir::from_unit(self.frame.direction(theta, phi))
     }
 
-    /// The finer cells that the error is judged by, and what is received through them by integration, from one point if the
-    /// outside has one.
+    /// Returns the finer cells by which the error is estimated, and the light received through them by integration,
+    /// from one point if the outside has one.
     pub fn judged(&self, outside: &Outside) -> (RingBasis, Vec<f64>) {
         let finer = self.cells.refined(2);
         let received = values(outside, &finer, &self.frame, JUDGED);
@@ -100,7 +101,7 @@ impl Received {
     }
 }
 
-/// Accuracy of what others are judged by.
+/// Relative accuracy of the integration by which errors are estimated.
 const JUDGED: f64 = 1e-3;
 
 fn values(outside: &Outside, cells: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
@@ -129,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_uniform_sky_gives_the_closed_forms() {
-        // DHI 100, beam 300 on the horizontal plane, ρ = 0.2: half the sky and half the ground on a wall; all the sky on a roof.
+        // DHI 100, beam 300 on the horizontal plane, ρ = 0.2: a wall has half of sky and ground, a roof all sky.
         let outside = Outside::new(Distribution::uniform(), 100.0).unwrap().with_ground(0.2, 300.0).unwrap();
         let wall = sum(&received(Surface::Facade, 0.0), &outside, &[]);
         assert!((wall - 0.5 * (100.0 + 0.2 * 400.0)).abs() < 1e-4 * wall, "{wall}");

@@ -1,25 +1,25 @@
-//! Solar energy that comes straight through apertures, by month and by hour of the day.
+//! Solar energy transmitted directly through apertures, by month and by hour of the day.
 //!
-//! Power through an aperture is Σᵢ τₛ(i) Eᵢ + τₛ(sun) E_sun, with the solar transmittance τₛ from a direction to the whole
-//! hemisphere inside, and irradiances by cell of its own hemisphere. It is *directly transmitted*: what glass and slats absorb
-//! and give off to the room as heat is left out, so that this is no solar factor (EN 410, ISO 9050, EN ISO 52022-3 add that
-//! secondary part).
+//! Power through an aperture is Σᵢ τₛ(i) Eᵢ + τₛ(sun) E_sun, with the solar transmittance τₛ from a direction to the
+//! whole hemisphere inside, and irradiances by cell of its own hemisphere. It is *directly transmitted*: secondary
+//! heat, absorbed by glass and slats and emitted to the room, is left out, so that this is not a solar factor (EN 410,
+//! ISO 9050, EN ISO 52022-3 add that secondary part).
 
-/// When a step is.
+/// Month and hour of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct When {
     /// Month, 1 … 12.
     pub month: u8,
-    /// Hour of the day in local standard time that holds its middle, 0 … 23.
+    /// Hour of the day in local standard time that holds the step's middle, 0 … 23.
     pub hour: u8,
 }
 
-/// Energy that comes straight through. \[kWh\]
+/// Directly transmitted solar energy. \[kWh\]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Transmitted {
-    /// By month.
+    /// Energy of each month. \[kWh\]
     pub months: [f64; 12],
-    /// By hour of the day, over all days.
+    /// Energy by hour of the day, over all days. \[kWh\]
     pub hours: [f64; 24],
 }
 
@@ -27,7 +27,7 @@ pub struct Transmitted {
 const SUMMER: std::ops::Range<usize> = 3..9;
 
 impl Transmitted {
-    /// Of power \[W\] in steps of `length` hours.
+    /// Sums up the energy of power \[W\] in steps of `length` hours.
     pub fn of(steps: &[When], watts: &[f64], length: f64) -> Self {
         let mut energy = Self::default();
         for (when, watts) in steps.iter().zip(watts) {
@@ -38,22 +38,22 @@ impl Transmitted {
         energy
     }
 
-    /// Of all steps.
+    /// Returns the energy of all steps. \[kWh\]
     pub fn total(&self) -> f64 {
         self.months.iter().sum()
     }
 
-    /// April to September.
+    /// Returns the energy from April to September. \[kWh\]
     pub fn summer(&self) -> f64 {
         self.months[SUMMER].iter().sum()
     }
 
-    /// October to March.
+    /// Returns the energy from October to March. \[kWh\]
     pub fn winter(&self) -> f64 {
         self.total() - self.summer()
     }
 
-    /// Times a factor, as the reciprocal of an area.
+    /// Returns the energy multiplied by a factor, as the reciprocal of an area.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.months.iter_mut().chain(&mut self.hours).for_each(|energy| *energy *= factor);
         self

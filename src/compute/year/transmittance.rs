@@ -1,12 +1,12 @@
-//! Directional-hemispherical transmittance of a system for any direction: what is left of it where only the sum of what comes
-//! through is asked.
+//! Directional-hemispherical transmittance of a system for any direction: a reduced form of its data for where only the
+//! sum of the transmitted light is needed.
 //!
-//! | known by | values |
+//! | data | values |
 //! | --- | --- |
 //! | closed forms, trees | their own |
 //! | cells | row sums; between the middles of cells linear in θ and φ, or constant on every cell |
 //! | single directions | as cells where these are the middles of a lattice, else linear on triangles between them |
-//! | a described system of the profile angle alone | straight on, turned and scattered together, every degree, linear between |
+//! | described systems of the profile angle alone | direct, redirected and scattered light, each 1°, linear between |
 
 use crate::compute::basis::{AzimuthMap, RingBasis, cell_mean};
 use crate::compute::btdf::{AngularTransmittance, Btdf, Indicatrices, Scattered, TensorTree};
@@ -20,20 +20,20 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// Steps of the table by profile angle: 1°.
+/// Number of steps of the table by profile angle: 1°.
 const STEPS: usize = 180;
-/// Gaps of that table in which the angle in the middle is asked too, for the error.
+/// Number of gaps of the table by profile angle in which the middle is computed too, for the error.
 const ASKED: usize = 18;
-/// Directions a side of a cell for its mean.
+/// Number of directions along a side of a cell for its mean.
 const POINTS: usize = 3;
-/// Gauss points across a ring for what depends on the polar angle alone.
+/// Number of Gauss points across a ring for functions of the polar angle alone.
 const ACROSS: usize = 4;
-/// Most cells of a division that light is gathered by; finer data are gathered by Klems' cells.
+/// Maximum number of cells of a division by which light is summed up; finer data are summed up by Klems' cells.
 const MOST_CELLS: usize = 400;
-/// Emergent cells that scattered light is summed over.
+/// Step of the emergent cells over which scattered light is summed. \[rad\]
 const EMERGENT: f64 = 10.0 * PI / 180.0;
 
-/// τ of a system by direction of incidence.
+/// Directional-hemispherical transmittance τ of a system by direction of incidence.
 #[derive(Debug, Clone)]
 pub struct DirectionalTransmittance {
     regular: Option<AngularTransmittance>,
@@ -41,12 +41,12 @@ pub struct DirectionalTransmittance {
     error: f64,
 }
 
-/// What is not kept apart as regular.
+/// Transmittance that is not stored separately as regular.
 #[derive(Debug, Clone)]
 enum Rest {
     None,
     Even(AngularTransmittance),
-    /// The grid's cells, and a value each.
+    /// Cells of the grid, and one value per cell.
     Cells(Box<Grid>, Vec<f64>),
     Directions(Arc<Indicatrices>, Box<Lattice>),
     Tree(Box<TensorTree>),
@@ -56,17 +56,17 @@ enum Rest {
     },
 }
 
-/// Between the directions that data know.
+/// Interpolation between the directions of the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Between {
-    /// Linear.
+    /// Linear interpolation.
     Linear,
-    /// Every cell has one value; single directions stand for what is nearest to them.
+    /// One value per cell; single directions represent the directions nearest to them.
     Constant,
 }
 
 impl DirectionalTransmittance {
-    /// Of data; `error`: how far their transmittances may be off, absolute.
+    /// Creates the transmittance of BSDF data; `error`: absolute uncertainty of their transmittances.
     pub fn of_data(btdf: &Btdf, error: f64) -> Self {
         let scattered = match &btdf.scattered {
             None => Rest::None,
@@ -83,7 +83,8 @@ impl DirectionalTransmittance {
         Self { regular: btdf.regular.clone(), scattered, error }
     }
 
-    /// Of a described system whose light is a matter of the profile angle alone; `None` for others.
+    /// Creates the transmittance of a described system whose light depends on the profile angle alone; `None` for
+    /// others.
     pub fn by_profile(specimen: &dyn Specimen) -> Option<Self> {
         let upright = specimen.by_profile_alone()?;
         let emergent = RingBasis::even(EMERGENT);
@@ -117,12 +118,12 @@ impl DirectionalTransmittance {
         Some(Self { regular: None, scattered: Rest::Profile { upright, tau }, error: doubt + between })
     }
 
-    /// How far a value may be off, absolute, besides what lies between directions.
+    /// Returns the absolute uncertainty of a value, without that of the interpolation between directions.
     pub const fn error(&self) -> f64 {
         self.error
     }
 
-    /// τ of a direction of incidence, 0 … 1 for data that give out no more than they receive.
+    /// Returns τ of a direction of incidence, 0 … 1 for data that transmit no more than they receive.
     pub fn at(&self, d: Dir<Facade>, between: Between) -> f64 {
         let theta = d.theta().min(FRAC_PI_2);
         let scattered = match (&self.scattered, between) {
@@ -151,7 +152,7 @@ impl DirectionalTransmittance {
         scattered + self.regular.as_ref().map_or(0.0, |tau| tau.at(theta))
     }
 
-    /// The division of the hemisphere that light is gathered by: the data's own, else Klems'.
+    /// Returns the division of the hemisphere by which light is summed up: the data's own, else Klems'.
     pub fn cells(&self) -> RingBasis {
         match &self.scattered {
             Rest::Cells(grid, _) if self.knows_cells() => grid.basis().clone(),
@@ -159,12 +160,12 @@ impl DirectionalTransmittance {
         }
     }
 
-    /// Do the data give a value for each of [`Self::cells`]?
+    /// Whether the data have a value for each of [`Self::cells`].
     pub fn knows_cells(&self) -> bool {
         matches!(&self.scattered, Rest::Cells(grid, _) if grid.basis().len() <= MOST_CELLS)
     }
 
-    /// Means over cells, weighted by projected solid angle.
+    /// Returns means over cells, weighted by projected solid angle.
     pub fn on(&self, cells: &RingBasis, between: Between) -> Vec<f64> {
         // What the data say of their own cells are such means already.
         if let (Rest::Cells(grid, tau), Between::Constant) = (&self.scattered, between)
@@ -196,7 +197,7 @@ mod tests {
         tau.on(&cells, between).iter().zip(weights).map(|(tau, w)| tau * w).sum::<f64>() / PI
     }
 
-    /// Scatters evenly a share of its own for every cell.
+    /// Data that scatter uniformly, with a separate share for every cell.
     fn on_cells(incident: RingBasis, tau: impl Fn(Dir<Facade>) -> f64) -> Btdf {
         let emergent = RingBasis::hemisphere();
         let values = incident.cells().map(|cell| tau(cell.centre()) / PI).collect();

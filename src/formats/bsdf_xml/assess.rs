@@ -1,19 +1,19 @@
-//! What a reader does about a file's blocks: left out, derived, refused.
+//! Assessment of a file's blocks by its reader: which are left out, derived or refused.
 
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, TreeNode, reciprocity_error, tau_max};
 use crate::compute::doctor::{by_reciprocity, same_values};
 use crate::formats::location::{FormatError, Location};
 
-/// No transmission is believed above this, not even in percent.
+/// Sum of a transmission above which it is refused, even if it is in percent.
 const IMPOSSIBLE: f64 = 150.0;
-/// Nor any other sum above this.
+/// Sum of any other function above which it is refused.
 const OVERFLOW: f64 = 1e6;
-/// Mean relative difference from reciprocity above which a back of one number is not that of the front's system. Chosen:
-/// where the data check calls the agreement of both sides no longer good.
+/// Mean relative difference from reciprocity above which a back of one number is not that of the front's system.
+/// Chosen: where the data check calls the agreement of both sides no longer good.
 const MAX_DIFFERENCE: f64 = 0.1;
 
-/// Drops blocks that cannot be meant, refuses sums beyond any unit, derives a missing front transmission. Everything
-/// that can be asked of the numbers later is the data doctor's.
+/// Drops blocks that cannot be meant, refuses sums beyond any unit, derives a missing front transmission. All other
+/// checks of the numbers are the data check's.
 pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
     let mut findings = std::mem::take(&mut dataset.findings);
     mislabelled(&mut dataset.visible, "Visible", &mut findings);
@@ -34,7 +34,7 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// A reflection block that repeats a transmission block number by number is that transmission, mislabelled.
+/// Removes a reflection block that repeats a transmission block number by number: it is that transmission, mislabelled.
 fn mislabelled(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     for (reflection, place) in [
         (Component::ReflectionFront, &mut band.reflection_front),
@@ -81,7 +81,8 @@ fn plausible(band: &Band, name: &str) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Leaves out a back transmission that WINDOW filled with zeros or another number (Radiance, doc/notes/BSDFdirections.txt).
+/// Leaves out a back transmission that WINDOW filled with zeros or another number (Radiance,
+/// doc/notes/BSDFdirections.txt).
 fn placeholder(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     let (Some(front), Some(back)) = (&band.transmission_front, &band.transmission_back) else { return };
     let Some(number) = one_number(back).filter(|_| tau_max(front) > 1e-6) else { return };

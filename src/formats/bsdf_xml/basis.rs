@@ -1,4 +1,4 @@
-//! Angle bases as the file lists them: the list counts, the name does not.
+//! Angle bases as the file lists them: the list of directions counts, not the name.
 
 use super::document::{Source, child, child_text, children, text};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
@@ -7,7 +7,7 @@ use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 use roxmltree::Node;
 
-/// The bases that a file defines or names.
+/// Bases that a file defines or names.
 pub(super) struct Bases {
     list: Vec<RingBasis>,
 }
@@ -28,7 +28,7 @@ impl Bases {
         Ok(Self { list })
     }
 
-    /// The basis of a name: the file's own list first, then the standard ones.
+    /// Returns the basis of a name: from the file's own list if it is there, else a standard one.
     pub(super) fn get(&self, name: &str, at: Location) -> Result<RingBasis, FormatError> {
         if let Some(basis) = self.list.iter().find(|basis| basis.name().eq_ignore_ascii_case(name)) {
             return Ok(basis.clone());
@@ -115,8 +115,8 @@ fn read_basis(source: &Source, node: Node<'_, '_>) -> Result<RingBasis, FormatEr
         .map_err(|error| FormatError::new(source.place(node), error.to_string(), "rings that divide 0…90°"))
 }
 
-/// A standard name on another list is an error (which of the two is meant?), except Half, which has meant both
-/// 73 and 77 directions; an unknown name on a proper list is only odd.
+/// Checks the name of a basis. A standard name on another list is an error (it is not clear which of the two is meant),
+/// except Half, which has meant both 73 and 77 directions; an unknown name on a proper list gives a finding.
 fn check_name(
     source: &Source,
     node: Node<'_, '_>,

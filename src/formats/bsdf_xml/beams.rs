@@ -1,10 +1,10 @@
-//! The description that goes with the numbers, see [`crate::formats::beams`], as a processing instruction.
+//! Description of the numbers, see [`crate::formats::beams`], as a processing instruction.
 //!
-//! `<?cfs-system version="1" state="45" fingerprint="…" text="…"?>`, first in the root element. The standard knows none,
-//! so that whoever reads the standard passes over it (Radiance's ezxml keeps instructions apart from elements, and
-//! schemas do not mention them). A comment would do too, but comments of this format are words for people, and are read
-//! as such. Of the values everything that could end them or look like markup is written as `%` and two hexadecimal
-//! digits a byte of UTF-8.
+//! `<?cfs-system version="1" state="45" fingerprint="…" text="…"?>`, at the beginning of the root element. The standard
+//! knows none, so that readers of the standard pass over it (Radiance's ezxml separates instructions from elements, and
+//! schemas do not mention them). A comment would be possible too, but comments of this format are texts for people, and
+//! are read as such. In the values everything that could end them or look like markup is written as `%` and two
+//! hexadecimal digits per byte of UTF-8.
 
 use super::document::children;
 use crate::compute::btdf::{Dataset, DescribedState, Finding};
@@ -14,7 +14,8 @@ use roxmltree::{Document, Node};
 /// Target of the instruction.
 const TARGET: &str = "cfs-system";
 
-/// Of all that says what light does: the bases and every block of numbers, of both bands.
+/// Returns the fingerprint of the description and of all data on light: the bases and every block of numbers, of both
+/// bands.
 fn fingerprint(root: Node<'_, '_>, described: &DescribedState) -> String {
     let mut print = Fingerprint::new(described);
     let parts = root.descendants().filter(|node| {
@@ -27,7 +28,7 @@ fn fingerprint(root: Node<'_, '_>, described: &DescribedState) -> String {
     print.finish()
 }
 
-/// The description of the file's numbers, or why it is not believed. `None` for files without.
+/// Returns the description of the file's numbers, or a finding if it does not belong to them. `None` for files without.
 pub(super) fn described(root: Node<'_, '_>) -> Option<Result<DescribedState, Finding>> {
     let instruction = root.children().filter_map(|node| node.pi()).find(|pi| pi.target == TARGET)?;
     let value = |key: &str| value(instruction.value.unwrap_or_default(), key);
@@ -48,7 +49,7 @@ pub(super) fn described(root: Node<'_, '_>) -> Option<Result<DescribedState, Fin
     Some(told.restored(&now))
 }
 
-/// The file with the description of its dataset in it.
+/// Returns the file with the description of its dataset in it.
 pub(super) fn added(mut xml: String, dataset: &Dataset) -> String {
     let Some(described) = &dataset.described else { return xml };
     // Read as any reader will, so that both count the same numbers.
@@ -65,7 +66,7 @@ pub(super) fn added(mut xml: String, dataset: &Dataset) -> String {
     xml
 }
 
-/// The state key that the description tells, of which the format itself has no place.
+/// Whether the state key is that of the description. The format itself has no place for it.
 pub(super) fn tells_state(dataset: &Dataset) -> bool {
     dataset.described.as_ref().is_some_and(|described| described.state == dataset.state)
 }
@@ -84,7 +85,7 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// A value of the instruction as it was before it was escaped.
+/// Returns a value of the instruction as it was before it was escaped.
 fn value(instruction: &str, key: &str) -> Option<String> {
     let quoted = instruction.split_once(&format!("{key}=\""))?.1;
     let (text, _) = quoted.split_once('"')?;

@@ -1,28 +1,28 @@
-//! From bytes to an XML tree that is safe to walk: encodings, junk before the declaration, depth, places of errors.
+//! XML trees from bytes that are safe to walk: encodings, junk before the declaration, depth, places of errors.
 
 use crate::compute::btdf::Finding;
 use crate::formats::encoding::{self, Encoding, NotText};
 use crate::formats::location::{FormatError, Location, excerpt};
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// Deepest nesting that is looked at; makers' files have 7 levels.
+/// Maximum nesting; makers' files have 7 levels.
 const MAX_DEPTH: usize = 64;
-/// More elements than any dataset needs, few enough to stay small in memory.
+/// Maximum number of nodes, more than any dataset needs, few enough to stay small in memory.
 const MAX_NODES: u32 = 200_000;
-/// More attributes on one element than any file has; their names are compared pair by pair.
+/// Maximum number of attributes on one element, more than any file has; their names are compared pair by pair.
 const MAX_ATTRIBUTES: usize = 64;
-/// How far an XML declaration is looked for.
+/// Number of bytes that are searched for an XML declaration.
 const MAX_JUNK: usize = 65_536;
 
-/// The text of a file, cut to where the XML begins.
+/// Text of a file, cut to where the XML begins.
 pub(super) struct Source {
     text: String,
-    /// Line breaks in the junk that was cut off.
+    /// Number of line breaks in the junk that was cut off.
     lines_before: usize,
 }
 
 impl Source {
-    /// Decodes, cuts off junk, refuses a web page and what is no XML or nested too deeply.
+    /// Decodes a file and cuts off junk; refuses a web page and anything that is not XML or nested too deeply.
     pub(super) fn new(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<Self, FormatError> {
         if bytes.is_empty() {
             return Err(FormatError::new(Location::file(), "an empty file", "a BSDF XML file"));
@@ -76,12 +76,12 @@ impl Source {
         })
     }
 
-    /// Line and column of a node, with its name.
+    /// Returns line and column of a node, with its name.
     pub(super) fn place(&self, node: Node<'_, '_>) -> Location {
         self.line_of(node.range().start).in_element(format!("<{}>", node.tag_name().name()))
     }
 
-    /// Line of a byte offset of the text.
+    /// Returns the line of a byte offset of the text.
     fn line_of(&self, byte: usize) -> Location {
         let before = self.text.as_bytes().get(..byte).unwrap_or_default();
         Location::line(1 + before.iter().filter(|b| **b == b'\n').count() + self.lines_before)
@@ -141,8 +141,8 @@ impl Source {
     }
 }
 
-/// Where a tag's '>' is, past quoted attribute values that may hold one, and how many values there are (no more are
-/// counted than needed to refuse them).
+/// Returns the position of a tag's '>', past quoted attribute values that may contain one, and the number of values
+/// (counted only as far as needed to refuse them).
 fn end_of_tag(rest: &[u8]) -> (Option<usize>, usize) {
     let (mut quote, mut attributes) = (None, 0);
     let end = rest.iter().position(|&byte| {
@@ -190,29 +190,29 @@ fn start_of_xml(text: &str) -> Option<usize> {
     tag.starts_with(|c: char| c.is_alphabetic() || c == '!' || c == '_').then(|| text.len() - trimmed.len())
 }
 
-/// First child element of that name, whatever its namespace and capitals.
+/// Returns the first child element of that name, whatever its namespace and capitals.
 pub(super) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
     children(node, name).next()
 }
 
-/// Child elements of that name.
+/// Returns the child elements of that name.
 pub(super) fn children<'a, 'd>(node: Node<'a, 'd>, name: &str) -> impl Iterator<Item = Node<'a, 'd>> {
     let name = name.to_owned();
     node.children().filter(move |n| n.is_element() && n.tag_name().name().eq_ignore_ascii_case(&name))
 }
 
-/// All text directly inside an element (CDATA too, comments left out), trimmed.
+/// Returns all text directly inside an element (CDATA too, comments left out), trimmed.
 pub(super) fn text(node: Node<'_, '_>) -> String {
     let parts: Vec<&str> = node.children().filter(|n| n.is_text()).filter_map(|n| n.text()).collect();
     parts.concat().trim().to_owned()
 }
 
-/// Trimmed text of a child; empty when there is none.
+/// Returns the trimmed text of a child; empty when there is none.
 pub(super) fn child_text(node: Node<'_, '_>, name: &str) -> String {
     child(node, name).map(text).unwrap_or_default()
 }
 
-/// Text as the content of an element: control characters dropped, markup escaped.
+/// Returns text as the content of an element: control characters dropped, markup escaped.
 pub(super) fn escaped(text: &str) -> String {
     let clean: String = text.chars().filter(|c| !c.is_control()).collect();
     clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")

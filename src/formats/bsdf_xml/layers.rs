@@ -1,4 +1,4 @@
-//! Which data of a file are those of the system: not those of its layers, nor what the layers absorb.
+//! Selection of a file's data that belong to the system: not those of its layers, nor what the layers absorb.
 
 use super::document::{Source, child, child_text, children};
 use crate::compute::btdf::{Component, Finding};
@@ -72,7 +72,7 @@ pub(super) fn of_system<'a, 'd>(
     Ok(of_system)
 }
 
-/// The `LayerNumber` of data of the system, in lower case.
+/// `LayerNumber` of data of the system, in lower case.
 const SYSTEM: &str = "system";
 
 /// Returns the `LayerNumber` of data in lower case; of data without one that of the system.
@@ -86,13 +86,15 @@ pub(super) fn direction(block: Node<'_, '_>) -> Vec<String> {
     child_text(block, "WavelengthDataDirection").to_lowercase().split_whitespace().map(str::to_owned).collect()
 }
 
-/// Whether a block holds the share of light that a layer absorbs: `Absorbed` in the schema, `Absorption` in other files.
+/// Whether a block holds the share of light that a layer absorbs: `Absorbed` in the schema, `Absorption` in other
+/// files.
 pub(super) fn is_absorbed(block: Node<'_, '_>) -> bool {
     direction(block).first().is_some_and(|word| word.starts_with("absor"))
 }
 
-/// Returns the function that a transmission without a side is. genBSDF wrote it so until 2012, traced from the room unless it
-/// traced from outside alone, and then only the reflection of the outside is there (Radiance, src/util/genBSDF.pl 2.37).
+/// Returns the function that a transmission without a side is. genBSDF wrote it so until 2012, traced from the room
+/// unless it traced from outside alone, and then only the reflection of the outside is there (Radiance,
+/// src/util/genBSDF.pl 2.37).
 pub(super) fn without_side(layer: Node<'_, '_>) -> Component {
     let blocks = || layer.descendants().filter(|node| child(*node, "WavelengthDataDirection").is_some());
     let reflects = |side: &str| blocks().any(|block| direction(block) == ["reflection", side]);

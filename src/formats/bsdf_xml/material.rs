@@ -1,9 +1,9 @@
-//! The `Material` element: names, extents and thermal data, read and written.
+//! `Material` element: names, extents and thermal data, read and written.
 //!
-//! Thermal data take no part in the light, and are kept so that a file that is written again still holds what was
-//! measured. WINDOW does not import a matrix file without them: what is not known is written there as the defaults of
-//! Radiance's template for WINDOW, and the element's own comment names each of them. What that comment names and has the
-//! default's value is left out again on reading, so that no default ever becomes a measured value.
+//! Thermal data have no effect on the light, and are kept so that a file that is written again still holds what was
+//! measured. WINDOW does not import a matrix file without them: unknown values are written there as the defaults of
+//! Radiance's template for WINDOW, and the element's own comment names each of them. Values that this comment names and
+//! that equal the default are left out again on reading, so that no default ever becomes a measured value.
 //!
 //! Elements, order and words are those of LBNL's schema (BSDF-v1.7.5.xsd). Width, height and permeability factor, which
 //! the schema does not list but Radiance and LBNL's own fabric files hold, are written where they are known.
@@ -14,11 +14,11 @@ use crate::formats::location::excerpt;
 use roxmltree::Node;
 use std::fmt::Write as _;
 
-/// Thickness where none is known. \[m\]
+/// Thickness that is written where none is known. \[m\]
 const THICKNESS: f64 = 0.003;
-/// How the list of defaults begins.
+/// Beginning of the list of defaults.
 const INVENTED: &str = "Defaults, not measured: ";
-/// The defaults' values, in the order of the file.
+/// Values of the defaults, in the order of the file.
 const DEFAULTS: [(ThermalKey, f64); 5] = [
     (ThermalKey::Conductivity, 1.0),
     (ThermalKey::EmissivityFront, 0.9),
@@ -26,7 +26,7 @@ const DEFAULTS: [(ThermalKey, f64); 5] = [
     (ThermalKey::InfraredTransmittance, 0.1),
     (ThermalKey::EffectiveOpenness, 0.05),
 ];
-/// The kinds of devices that the schema knows; the last says nothing.
+/// Kinds of devices in the schema; the last stands for no information.
 const DEVICES: [&str; 10] = [
     "Venetian blind horizontal",
     "Venetian blind vertical",
@@ -58,7 +58,7 @@ const fn is_length(key: ThermalKey) -> bool {
     matches!(key, ThermalKey::Width | ThermalKey::Height)
 }
 
-/// Name, maker, thickness, thermal data and the file's own words about itself.
+/// Reads name, maker, thickness, thermal data and the file's own description.
 pub(super) fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_, '_>) {
     let comments = root.document().root().descendants().filter(|node| node.is_comment()).filter_map(|node| node.text());
     dataset.description =
@@ -86,7 +86,7 @@ pub(super) fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_
     dataset.thermal = thermal(material, invented, &mut dataset.findings);
 }
 
-/// A length in metres; what is not understood is told and left out.
+/// Returns a length in metres; a text that is not understood is reported and left out.
 fn length(material: Node<'_, '_>, name: &str, code: &'static str, findings: &mut Vec<Finding>) -> Option<f64> {
     let node = child(material, name)?;
     let value = text(node);
@@ -156,8 +156,8 @@ fn thermal(material: Node<'_, '_>, invented: &str, findings: &mut Vec<Finding>) 
     thermal
 }
 
-/// The element. `defaults`: what WINDOW wants and the dataset does not know is written as the defaults that are named in
-/// the element's comment and in the findings that come back.
+/// Writes the element. `defaults`: whether values that WINDOW needs and the dataset lacks are written as defaults,
+/// which are named in the element's comment and in the returned findings.
 pub(super) fn write(xml: &mut String, dataset: &Dataset, defaults: bool) -> Vec<Finding> {
     let thermal = &dataset.thermal;
     // Some readers do not stand empty elements.

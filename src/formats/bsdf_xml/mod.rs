@@ -6,12 +6,14 @@
 //! and `KLEMS_BACK` say, so that nothing is reordered.
 //!
 //! Numbers that were computed from a description (`.system.toml`) are written with it, in a processing instruction that
-//! other readers pass over (`beams`): the file is the standard's, with beams in their cells, and what this program wrote it
-//! knows again: the dataset has its [`described`](Dataset::described) and the key of its state. Where numbers were
-//! changed since, or a newer version wrote the instruction, it is left out and the finding `beams-not-restored` tells.
+//! other readers pass over (`beams`): the file conforms to the standard, with beams in their cells, and this program
+//! recognises what it wrote: the dataset has its [`described`](Dataset::described) and the key of its state. Where
+//! numbers were changed since, or a newer version wrote the instruction, it is left out and the finding
+//! `beams-not-restored` reports it.
 //!
 //! Not read: geometry (MGF), other bands and CIE X/Z or u′/v′ colour data, data of single layers and what they absorb
-//! (findings tell), more than one `Layer` element, document type declarations. Nothing is repaired silently: see the findings.
+//! (findings report it), more than one `Layer` element, document type declarations. Nothing is repaired silently: see
+//! the findings.
 
 mod assess;
 mod basis;
@@ -37,11 +39,11 @@ use basis::Bases;
 use document::{Source, child, child_text, children, text};
 use roxmltree::Node;
 
-/// One dataset as a file: trees where all its functions are trees of one rank ([`write_tree()`]), matrices otherwise
-/// ([`write_matrices`]).
+/// Returns one dataset as a file: trees where all its functions are trees of one rank ([`write_tree()`]), matrices
+/// otherwise ([`write_matrices`]).
 ///
 /// # Errors
-/// A dataset without any visible function.
+/// Returns an error if the dataset has no visible function.
 pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     match rank_of(dataset) {
         Some(rank) => write_tree(dataset, TreeForm::of_rank(rank)),
@@ -49,7 +51,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     }
 }
 
-/// How the incident directions run through the data.
+/// Arrangement of the incident directions in the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Structure {
     Columns,
@@ -60,8 +62,8 @@ enum Structure {
 /// Reads one file into one dataset.
 ///
 /// # Errors
-/// Anything that leaves the meaning of the numbers open: broken or hostile XML, an unknown structure, direction or
-/// basis, counts that do not fit, values that are no finite numbers, a block given twice, no Visible band, a
+/// Returns an error if the meaning of the numbers is ambiguous: broken or hostile XML, an unknown structure, direction
+/// or basis, counts that do not fit, values that are not finite numbers, a block given twice, no Visible band, a
 /// transmission far above 1.
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     let mut findings = Vec::new();
@@ -289,7 +291,8 @@ impl Reader<'_> {
         Ok(Btdf::from_cells(matrix))
     }
 
-    /// A count that is not that of the bases: a small sample of the first directions, or an error.
+    /// Returns the values of a block whose count is not that of the bases: a small sample of the first directions, or
+    /// an error.
     fn fit(
         &mut self,
         values: &[f64],

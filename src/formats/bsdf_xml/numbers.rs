@@ -1,14 +1,14 @@
-//! The numbers inside `ScatteringData`: plain lists and brace-nested tensor trees.
+//! Numbers inside `ScatteringData`: plain lists and brace-nested tensor trees.
 
 use crate::compute::basis::MAX_LEVEL;
 use crate::compute::btdf::{TreeNode, TreeRank};
 use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 
-/// More nodes than any measurement or simulation yields; bounds the memory of a tree to 128 MB.
+/// Maximum number of nodes, more than any measurement or simulation yields; bounds the memory of a tree to 128 MB.
 const MAX_TREE_NODES: usize = limits::TREE_NODES;
 
-/// Numbers separated by blanks, line breaks and commas. `expected` is the count that the bases ask for.
+/// Reads numbers separated by blanks, line breaks and commas. `expected`: count that the bases require.
 pub(super) fn parse_list(text: &str, expected: usize, at: &Location) -> Result<Vec<f64>, FormatError> {
     let mut values = Vec::with_capacity(expected.min(text.len() / 2 + 1));
     for token in tokens(text) {
@@ -42,15 +42,15 @@ fn parse_number(token: &str, index: usize, at: &Location) -> Result<f64, FormatE
     }
 }
 
-/// What a tree's text held besides its nodes.
+/// Content of a tree's text.
 pub(super) struct ParsedTree {
-    /// Root first.
+    /// Nodes of the tree, the root at index 0.
     pub nodes: Vec<TreeNode>,
-    /// Negative values that were set to zero: count and the most negative. \[1/sr\]
+    /// Negative values that were set to zero: their number and the most negative. \[1/sr\]
     pub negative: (usize, f64),
 }
 
-/// `{ … }` nested: a branch holds 2^rank braces, a leaf one number or a grid of 2^(rank·k) numbers, its last
+/// Reads nested `{ … }`: a branch holds 2^rank braces, a leaf one number or a grid of 2^(rank·k) numbers, its last
 /// coordinate running fastest. No recursion beyond the allowed depth.
 pub(super) fn parse_tree(text: &str, rank: TreeRank, at: &Location) -> Result<ParsedTree, FormatError> {
     let mut parser = Parser {
@@ -150,7 +150,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// A grid of leaves as branches of branches.
+    /// Turns a grid of leaves into branches of branches.
     fn spread(&mut self, place: usize, values: &[f64], depth: u32, left: u32, corner: [usize; 4]) {
         let dimensions = self.rank.dimensions();
         if left == 0 {

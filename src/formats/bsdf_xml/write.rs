@@ -1,13 +1,13 @@
-//! Writing BSDF XML: matrices on rings as they are, everything else on Klems' full basis.
+//! Writing of BSDF XML as matrices: on the dataset's own rings where the format allows, otherwise on Klems' full basis.
 //!
-//! A file has one angle basis for all its blocks, azimuths counted Klems' way on the block's side, the first sector of
-//! every ring centred on 0. Functions on other cells are averaged over those cells (flux kept); tensor trees are
-//! sampled cell by cell from their finest grid; light that goes straight on becomes the diagonal of its matrix,
-//! τ/PΩ in every cell. The Geometry element is empty.
+//! A file has one angle basis for all its blocks, azimuths counted as in Klems files on the block's side, the first
+//! sector of every ring centred on 0. Functions on other cells are averaged over those cells (flux kept); tensor trees
+//! are sampled cell by cell from their finest grid; regular transmission becomes the diagonal of its matrix, τ/PΩ in
+//! every cell. The Geometry element is empty.
 //!
 //! Elements, their order and their words are those of LBNL's schema (BSDF-v1.7.5.xsd), so that WINDOW imports the file:
 //! both bands where there are two, each with its spectra; reflection under the data type "BTDF", the only one that the
-//! schema has; thermal data as the source told them, else as defaults that are named as such ([`super::material`]).
+//! schema has; thermal data as the source gave them, else as defaults that are named as such ([`super::material`]).
 
 use super::beams;
 use super::document::escaped;
@@ -18,10 +18,10 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// One dataset as a file. Blocks that were derived when it was read are written like the others.
+/// Returns one dataset as a file. Blocks that were derived when it was read are written like the others.
 ///
 /// # Errors
-/// A dataset without any visible function.
+/// Returns an error if the dataset has no visible function.
 pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     if dataset.visible.components().is_empty() {
         return Err(FormatError::new(Location::file(), "a dataset without visible functions", "at least one to write"));
@@ -37,7 +37,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     Ok(Written { bytes: beams::added(xml, dataset).into_bytes(), findings: changes(dataset, &basis, defaults) })
 }
 
-/// What the file does not hold as the dataset did, and the `findings` of its head.
+/// Returns findings on differences between the file and the dataset, after those of the file's head.
 fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> Vec<Finding> {
     let mut tell = |code, text: String| findings.push(Finding::info(code, text));
     for component in dataset.visible.components() {
@@ -77,7 +77,7 @@ fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> 
     findings
 }
 
-/// The dataset's own rings where the format can say them, else Klems full.
+/// Returns the dataset's own rings where the format can express them, else Klems full.
 fn common_basis(dataset: &Dataset) -> RingBasis {
     let own = dataset.visible.components().into_iter().find_map(|component| {
         let Some(Scattered::Cells(matrix)) = &dataset.visible.get(component)?.scattered else { return None };
@@ -94,7 +94,7 @@ fn common_basis(dataset: &Dataset) -> RingBasis {
     own.unwrap_or_else(|| RingBasis::klems_full(AzimuthMap::KLEMS_FRONT))
 }
 
-/// The first lines of all files.
+/// Writes the first lines of all files.
 pub(super) fn opening(xml: &mut String, dataset: &Dataset) {
     xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml.push_str(
@@ -109,7 +109,7 @@ pub(super) fn opening(xml: &mut String, dataset: &Dataset) {
     );
 }
 
-/// Everything before the bands; tells which defaults it took.
+/// Writes everything before the bands. Returns findings on the defaults used.
 fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
     opening(xml, dataset);
     let findings = material::write(xml, dataset, true);
@@ -131,7 +131,7 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> 
     findings
 }
 
-/// Degrees without the noise of the way through radians.
+/// Returns an angle in degrees without rounding noise of radians.
 fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }

@@ -1,10 +1,10 @@
-//! Writing BSDF XML as tensor trees (`TensorTree3`, `TensorTree4`), for Radiance and whatever else reads them.
+//! Writing of BSDF XML as tensor trees (`TensorTree3`, `TensorTree4`), for Radiance and other readers of such trees.
 //!
-//! Trees of the asked rank are written leaf by leaf as they are: numbers of ten digits at most, as short as they
-//! can be read back. Every other function is averaged over a grid and pruned by [`tree_on`]; what that costs is told.
-//! Functions that were derived when the dataset was read are left out unless they are asked for, since our reader derives
-//! them the same way: a file that is read and written again holds the blocks that it had. Radiance does not derive them
-//! for rank 3. The Geometry element is empty.
+//! Trees of the requested rank are written leaf by leaf unchanged: numbers of at most ten digits, in the shortest form
+//! that reads back the same. Every other function is averaged over a grid and pruned by [`tree_on`]; a finding reports
+//! the loss. Functions that were derived when the dataset was read are left out unless they are requested, since our
+//! reader derives them the same way: a file that is read and written again holds the blocks that it had. Radiance does
+//! not derive them for rank 3. The Geometry element is empty.
 
 use super::beams;
 use super::material;
@@ -16,31 +16,32 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// How trees are written.
+/// Form in which trees are written.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreeForm {
-    /// Coordinates.
+    /// Rank of the trees.
     pub rank: TreeRank,
-    /// log₂ of the steps of a coordinate; `None`: as the source resolves, at most 6.
+    /// Logarithm to base 2 of the steps of a coordinate; `None`: resolution of the source, at most 6.
     pub level: Option<u32>,
-    /// Largest share of the light that pruning may misplace; `None`: trees of the rank stay as they are, all else is
+    /// Maximum share of the light that pruning may misplace; `None`: trees of the rank stay unchanged, all else is
     /// pruned by [`TreeForm::TOLERANCE`].
     pub tolerance: Option<f64>,
-    /// Are functions written that were derived when the dataset was read?
+    /// Whether functions are written that were derived when the dataset was read.
     pub derived: bool,
 }
 
 impl TreeForm {
-    /// Share of the light that pruning misplaces where nothing else is asked.
+    /// Default share of the light that pruning may misplace.
     pub const TOLERANCE: f64 = 0.01;
 
-    /// A tree of a rank with everything else by default.
+    /// Creates the default form for a rank.
     pub const fn of_rank(rank: TreeRank) -> Self {
         Self { rank, level: None, tolerance: None, derived: false }
     }
 }
 
-/// The rank of a dataset whose functions are all trees of one rank and nothing else; these are written as they are.
+/// Returns the rank of a dataset whose functions are all trees of one rank and nothing else; these are written
+/// unchanged.
 pub fn rank_of(dataset: &Dataset) -> Option<TreeRank> {
     let mut ranks = bands(dataset).flat_map(|(_, band)| {
         band.components().into_iter().filter_map(|component| band.get(component)).map(|btdf| {
@@ -58,10 +59,10 @@ fn bands(dataset: &Dataset) -> impl Iterator<Item = (&'static str, &Band)> {
     std::iter::once(("Visible", &dataset.visible)).chain(dataset.solar.iter().map(|band| ("Solar", band)))
 }
 
-/// One dataset as a file of tensor trees.
+/// Returns one dataset as a file of tensor trees.
 ///
 /// # Errors
-/// A dataset without any visible function; a form that [`tree_on`] refuses.
+/// Returns an error if the dataset has no visible function, or [`tree_on`] refuses the form.
 pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatError> {
     if dataset.visible.components().is_empty() {
         return Err(FormatError::new(Location::file(), "a dataset without visible functions", "at least one to write"));
@@ -105,7 +106,7 @@ const fn axes_of(component: Component) -> TreeAxes {
     }
 }
 
-/// The function as a tree of the form, and what that changed.
+/// Returns the function as a tree of the form, and the change that this caused.
 fn tree_of(
     btdf: &Btdf,
     component: Component,
@@ -183,7 +184,7 @@ fn block(xml: &mut String, tree: &TensorTree, component: Component, band: &str) 
     xml.push_str("\t\t\t\t\t</ScatteringData>\n\t\t\t\t</WavelengthDataBlock>\n\t\t\t</WavelengthData>\n");
 }
 
-/// A node and all below it; no deeper than [`crate::compute::basis::MAX_LEVEL`].
+/// Writes a node and all below it; no deeper than [`crate::compute::basis::MAX_LEVEL`].
 fn node(xml: &mut String, tree: &TensorTree, index: usize) {
     let nodes = tree.nodes();
     let TreeNode::Branch(first) = nodes[index] else {
@@ -211,7 +212,7 @@ fn node(xml: &mut String, tree: &TensorTree, index: usize) {
     xml.push_str("}\n");
 }
 
-/// The number rounded to ten digits, as short as it can be read back.
+/// Writes the number rounded to ten digits, in the shortest form that reads back the same.
 fn leaf(xml: &mut String, node: TreeNode) {
     let TreeNode::Leaf(q) = node else { return };
     let rounded = format!("{q:.9e}").parse::<f64>().unwrap_or(q);

@@ -1,4 +1,4 @@
-//! The addition to a header that tells the description of the numbers, see [`crate::formats::beams`].
+//! Addition to a header with the description of the numbers, see [`crate::formats::beams`].
 //!
 //! ```toml
 //! beams = "cfs-beams 1"        # version of the addition
@@ -13,7 +13,7 @@ use crate::compute::btdf::{Dataset, DescribedState};
 use crate::formats::beams::{Fingerprint, NAME, VERSION};
 use crate::formats::location::FormatError;
 
-/// Of what is behind a header, and of the keys that say what it means.
+/// Returns the fingerprint of the records, of the keys that define their meaning, and of the description.
 pub(super) fn fingerprint(header: &Header, body: &str, described: &DescribedState) -> String {
     let mut print = Fingerprint::new(described);
     print.word(header.component.key());
@@ -33,7 +33,7 @@ pub(super) fn fingerprint(header: &Header, body: &str, described: &DescribedStat
     print.finish()
 }
 
-/// The file with the description of its dataset in its header.
+/// Returns the file with the description of its dataset in its header.
 pub(super) fn added(mut text: String, dataset: &Dataset) -> Result<String, FormatError> {
     let Some(described) = &dataset.described else { return Ok(text) };
     let Split { header, body, .. } = split(&text)?;

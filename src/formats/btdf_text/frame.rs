@@ -1,6 +1,8 @@
-//! Directions of the file and their names: the one place of this format's angle conventions.
+//! Conversion between directions of the file and stored directions: the one place of this format's angle conventions. A
+//! stored direction (θ′, φ′), `name` in the code, is an incident direction, or of emergent light the through direction
+//! or the mirrored one, as [`crate::compute::direction`] defines.
 //!
-//! | light from | what | θ in the file | name θ′ | name φ′ |
+//! | light from | direction | θ in the file | stored θ′ | stored φ′ |
 //! | --- | --- | --- | --- | --- |
 //! | outside | incident | 0…90 | θ | φ |
 //! | outside | transmitted | 90…180 | 180 − θ | φ + 180 |
@@ -14,44 +16,44 @@ use crate::compute::btdf::Component;
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::PI;
 
-/// How the angles of one kind of direction are named: a mirroring of θ, a half turn of φ.
+/// Conversion of the angles of one kind of direction: a mirroring of θ, a half turn of φ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Naming {
-    /// θ in the file runs 90…180.
+    /// Whether θ in the file runs from 90° to 180°, with θ′ = 180° − θ.
     pub inward: bool,
-    /// φ′ = φ + 180°.
+    /// Whether φ′ = φ + 180°; otherwise φ′ = φ.
     pub turned: bool,
 }
 
 impl Naming {
-    /// Of the directions towards the source.
+    /// Creates the conversion for incident directions, towards the source.
     pub fn incident(component: Component) -> Self {
         let inside = !component.is_front();
         Self { inward: inside, turned: inside }
     }
 
-    /// Of the directions in which light leaves.
+    /// Creates the conversion for emergent directions, in which light leaves.
     pub fn emergent(component: Component) -> Self {
-        // Inward goes what passes from outside, and what is thrown back inside.
+        // Light travels inwards if it is transmitted from outside, or reflected back inside.
         Self { inward: component.is_transmission() == component.is_front(), turned: component.is_front() }
     }
 
-    /// Allowed θ of the file. \[°\]
+    /// Returns the allowed range of θ in the file. \[°\]
     pub fn range(self) -> [f64; 2] {
         if self.inward { [90.0, 180.0] } else { [0.0, 90.0] }
     }
 
-    /// θ′ of a θ of the file and back. \[°\]
+    /// Converts θ of the file into θ′, and back. \[°\]
     pub fn theta(self, theta_deg: f64) -> f64 {
         if self.inward { 180.0 - theta_deg } else { theta_deg }
     }
 
-    /// φ′ − φ. \[rad\]
+    /// Returns φ′ − φ. \[rad\]
     pub fn turn(self) -> f64 {
         if self.turned { PI } else { 0.0 }
     }
 
-    /// The name of a direction of the file; `None` when θ is out of range (by more than rounding).
+    /// Returns the stored direction for angles of the file; `None` when θ is out of range (by more than rounding).
     pub fn name(self, theta_deg: f64, phi_deg: f64) -> Option<Dir<Facade>> {
         const SLACK: f64 = 1e-6;
         let [low, high] = self.range();
@@ -62,7 +64,8 @@ impl Naming {
         Some(Dir::from_theta_phi(theta, phi_deg.to_radians() + self.turn()))
     }
 
-    /// θ and φ in the file of a name, without the noise of the way through radians; φ = 0 on the normal. \[°\]
+    /// Returns θ and φ in the file for a stored direction, without rounding noise of radians; φ = 0 on the normal.
+    /// \[°\]
     pub fn file_angles(self, name: Dir<Facade>) -> [f64; 2] {
         let theta = tidy(name.theta().to_degrees());
         let phi = if theta == 0.0 { 0.0 } else { tidy(wrap_two_pi(name.phi() - self.turn()).to_degrees()) };
@@ -70,7 +73,7 @@ impl Naming {
     }
 }
 
-/// Rounded to 1e-9, and no negative zero.
+/// Returns an angle rounded to 1e-9, without negative zero.
 pub(super) fn tidy(degrees: f64) -> f64 {
     (degrees * 1e9).round() / 1e9 + 0.0
 }

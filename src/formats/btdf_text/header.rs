@@ -1,4 +1,4 @@
-//! The TOML header: found between its two lines, checked key by key.
+//! TOML header of a file: found between its two lines, checked key by key.
 
 use super::{FAMILY, FORMAT};
 use crate::compute::btdf::{Component, DescribedState};
@@ -7,7 +7,7 @@ use crate::formats::location::{FormatError, Location, excerpt};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// More bytes than any header needs; bounds the work of the TOML parser.
+/// Maximum size of a header, more than any needs; bounds the work of the TOML parser. \[bytes\]
 const MOST_HEADER: usize = 4 << 20;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -42,7 +42,7 @@ pub(super) enum IncidenceChoice {
 }
 
 impl IncidenceChoice {
-    /// As the header writes it.
+    /// Returns the key as written in the header.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Tregenza => "tregenza-145",
@@ -62,7 +62,7 @@ pub(super) enum Symmetry {
 }
 
 impl Symmetry {
-    /// As the header writes it.
+    /// Returns the key as written in the header.
     pub const fn word(self) -> &'static str {
         match self {
             Self::LeftRight => "left-right",
@@ -73,7 +73,7 @@ impl Symmetry {
     }
 }
 
-/// A state key may be written as a number.
+/// Key of a state, which may be written as a number.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(untagged)]
 enum Key {
@@ -92,22 +92,23 @@ impl Key {
     }
 }
 
-/// What a header tells the catalogue beside what a [`Dataset`](crate::compute::btdf::Dataset) holds. Empty: not told.
+/// Catalogue data of a header, beside the content of a [`Dataset`](crate::compute::btdf::Dataset). Empty: not
+/// specified.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct CatalogueFields {
     /// Kind of system, e.g. `venetian`.
     pub kind: String,
-    /// Words to find it by.
+    /// Tags to find the product by.
     pub tags: Vec<String>,
     /// `measured` or `computed`.
     pub origin: String,
-    /// Who measured or computed.
+    /// Author of the measurement or computation.
     pub author: String,
     /// Instrument or formula.
     pub method: String,
-    /// When, as the file gives it.
+    /// Date as the file gives it.
     pub date: String,
-    /// Which face looks into the room.
+    /// Face of the system that looks into the room.
     pub inside_face: String,
 }
 
@@ -144,7 +145,7 @@ struct Keys {
     date: Option<Date>,
     #[serde(default)]
     inside_face: String,
-    /// Checked before all other keys.
+    /// Version of the addition with a description, checked before all other keys.
     #[serde(rename = "beams")]
     _beams: Option<String>,
     system: Option<String>,
@@ -160,7 +161,7 @@ enum Origin {
     Unknown,
 }
 
-/// Quoted, or a TOML date.
+/// Date as quoted text, or a TOML date.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 enum Date {
@@ -168,16 +169,16 @@ enum Date {
     Toml(toml::value::Datetime),
 }
 
-/// The header as it is used.
+/// Header in the form in which the program uses it.
 #[derive(Debug)]
 pub(super) struct Header {
     pub component: Component,
     pub layout: Layout,
-    /// θ from, θ to, sectors; with the line of the key.
+    /// Rings as θ from, θ to and number of sectors \[°, °, –\]; with the line of the key.
     pub rings: Option<(Vec<[f64; 3]>, usize)>,
     pub incidence: IncidenceChoice,
     pub incident_mean: bool,
-    /// The header does not say whether values are means.
+    /// Whether the header omits the key that says if values are means.
     pub mean_not_told: bool,
     pub symmetry: Option<Symmetry>,
     pub state: String,
@@ -186,14 +187,14 @@ pub(super) struct Header {
     pub description: String,
     pub thickness: Option<f64>,
     pub fields: CatalogueFields,
-    /// The description that the header holds.
+    /// Description in the header.
     pub told: Option<Told>,
 }
 
-/// A header and the text behind it.
+/// Header and the text after it.
 pub(super) struct Split<'a> {
     pub header: Header,
-    /// The records.
+    /// Text of the records.
     pub body: &'a str,
     /// Number of the body's first line, from 1.
     pub body_line: usize,
@@ -273,7 +274,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
             None => FormatError::new(at, message, "the keys of a cfs-btdf header, as TOML"),
         }
     };
-    // First which format it is, so that another version is not told by its unknown keys.
+    // The format is checked before all keys, so that another version is not reported as unknown keys.
     let table: toml::Table = toml::from_str(text).map_err(|error| told(&error))?;
     if table.get("format").and_then(toml::Value::as_str) != Some(FORMAT) {
         let found = table
@@ -376,7 +377,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
     })
 }
 
-/// Does the header hold a description? Of a version that this program knows: others may have any keys.
+/// Whether the header holds a description, of a version that this program knows; other versions may have any keys.
 fn beams(table: &toml::Table, first_line: usize) -> Result<bool, FormatError> {
     let Some(value) = table.get("beams") else { return Ok(false) };
     let word = value.as_str().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Which incident directions a file should hold, which it holds, and whether any is there twice.
+//! Incident directions of a file: which are expected, which are missing, and whether any occurs twice.
 
 use super::SAME_DIRECTION;
 use super::frame::Naming;
@@ -9,7 +9,7 @@ use crate::compute::btdf::{Component, Finding};
 use crate::compute::direction::{Dir, Facade};
 use crate::formats::location::{FormatError, Location};
 
-/// The cells whose centres the incidences should be; `None` for listed ones.
+/// Returns the cells whose centres the incidences should be; `None` for listed ones.
 pub(super) fn lattice(choice: IncidenceChoice, component: Component, mean: bool) -> Option<RingBasis> {
     let inside = !component.is_front();
     match choice {
@@ -21,7 +21,7 @@ pub(super) fn lattice(choice: IncidenceChoice, component: Component, mean: bool)
     }
 }
 
-/// Chord between two directions, which is their angle while it is small. \[rad\]
+/// Returns the chord between two directions, which equals their angle while it is small. \[rad\]
 pub(super) fn apart(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
     (a.vector() - b.vector()).length()
 }
@@ -34,7 +34,7 @@ fn repeated(again: &Incidence, before: &Incidence) -> FormatError {
     )
 }
 
-/// For every cell of a lattice the record at its centre.
+/// Returns for every cell of a lattice the index of the record at its centre.
 pub(super) fn place_on(
     list: &[Incidence],
     basis: &RingBasis,
@@ -61,7 +61,7 @@ pub(super) fn place_on(
     Ok(places)
 }
 
-/// Refuses a direction that is listed twice.
+/// Returns an error if a direction is listed twice.
 pub(super) fn distinct(list: &[Incidence]) -> Result<(), FormatError> {
     for (k, incidence) in list.iter().enumerate() {
         if let Some(before) = list[..k].iter().find(|other| apart(other.name, incidence.name) < SAME_DIRECTION) {
@@ -71,7 +71,7 @@ pub(super) fn distinct(list: &[Incidence]) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Names the directions of a lattice that are missing.
+/// Returns the finding that names the missing directions of a lattice.
 pub(super) fn incomplete(missing: &[Dir<Facade>], total: usize, choice: IncidenceChoice, naming: Naming) -> Finding {
     const NAMED: usize = 6;
     let mut names: Vec<String> = missing
@@ -97,7 +97,7 @@ pub(super) fn incomplete(missing: &[Dir<Facade>], total: usize, choice: Incidenc
     )
 }
 
-/// Tells when parts of the hemisphere are far from any incidence of a list.
+/// Returns a finding if parts of the hemisphere are far from any incidence of a list.
 pub(super) fn sparse(list: &[Dir<Facade>], naming: Naming) -> Option<Finding> {
     const FAR: f64 = 20.0;
     let nearest = |d: Dir<Facade>| list.iter().map(|other| apart(*other, d)).fold(f64::INFINITY, f64::min);

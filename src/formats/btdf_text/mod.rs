@@ -1,8 +1,9 @@
-//! Measured datasets as text, `.btdf.txt`: a TOML header between two lines `---`, then numbers, one record a line.
+//! Measured datasets as text, `.btdf.txt`: a TOML header between two lines `---`, then numbers, one record per line.
 //!
 //! Angles of the file are degrees in the façade frame on both sides (φ counter-clockwise seen from outside, 0 = right,
 //! 90 = up; θ from the outward normal). The incident direction points towards the source, transmitted and reflected
-//! ones point where the light goes; `frame` turns them into the names that [`crate::compute::direction`] defines.
+//! ones point where the light goes; `frame` converts them into the directions by which [`crate::compute::direction`]
+//! stores data.
 //!
 //! Read: both layouts (`rings`: means over cells; `points`: values at directions, resampled onto cells with a stated
 //! error); incidences on Tregenza's or Klems' 145 directions or any list; means over incident cells
@@ -11,13 +12,13 @@
 //! side. Missing incidences stay missing unless the header declares a symmetry. A file holds one function of one
 //! state; [`crate::formats::merge_sides`] joins the files of one state.
 //!
-//! An addition to the header, for numbers that were computed from a description (`.system.toml`): `beams =
-//! "cfs-beams 1"` with `system` (its text, in which stacks hold their layers themselves), `system_state` where the key of
-//! its state is not the file's own `state`, and `fingerprint`. Where the fingerprint is that of the file, the description
+//! An addition to the header, for numbers that were computed from a description (`.system.toml`): `beams = "cfs-beams
+//! 1"` with `system` (its text, in which stacks hold their layers themselves), `system_state` where the key of its
+//! state is not the file's own `state`, and `fingerprint`. Where the fingerprint is that of the file, the description
 //! becomes the dataset's [`described`](crate::compute::btdf::Dataset::described), so that beams are computed and not
-//! guessed from cells. Where it is not, somebody changed the numbers: they are read, the description is left out, and the
-//! finding `beams-not-restored` tells. A newer version of the addition is refused by its name. Who writes files by hand
-//! leaves all four keys out.
+//! guessed from cells. Where it is not, somebody changed the numbers: they are read, the description is left out, and
+//! the finding `beams-not-restored` reports it. A newer version of the addition is refused by its name. Files written
+//! by hand omit all four keys.
 //!
 //! Not read: other bands than the visible one, several headers in a file, records broken over lines.
 
@@ -38,17 +39,16 @@ pub use header::CatalogueFields;
 pub use read::{catalogue_fields, read};
 pub use write::{write, write_component};
 
-/// First words of the header's `format` key.
+/// Value of the header's `format` key.
 pub const FORMAT: &str = "cfs-btdf 1";
-/// Beginning of [`Dataset::format`](crate::compute::btdf::Dataset::format) of what is read here.
+/// Beginning of [`Dataset::format`](crate::compute::btdf::Dataset::format) of datasets read from this format.
 pub const FAMILY: &str = "cfs-btdf";
 
-/// Most values of a file, as the binary form allows.
+/// Maximum number of values of a file, as in the binary form.
 const MOST_VALUES: usize = limits::VALUES;
-/// Most incident directions.
+/// Maximum number of incident directions.
 const MOST_INCIDENCES: usize = limits::INCIDENCES;
-/// Most emergent cells.
+/// Maximum number of emergent cells.
 const MOST_CELLS: usize = limits::CELLS;
-/// Directions nearer than this are the same (as [`Indicatrices`](crate::compute::btdf::Indicatrices) takes them).
-/// \[rad\]
+/// Angle below which directions count as equal (as in [`Indicatrices`](crate::compute::btdf::Indicatrices)). \[rad\]
 const SAME_DIRECTION: f64 = 2e-3;

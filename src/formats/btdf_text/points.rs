@@ -1,11 +1,11 @@
-//! Values at emergent directions, made into means over cells.
+//! Conversion of values at emergent directions into means over cells.
 //!
 //! Where all incidences have their points on the same rings of equal azimuth steps, every point becomes the cell around
-//! it. Elsewhere a cell's mean is that of the points in it, where there are many; else it is taken over 2 × 2 directions
-//! of equal projected weight, each interpolated from its four nearest points with weights 1/d² (Shepard). The error is
-//! estimated by leaving points out one after the other and predicting them from their neighbours, weighted by flux: it
-//! is the share of the light that the points leave uncertain, and an upper bound for what lies between them rather than
-//! for τ.
+//! it. Elsewhere a cell's mean is that of the points in it, where there are many; else it is taken over 2 × 2
+//! directions of equal projected weight, each interpolated from its four nearest points with weights 1/d² (Shepard).
+//! The error is estimated by leaving points out one after the other and predicting them from their neighbours, weighted
+//! by flux: it is the share of the light that the points leave uncertain, and an upper bound for what lies between them
+//! rather than for τ.
 
 use super::frame::{Naming, tidy};
 use super::records::{Incidence, Point};
@@ -19,23 +19,23 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Neighbours that a value is interpolated from.
+/// Number of neighbours from which a value is interpolated.
 const NEIGHBOURS: usize = 4;
-/// Points in a cell from which on their mean is its value.
+/// Minimum number of points in a cell for which their mean is its value.
 const MANY: usize = 6;
-/// Values that resampling makes for all incidences together at most: what finer points hold is averaged.
+/// Maximum number of resampled values for all incidences together: finer points are averaged.
 const MOST_RESAMPLED: usize = 6_000_000;
-/// Cells are not made finer than this, unless the header asks for it. \[rad\]
+/// Minimum size of a cell, unless the header defines cells. \[rad\]
 const FINEST: f64 = PI / 180.0;
 
-/// Cells, one row a incidence, and what to tell.
+/// Result of resampling: cells, one row per incidence, and findings.
 pub(super) struct Resampled {
     pub basis: RingBasis,
     pub rows: Vec<f64>,
     pub findings: Vec<Finding>,
 }
 
-/// Makes rows of cells from points. `rings`: the cells that the header asks for, if it does.
+/// Makes rows of cells from points. `rings`: cells that the header defines, if it does.
 pub(super) fn resample(
     list: &[(Incidence, Vec<Point>)],
     rings: Option<FileRings>,
@@ -101,7 +101,8 @@ pub(super) fn resample(
     Ok(Resampled { basis, rows, findings })
 }
 
-/// One incidence's values on the cells, the share of samples far from its points, and how much single points miss.
+/// Returns one incidence's values on the cells, the share of samples far from its points, and the error of predicting
+/// single points.
 fn row_by(stencils: &Stencils, basis: &RingBasis, points: &[Point]) -> (Vec<f64>, f64, f64) {
     let value = |s: &Stencil| s.iter().map(|&(k, w)| w * points[k as usize].q).sum::<f64>();
     // The four samples of a cell have equal projected weight.
@@ -111,7 +112,7 @@ fn row_by(stencils: &Stencils, basis: &RingBasis, points: &[Point]) -> (Vec<f64>
     (row, stencils.beyond, left_out(points))
 }
 
-/// Puts the mean of the points of a cell where many lie in it.
+/// Sets the value of a cell to the mean of its points where there are many.
 fn means_of_many(basis: &RingBasis, points: &[Point], row: &mut [f64]) {
     let mut sums = vec![(0_u32, 0.0); basis.len()];
     for point in points {
@@ -127,7 +128,7 @@ fn means_of_many(basis: &RingBasis, points: &[Point], row: &mut [f64]) {
     }
 }
 
-/// The finding that states the error.
+/// Returns the finding that states the error.
 fn stated(errors: &[f64], how: String) -> Finding {
     let mut sorted = errors.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -145,7 +146,7 @@ fn stated(errors: &[f64], how: String) -> Finding {
     }
 }
 
-/// Rings whose cells have the points as centres, and for every point its cell.
+/// Returns the rings whose cells have the points as centres, and for every point its cell.
 fn own_rings(points: &[Point]) -> Option<(RingBasis, Vec<usize>)> {
     // θ′ and φ′ in degrees, sorted.
     let mut sorted: Vec<(f64, f64, usize)> = points
@@ -165,7 +166,7 @@ fn own_rings(points: &[Point]) -> Option<(RingBasis, Vec<usize>)> {
     for group in &groups {
         let step = 360.0 / group.len() as f64;
         let even = group.iter().enumerate().all(|(k, p)| (p.1 - group[0].1 - k as f64 * step).abs() < 2e-3);
-        // A ring of one point is the normal; rings of two or three are no rings.
+        // A ring of one point is the normal; two or three points do not make a ring.
         if !even
             || group.len() > 7200
             || (group.len() < 4 && group[0].0 != 0.0)
@@ -227,7 +228,7 @@ fn on_own_rings(list: &[(Incidence, Vec<Point>)], basis: RingBasis, cells: &[usi
     Resampled { basis, rows, findings }
 }
 
-/// Cells about as large as the distance of the closer points.
+/// Returns cells about as large as the distance of the closer points.
 fn cells_for(list: &[(Incidence, Vec<Point>)]) -> RingBasis {
     let (_, points) = list.iter().max_by_key(|(_, points)| points.len()).expect("there are incidences");
     let mut spacing = Cloud::new(points).spacings();
@@ -239,7 +240,7 @@ fn cells_for(list: &[(Incidence, Vec<Point>)]) -> RingBasis {
     even_rings(close.clamp(least, least.max(10_f64.to_radians())))
 }
 
-/// Rings of one step with sectors about as wide. \[rad\]
+/// Returns rings of one step with sectors about as wide. `step` in \[rad\].
 pub(super) fn even_rings(step: f64) -> RingBasis {
     let count = (FRAC_PI_2 / step).round().max(1.0);
     let step = FRAC_PI_2 / count;
@@ -254,7 +255,7 @@ pub(super) fn even_rings(step: f64) -> RingBasis {
     RingBasis::new(name, rings, AzimuthMap::FACADE).expect("equal steps divide the hemisphere")
 }
 
-/// Four directions in every cell, of equal projected weight.
+/// Returns four directions in every cell, of equal projected weight.
 fn samples(basis: &RingBasis) -> Vec<DVec3> {
     let mut list = Vec::with_capacity(4 * basis.len());
     for cell in basis.cells() {
@@ -269,7 +270,7 @@ fn samples(basis: &RingBasis) -> Vec<DVec3> {
     list
 }
 
-/// Share of the light that is missed when every point is predicted from its neighbours alone.
+/// Returns the share of the light that is missed when every point is predicted from its neighbours alone.
 fn left_out(points: &[Point]) -> f64 {
     const TESTED: usize = 1500;
     let cloud = Cloud::new(points);
@@ -293,7 +294,7 @@ type Stencil = [(u32, f64); NEIGHBOURS];
 /// Interpolation of one incidence's points at the samples of all cells.
 struct Stencils {
     list: Vec<Stencil>,
-    /// Share of the samples far from all points.
+    /// Share of the samples that are far from all points.
     beyond: f64,
 }
 
@@ -309,16 +310,16 @@ impl Stencils {
     }
 }
 
-/// Points sorted into a grid of squares of equal solid angle on Lambert's disc.
+/// Set of points, sorted into a grid of squares of equal solid angle on Lambert's disc.
 struct Cloud {
     points: Vec<DVec3>,
     side: usize,
-    /// First entry of every square in `order`.
+    /// Index in `order` of the first entry of every square.
     start: Vec<u32>,
     order: Vec<u32>,
 }
 
-/// Lambert's azimuthal equal-area projection of the hemisphere into [0, 1]².
+/// Returns Lambert's azimuthal equal-area projection of the hemisphere into [0, 1]².
 fn lambert(v: DVec3) -> [f64; 2] {
     let scale = 0.5 / (1.0 + v.z.max(0.0)).sqrt();
     [0.5 + v.x * scale, 0.5 + v.y * scale]
@@ -349,7 +350,7 @@ impl Cloud {
         Self { points, side, start, order }
     }
 
-    /// The nearest points with the squares of their chords, nearest first.
+    /// Returns the nearest points with the squares of their chords, in rising order.
     fn neighbours(&self, v: DVec3, count: usize, without: Option<usize>) -> Vec<(f64, u32)> {
         let [cx, cy] = lambert(v).map(|t| ((t * self.side as f64) as usize).min(self.side - 1) as isize);
         let side = self.side as isize;
@@ -386,7 +387,7 @@ impl Cloud {
         found
     }
 
-    /// Weights 1/d² of the nearest points, sum 1.
+    /// Returns the weights 1/d² of the nearest points, with sum 1.
     fn stencil(&self, v: DVec3, without: Option<usize>) -> Stencil {
         let near = self.neighbours(v, NEIGHBOURS, without);
         let mut stencil = [(0, 0.0); NEIGHBOURS];
@@ -404,7 +405,7 @@ impl Cloud {
         stencil
     }
 
-    /// Distance of every point to its nearest neighbour; of a sample where there are many.
+    /// Returns the distance of every point to its nearest neighbour; of a sample where there are many.
     fn spacings(&self) -> Vec<f64> {
         let step = self.points.len().div_ceil(4000).max(1);
         (0..self.points.len())

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// A TOML basic string on one line.
+/// Returns a TOML basic string on one line.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
@@ -22,7 +22,7 @@ pub(super) fn quoted(text: &str) -> String {
     out
 }
 
-/// A TOML string as it is, over several lines, where that can be read back.
+/// Returns a TOML string with the text unchanged over several lines, where that can be read back.
 pub(super) fn lines(text: &str) -> String {
     let plain = !text.contains("'''")
         && !text.ends_with('\'')

@@ -1,4 +1,4 @@
-//! From text to a dataset: header, records, symmetry, order, plausibility.
+//! Reading of a dataset from text: header, records, symmetry, order, plausibility.
 
 use super::beams::fingerprint;
 use super::frame::Naming;
@@ -15,23 +15,23 @@ use crate::formats::encoding::{decode, repaired};
 use crate::formats::location::{FormatError, Location};
 use std::sync::Arc;
 
-/// No indicatrix is believed to send out more than this share of the light, not even in percent.
+/// Sum of an indicatrix above which it is refused, even if it is in percent.
 const IMPOSSIBLE: f64 = 150.0;
-/// Above this the numbers are in another unit.
+/// Sum of an indicatrix above which the numbers are assumed to be in another unit.
 const OTHER_UNIT: f64 = 1.5;
-/// Up to here a forgotten π or a cosine explains as much as percent do; beyond, the data doctor says that it is percent.
+/// Sum up to which a forgotten π or cosine explains as much as percent; above it the data check assumes percent.
 const OTHER_FACTOR: f64 = 4.0;
-/// Above this the data are not fit for use.
+/// Sum above which the data are not fit for use.
 const PLAUSIBLE: f64 = 1.05;
-/// Up to here it is rounding.
+/// Sum up to which an excess over 1 counts as rounding.
 const ROUNDING: f64 = 1.001;
 
 /// Reads one file into one dataset with one of the four visible functions.
 ///
 /// # Errors
-/// Anything that leaves the meaning of the numbers open, with line, what is there and what would be right: no header,
-/// unknown keys or words, counts that do not fit, values that are below zero by more than noise or no finite numbers, incidences that are
-/// given twice or lie off the lattice that the header names, more light than came.
+/// Returns an error, with line, what was found and what was expected, if the meaning of the numbers is ambiguous: no
+/// header, unknown keys or words, counts that do not fit, values that are not finite or are below zero by more than
+/// noise, incidences that are given twice or lie off the lattice that the header names, more light out than in.
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     let text = decode(bytes)?;
     let Split { mut header, body, body_line } = split(&text)?;
@@ -84,15 +84,15 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     Ok(dataset)
 }
 
-/// What the header of a file tells the catalogue beyond the dataset.
+/// Returns the catalogue data in the header of a file, beyond the dataset.
 ///
 /// # Errors
-/// Of the header.
+/// Returns an error if the header is not valid.
 pub fn catalogue_fields(bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
     Ok(split(&decode(bytes)?)?.header.fields)
 }
 
-/// What the file itself holds.
+/// Data of the file itself, before symmetry is applied.
 struct Measured {
     list: Vec<Incidence>,
     rows: Vec<f64>,
@@ -134,7 +134,8 @@ fn no_records(line: usize) -> FormatError {
     FormatError::new(Location::line(line), "no records behind the header", "a line of numbers for every incidence")
 }
 
-/// More light than came? All dark?
+/// Checks the sums of all indicatrices: adds findings on sums above 1 and on data without light, or refuses impossible
+/// ones.
 fn plausible(
     header: &Header,
     list: &[Incidence],
@@ -183,10 +184,11 @@ fn plausible(
     Ok(())
 }
 
-/// Names, rows in their order, and the lattice whose cell centres the names are, when they are.
+/// Directions, rows in their order, and the lattice whose cell centres the directions are, if there is one.
 type Ordered = (Vec<Dir<Facade>>, Vec<f64>, Option<RingBasis>);
 
-/// Brings the incidences into the order of their lattice, adds what a declared symmetry gives, tells what is missing.
+/// Brings the incidences into the order of their lattice, adds those that a declared symmetry gives, and reports
+/// missing ones.
 fn complete(
     header: &Header,
     list: &[Incidence],

@@ -1,4 +1,4 @@
-//! The lines of numbers behind the header.
+//! Records of a file: the lines of numbers after the header.
 
 use super::frame::Naming;
 use super::{MOST_INCIDENCES, MOST_VALUES};
@@ -7,35 +7,35 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 
-/// A larger luminance coefficient no cell can have that a goniophotometer resolves: all light in 0.001°. \[1/sr\]
+/// Maximum luminance coefficient that a goniophotometer can resolve in a cell: all light in 0.001°. \[1/sr\]
 const LARGEST_Q: f64 = limits::COEFFICIENT;
 
-/// One incident direction.
+/// Incident direction of a record.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Incidence {
     /// Line of its (first) record, from 1.
     pub line: usize,
-    /// As the file gives it. \[°\]
+    /// Polar angle as the file gives it. \[°\]
     pub theta: f64,
-    /// As the file gives it. \[°\]
+    /// Azimuth as the file gives it. \[°\]
     pub phi: f64,
-    /// Its name.
+    /// Stored direction, see [`super::frame`].
     pub name: Dir<Facade>,
 }
 
-/// A value at an emergent direction.
+/// Value at an emergent direction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
-    /// Name of the emergent direction.
+    /// Stored direction of the emergent light, see [`super::frame`].
     pub name: Dir<Facade>,
-    /// \[1/sr\]
+    /// Luminance coefficient. \[1/sr\]
     pub q: f64,
 }
 
-/// Measuring noise around zero: values no further below it than this share of the largest are set to 0.
+/// Noise around zero, relative to the largest value: values no further below zero are set to 0.
 const NOISE: f64 = 1e-3;
 
-/// What lies below zero, and what it is to be compared with.
+/// Values below zero: their number, the lowest of them and its place.
 #[derive(Debug, Default)]
 struct Below {
     count: usize,
@@ -44,7 +44,7 @@ struct Below {
 }
 
 impl Below {
-    /// A negative value is counted and comes back as 0.
+    /// Counts a negative value and returns 0.
     #[cold]
     fn take(&mut self, line: &Line, field: &str, value: f64) -> f64 {
         self.count += 1;
@@ -54,7 +54,8 @@ impl Below {
         0.0
     }
 
-    /// Noise is told; more than noise is an error at the worst place. `largest`: the largest value of the file.
+    /// Returns a finding on noise, or an error at the lowest value if it is more than noise. `largest`: largest value
+    /// of the file.
     fn judged(self, largest: f64) -> Result<Option<Finding>, FormatError> {
         let Some(place) = self.place else { return Ok(None) };
         if -self.least > NOISE * largest {
@@ -77,14 +78,14 @@ impl Below {
     }
 }
 
-/// One line of numbers, read from left to right.
+/// Line of numbers, read from left to right.
 struct Line<'a> {
     text: &'a str,
     number: usize,
     fields: std::str::SplitAsciiWhitespace<'a>,
 }
 
-/// Lines that hold records: comments cut off, blank lines left out.
+/// Returns the lines that hold records, without comments and blank lines.
 fn lines(body: &str, first_line: usize) -> impl Iterator<Item = Line<'_>> {
     body.split('\n').enumerate().filter_map(move |(k, text)| {
         let text = text.split_once('#').map_or(text, |(before, _)| before);
@@ -101,7 +102,7 @@ impl<'a> Line<'a> {
         Location::line_column(self.number, column)
     }
 
-    /// A finite number that is not a value: an angle.
+    /// Reads an angle: a finite number.
     fn angle(&mut self, what: &str, expected: &str) -> Result<f64, FormatError> {
         let Some(field) = self.fields.next() else {
             return Err(FormatError::new(Location::line(self.number), format!("no {what}"), expected));
@@ -126,7 +127,7 @@ impl<'a> Line<'a> {
         Ok((theta, phi, name))
     }
 
-    /// A value: 0 or more, or a little less by noise.
+    /// Reads a value: 0 or more, or a little less because of noise.
     fn value(&self, field: &str, below: &mut Below) -> Result<f64, FormatError> {
         // NaN and infinity fail both comparisons.
         match field.parse::<f64>() {
@@ -148,12 +149,13 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Incidences, and their values one incidence after the other.
+/// Incidences, and all their values, one incidence after the other.
 pub(super) type Rings = (Vec<Incidence>, Vec<f64>);
 /// Incidences, each with its points.
 pub(super) type Points = Vec<(Incidence, Vec<Point>)>;
 
-/// Rings: incidences, their values one incidence after the other in the file's order of cells, and the noise below 0.
+/// Reads the layout `rings`. Returns the incidences, their values one incidence after the other in the file's order of
+/// cells, and a finding on noise below 0.
 pub(super) fn ring_records(
     body: &str,
     first_line: usize,
@@ -196,7 +198,7 @@ fn too_many(line: usize) -> FormatError {
     )
 }
 
-/// Points: incidences, each with its points, and the noise below 0.
+/// Reads the layout `points`. Returns the incidences, each with its points, and a finding on noise below 0.
 pub(super) fn point_records(
     body: &str,
     first_line: usize,

@@ -1,17 +1,18 @@
-//! The header's list of rings as emergent cells.
+//! Emergent cells from the header's list of rings.
 
 use super::MOST_CELLS;
 use super::frame::Naming;
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::formats::location::{FormatError, Location};
 
-/// Emergent cells, and for every cell the column of the file that holds it where the two orders differ.
+/// Emergent cells, and for every cell the column of the file that holds it, where the two orders differ.
 pub(super) struct FileRings {
     pub basis: RingBasis,
     pub columns: Option<Vec<usize>>,
 }
 
-/// Cells of the header's rings. The file's order is kept when the rings rise or fall throughout; else they are sorted.
+/// Returns the cells of the header's rings. The file's order is kept when the rings rise or fall throughout; else they
+/// are sorted.
 pub(super) fn file_rings(list: &[[f64; 3]], line: usize, naming: Naming) -> Result<FileRings, FormatError> {
     let at = |k: usize| Location::line(line).in_element(format!("rings, ring {}", k + 1));
     let [low, high] = naming.range();

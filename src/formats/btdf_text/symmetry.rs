@@ -1,7 +1,7 @@
 //! Incidences that a declared symmetry adds: the images of measured ones.
 //!
-//! A symmetric system has q(gω_e, gω′) = q(ω_e, ω′) for a mirroring or turn g about the normal. Names and directions
-//! are mirrored and turned alike, so this can be done in names.
+//! A symmetric system has q(gω_e, gω′) = q(ω_e, ω′) for a mirroring or rotation g about the normal. Stored directions
+//! are mirrored and rotated like directions of the file, so that this can be done with the stored ones.
 
 use super::SAME_DIRECTION;
 use super::header::Symmetry;
@@ -11,7 +11,7 @@ use crate::compute::btdf::Finding;
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::PI;
 
-/// φ ↦ sign · φ + offset, θ unchanged.
+/// Symmetry operation: φ ↦ sign · φ + offset, θ unchanged.
 #[derive(Debug, Clone, Copy)]
 struct Image {
     sign: f64,
@@ -23,8 +23,8 @@ impl Image {
         Dir::from_theta_phi(d.theta(), self.sign * d.phi() + self.offset)
     }
 
-    /// The function whose value at ω′ is that of `row` at the image of ω′, as means over the same cells; and whether
-    /// cells only changed places.
+    /// Returns the function whose value at ω′ is that of `row` at the image of ω′, as means over the same cells; and
+    /// whether cells only changed places.
     fn row(self, basis: &RingBasis, row: &[f64]) -> (Vec<f64>, bool) {
         const EXACT: f64 = 1e-7;
         let mut out = Vec::with_capacity(row.len());
@@ -66,7 +66,7 @@ fn mirrors(symmetry: Symmetry) -> &'static [Image] {
     }
 }
 
-/// Incidences with their rows, and how many of them were measured (those come first).
+/// Incidences with their rows, and the number of measured ones, which come at the front.
 #[derive(Debug)]
 pub(super) struct Known {
     pub names: Vec<Dir<Facade>>,
@@ -82,7 +82,7 @@ impl Known {
         self.names[..among].iter().position(|name| apart(*name, d) < SAME_DIRECTION)
     }
 
-    /// The measured incidence and the image by which it gives `wanted`.
+    /// Returns the measured incidence and the image by which it gives `wanted`.
     fn source(&self, measured: usize, symmetry: Symmetry, wanted: Dir<Facade>) -> Option<(usize, Image)> {
         if symmetry == Symmetry::Rotational {
             let turn = |name: Dir<Facade>| {
@@ -98,8 +98,8 @@ impl Known {
     }
 }
 
-/// Directions that a symmetry adds to a list: mirror images; for rotational symmetry turns of every θ, as many as a
-/// row of Tregenza's lattice at that θ has.
+/// Returns the directions that a symmetry adds to a list: mirror images; for rotational symmetry rotations of every θ,
+/// as many as a row of Tregenza's lattice at that θ has.
 fn wanted(names: &[Dir<Facade>], symmetry: Symmetry) -> Vec<Dir<Facade>> {
     if symmetry != Symmetry::Rotational {
         return names.iter().flat_map(|name| mirrors(symmetry).iter().map(|image| image.of(*name))).collect();
@@ -114,8 +114,8 @@ fn wanted(names: &[Dir<Facade>], symmetry: Symmetry) -> Vec<Dir<Facade>> {
         .collect()
 }
 
-/// Adds what the symmetry gives: of the missing directions of a lattice, or of images of all listed ones. Stops at
-/// `most` incidences.
+/// Adds incidences by symmetry: the missing directions of a lattice, or images of all listed ones. Stops at `most`
+/// incidences.
 pub(super) fn fill(
     known: &mut Known,
     basis: &RingBasis,
@@ -154,7 +154,7 @@ pub(super) fn fill(
     findings
 }
 
-/// Do the measured incidences contradict the symmetry?
+/// Returns a finding if the measured incidences contradict the symmetry.
 fn broken(known: &Known, basis: &RingBasis, symmetry: Symmetry) -> Option<Finding> {
     const TOLERATED: f64 = 0.1;
     let weights = basis.projected_solid_angles();

@@ -1,8 +1,8 @@
-//! Writing: layout `rings`, one function of one state a file.
+//! Writing of the layout `rings`, one function of one state per file.
 //!
-//! Values are written with all the digits that they have. Incident and emergent cells keep their own rings where the
-//! file can say them: sectors with one centred on φ = 0. Everything else is averaged: incidence over Klems' cells,
-//! emergence over rings of 5° or the own rings with turned sectors; a finding tells.
+//! Values are written with all their digits. Incident and emergent cells keep their own rings where the file can
+//! express them: sectors with one centred on φ = 0. Everything else is averaged: incidence over Klems' cells, emergence
+//! over rings of 5° or the own rings with rotated sectors; a finding reports it.
 
 use super::FORMAT;
 use super::beams::added;
@@ -16,11 +16,11 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// The dataset's transmission from outside as a file, or, without one, its first function. Findings tell what else it
-/// holds; [`write_component`] writes that.
+/// Returns the dataset's transmission from outside as a file, or, without one, its first function. Findings report what
+/// else it holds; [`write_component`] writes that.
 ///
 /// # Errors
-/// A dataset without any visible function.
+/// Returns an error if the dataset has no visible function.
 pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     let components = dataset.visible.components();
     let Some(first) = components.first() else {
@@ -40,10 +40,10 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     Ok(written)
 }
 
-/// One of the dataset's functions as a file.
+/// Returns one of the dataset's functions as a file.
 ///
 /// # Errors
-/// A function that the dataset has not.
+/// Returns an error if the dataset does not have that function.
 pub fn write_component(dataset: &Dataset, component: Component) -> Result<Written, FormatError> {
     let Some(btdf) = dataset.visible.get(component) else {
         let have: Vec<&str> = dataset.visible.components().into_iter().map(Component::key).collect();
@@ -71,13 +71,13 @@ pub fn write_component(dataset: &Dataset, component: Component) -> Result<Writte
     Ok(Written { bytes: added(text, dataset)?.into_bytes(), findings })
 }
 
-/// What the file will hold: in its own order.
+/// Data of the file, in the order of the file.
 struct Table {
     incidence: &'static str,
     mean: bool,
     names: Vec<Dir<Facade>>,
     emergent: RingBasis,
-    /// One row an incidence, in the order of `emergent`.
+    /// Rows of values, one per incidence, in the order of `emergent`.
     rows: Vec<Vec<f64>>,
 }
 
@@ -164,8 +164,8 @@ impl Table {
         }
     }
 
-    /// Lattices in the order that their definition gives them in the file's angles: Tregenza's rows from the horizon,
-    /// Klems' rings from the normal, φ rising.
+    /// Sorts lattices in the order that their definition gives them in the file's angles: Tregenza's rows from the
+    /// horizon, Klems' rings from the normal, φ rising.
     fn sort(&mut self, naming: Naming) {
         if self.incidence == "listed" {
             return;
@@ -202,7 +202,7 @@ fn lattice_word(lattice: Option<&RingBasis>) -> &'static str {
     }
 }
 
-/// The own rings, counted as a file counts them.
+/// Returns the rings of a basis with azimuths counted as in a file.
 fn file_basis(own: &RingBasis, naming: Naming) -> RingBasis {
     let rings: Vec<Ring> = own.rings().iter().map(|ring| Ring { first_phi: 0.0, ..*ring }).collect();
     RingBasis::new(own.name(), rings, AzimuthMap { sign: 1.0, offset: naming.turn() })

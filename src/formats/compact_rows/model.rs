@@ -1,26 +1,27 @@
-//! In which order the levels of an indicatrix are told, and what is taken as known when the next bit is guessed.
+//! Coding order of the levels of an indicatrix, and the contexts from which the next bit is predicted.
 //!
-//! Groups of cells are visited from coarse to fine. A group says first whether anything in it differs from zero; if
-//! not, nothing below it is told. Chances depend on what the group around showed (large coefficients have large ones
+//! Groups of cells are visited from coarse to fine. A group begins with a bit: whether anything in it differs from
+//! zero; if not, nothing below it is coded. Chances depend on the group around (large coefficients have large ones
 //! below them), on the number of the wavelet in its group, and on how many before it were not zero.
 
 use super::range_coder::{Chance, Decoder, Encoder};
 use crate::compute::wavelet::Transform;
 
-/// Takes bits one after the other: a writer, a reader, or a counter of frequencies.
+/// Sequence of bits: a writer, a reader, or a counter of frequencies.
 pub trait Bits {
-    /// A bit in a context; a writer writes `bit`, a reader does not look at it. What was written or read is returned.
+    /// Codes a bit in a context, and returns it. A writer writes `bit`; a reader ignores `bit` and returns the bit that
+    /// was read.
     fn bit(&mut self, context: usize, bit: bool) -> bool;
-    /// A bit without context.
+    /// Codes a bit without context, and returns it.
     fn even(&mut self, bit: bool) -> bool;
 }
 
 const ACTIVITIES: usize = 4;
 const LEVELS: usize = 16;
 const WAVELETS: usize = 8;
-/// Binary digits of a magnitude that have contexts of their own.
+/// Number of binary digits of a magnitude that have contexts of their own.
 const DIGITS: usize = 12;
-/// Most binary digits of a magnitude.
+/// Maximum number of binary digits of a magnitude.
 const MOST_DIGITS: usize = 25;
 const GROUP: usize = 0;
 const ZERO: usize = GROUP + LEVELS * ACTIVITIES * 3;
@@ -30,8 +31,8 @@ const ROOT: usize = SECOND + DIGITS;
 /// Number of contexts.
 pub const CONTEXTS: usize = ROOT + 9;
 
-/// Tells or asks all levels of one indicatrix. `levels` holds them, or zeros that are filled in.
-/// `false`: a magnitude that no writer writes.
+/// Writes or reads all levels of one indicatrix. `levels` holds them, or zeros that are filled in. Returns `false` for
+/// a magnitude that no writer writes.
 pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) -> bool {
     let blocks = transform.blocks();
     let count = blocks.len();
@@ -94,7 +95,7 @@ pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) ->
     sound
 }
 
-/// Sign, the number of binary digits one by one, then the digits behind the first: the second has a context.
+/// Codes a sign, the number of binary digits one by one, then the digits after the first: the second has a context.
 fn magnitude(told: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) -> i32 {
     let negative = bits.even(told < 0);
     let told = told.unsigned_abs().max(1);
@@ -116,7 +117,7 @@ fn magnitude(told: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) ->
     if negative { -(magnitude as i32) } else { magnitude as i32 }
 }
 
-/// Counts how often which bit comes in which context.
+/// Counts of the bits 0 and 1 in each context.
 #[derive(Debug)]
 pub struct Counter(pub Vec<[u64; 2]>);
 
@@ -137,7 +138,7 @@ impl Bits for Counter {
     }
 }
 
-/// Writes with chances that begin as a table says.
+/// Writer of bits, with initial chances from a table.
 #[derive(Debug)]
 pub struct Writer {
     coder: Encoder,
@@ -145,12 +146,12 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// With one byte a context.
+    /// Creates a writer; `table` has one byte per context.
     pub fn new(table: &[u8]) -> Self {
         Self { coder: Encoder::default(), chances: table.iter().map(|byte| Chance::from_byte(*byte)).collect() }
     }
 
-    /// The bytes.
+    /// Returns the bytes.
     pub fn finish(self) -> Vec<u8> {
         self.coder.finish()
     }
@@ -168,7 +169,7 @@ impl Bits for Writer {
     }
 }
 
-/// Reads what [`Writer`] wrote.
+/// Reader of the bits that [`Writer`] wrote.
 #[derive(Debug)]
 pub struct Reader<'a> {
     coder: Decoder<'a>,
@@ -176,7 +177,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// With one byte a context, the same as the writer's.
+    /// Creates a reader; `table` has one byte per context and is that of the writer.
     pub fn new(table: &[u8], bytes: &'a [u8]) -> Self {
         Self { coder: Decoder::new(bytes), chances: table.iter().map(|byte| Chance::from_byte(*byte)).collect() }
     }

@@ -1,22 +1,22 @@
-//! A binary arithmetic coder: bits with estimated probabilities become a string of bytes of almost their entropy.
+//! Binary arithmetic coder: bits with estimated probabilities become a string of bytes of almost their entropy.
 //!
-//! The carry-propagating range coder of LZMA (Martin 1979, Pavlov), with probabilities of 16 bits that follow what was
-//! seen.
+//! It is the carry-propagating range coder of LZMA (Martin 1979, Pavlov), with probabilities of 16 bits that adapt to
+//! the bits coded before.
 
-/// Chance that a bit is 0, in 65536ths; follows the bits that were coded.
+/// Chance that a bit is 0, in 65536ths; adapts to the bits that were coded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chance(u16);
 
-/// Share of the way to the bit just seen: 1/2^RATE.
+/// Adaptation rate: each bit moves the chance by 1/2^RATE of its distance.
 const RATE: u16 = 6;
 
 impl Chance {
-    /// From a byte, 0 = almost never 0, 255 = almost always.
+    /// Creates a chance from a byte, 0 = almost never 0, 255 = almost always.
     pub const fn from_byte(byte: u8) -> Self {
         Self(((byte as u16) << 8) | 128)
     }
 
-    /// The byte for so many zeros among so many bits; near even for few.
+    /// Returns the byte for the observed numbers of zeros and ones; near 1/2 for few bits.
     pub fn byte_for(zeros: u64, ones: u64) -> u8 {
         ((zeros as f64 + 0.4) / (zeros as f64 + ones as f64 + 0.8) * 256.0) as u8
     }
@@ -31,10 +31,10 @@ impl Chance {
     }
 }
 
-/// Below this the range is widened by a byte.
+/// Minimum range; a smaller one is widened by a byte.
 const LEAST_RANGE: u32 = 1 << 24;
 
-/// Writes.
+/// Encoder of bits.
 #[derive(Debug)]
 pub struct Encoder {
     low: u64,
@@ -45,14 +45,14 @@ pub struct Encoder {
 }
 
 impl Default for Encoder {
-    /// Nothing written yet.
+    /// Creates an encoder that has written nothing yet.
     fn default() -> Self {
         Self { low: 0, range: u32::MAX, cache: 0, pending: 0, out: Vec::new() }
     }
 }
 
 impl Encoder {
-    /// A bit with a chance.
+    /// Writes a bit with its chance.
     pub fn bit(&mut self, chance: &mut Chance, bit: bool) {
         let bound = (self.range >> 16) * u32::from(chance.0);
         if bit {
@@ -65,7 +65,7 @@ impl Encoder {
         self.widen();
     }
 
-    /// A bit that is as often 0 as 1.
+    /// Writes a bit that is as often 0 as 1.
     pub fn even_bit(&mut self, bit: bool) {
         self.range >>= 1;
         if bit {
@@ -97,7 +97,7 @@ impl Encoder {
         self.low = (self.low & 0x00FF_FFFF) << 8;
     }
 
-    /// The bytes; zeros at the end are left out, as [`Decoder`] reads zeros there.
+    /// Returns the bytes; zeros at the end are left out, as [`Decoder`] reads zeros there.
     pub fn finish(mut self) -> Vec<u8> {
         // The roundest number within the range.
         let top = self.low + u64::from(self.range) - 1;
@@ -119,7 +119,7 @@ impl Encoder {
     }
 }
 
-/// Reads what [`Encoder`] wrote; other bytes give other bits, and never an end.
+/// Decoder of the bytes that [`Encoder`] wrote; other bytes give other bits, and never an end.
 #[derive(Debug)]
 pub struct Decoder<'a> {
     bytes: &'a [u8],
@@ -128,7 +128,7 @@ pub struct Decoder<'a> {
 }
 
 impl<'a> Decoder<'a> {
-    /// From the beginning.
+    /// Creates a decoder at the beginning of the bytes.
     pub fn new(bytes: &'a [u8]) -> Self {
         let mut decoder = Self { bytes, range: u32::MAX, code: 0 };
         for _ in 0..4 {
@@ -148,7 +148,7 @@ impl<'a> Decoder<'a> {
         self.code = self.code << 8 | u32::from(byte);
     }
 
-    /// A bit with a chance.
+    /// Reads a bit with its chance.
     pub fn bit(&mut self, chance: &mut Chance) -> bool {
         let bound = (self.range >> 16) * u32::from(chance.0);
         let bit = self.code >= bound;
@@ -163,7 +163,7 @@ impl<'a> Decoder<'a> {
         bit
     }
 
-    /// A bit that is as often 0 as 1.
+    /// Reads a bit that is as often 0 as 1.
     pub fn even_bit(&mut self) -> bool {
         self.range >>= 1;
         let bit = self.code >= self.range;

@@ -1,4 +1,4 @@
-//! Reading the compact binary form: every count is checked against what is there before memory is asked for.
+//! Reading of the compact binary form: every count is checked against the available bytes before memory is allocated.
 
 use super::{BlobError, FIRST, MAGIC, VERSION, join_planes};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
@@ -15,19 +15,22 @@ use std::collections::HashSet;
 use std::io::Read;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Most values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences over 2°.
+/// Maximum number of values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences
+/// over 2°.
 const MOST_VALUES: usize = limits::VALUES;
-/// Most incident directions of one list: they are compared with one another.
+/// Maximum number of incident directions of one list; they are compared pair by pair.
 const MOST_DIRECTIONS: usize = limits::INCIDENCES;
-/// Most cells of one basis.
+/// Maximum number of cells of one basis.
 const MOST_CELLS: usize = limits::CELLS;
 
-/// The dataset that bytes hold. Hostile bytes give an error, never a panic nor memory beyond the limits above.
+/// Returns the dataset in the bytes. Hostile bytes give an error, never a panic nor memory beyond the limits of this
+/// module.
 pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     decode_within(bytes, &mut { limits::DECODED_BYTES })
 }
 
-/// The same for one of several, which share what is `left` of a budget \[bytes\]: it is asked before memory is.
+/// Returns one of several datasets that share a budget of memory: `left` is what remains of it \[bytes\], checked
+/// before memory is allocated.
 pub fn decode_within(bytes: &[u8], left: &mut u64) -> Result<Dataset, BlobError> {
     if !bytes.starts_with(MAGIC) {
         return Err(BlobError::Magic);
@@ -75,12 +78,12 @@ pub fn decode_within(bytes: &[u8], left: &mut u64) -> Result<Dataset, BlobError>
 struct Reader<'a, 'b> {
     bytes: &'a [u8],
     at: usize,
-    /// Bytes that values may still take.
+    /// Number of bytes that values may still take.
     left: &'b mut u64,
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Takes the memory of so many values from the budget.
+    /// Subtracts the memory of `values` numbers from the budget.
     fn spend(&mut self, values: usize) -> Result<(), BlobError> {
         match self.left.checked_sub((values * size_of::<f64>()) as u64) {
             Some(left) => {
@@ -124,7 +127,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// A count of items of which each takes at least `least` bytes.
+    /// Reads a count of items of which each takes at least `least` bytes.
     fn count(&mut self, least: usize) -> Result<usize, BlobError> {
         let count = u32::from_le_bytes(self.array()?) as usize;
         if count.saturating_mul(least) > self.bytes.len() - self.at {
@@ -249,7 +252,7 @@ impl<'a> Reader<'a, '_> {
         CellMatrix::from_compact(incident, rows).map_or_else(|| self.invalid("rows do not fit the cells"), Ok)
     }
 
-    /// `count` rows in compact form.
+    /// Reads `count` rows in compact form.
     fn compact(&mut self, count: usize, emergent: RingBasis) -> Result<Arc<CompactRows>, BlobError> {
         if count.saturating_mul(emergent.len()) > MOST_VALUES {
             return self.invalid(format!("{count} compact rows of {} cells (at most {MOST_VALUES})", emergent.len()));
@@ -288,7 +291,7 @@ impl<'a> Reader<'a, '_> {
         data.map_or_else(|| self.invalid("values do not fit the directions, or two directions coincide"), Ok)
     }
 
-    /// `rows` × `columns` packed values.
+    /// Reads `rows` × `columns` packed values.
     fn values(&mut self, rows: usize, columns: usize) -> Result<Vec<f32>, BlobError> {
         let count = self.count(0)?;
         if count > MOST_VALUES || count != rows.saturating_mul(columns) {
@@ -301,7 +304,7 @@ impl<'a> Reader<'a, '_> {
         self.possible(values)
     }
 
-    /// The values if no function's are beyond all measure, or no numbers.
+    /// Returns the values unless one is not a number or too large for any function.
     fn possible<T: Copy + Into<f64>>(&self, values: Vec<T>) -> Result<Vec<T>, BlobError> {
         let mut all = values.iter().map(|value| (*value).into());
         match all.find(|value: &f64| value.is_nan() || value.abs() > limits::COEFFICIENT) {
@@ -370,7 +373,8 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Finding codes live as long as the program. Those read from outside are kept once each, and only so many of them.
+/// Returns a finding code that lives as long as the program. Those read from outside are kept once each, up to a
+/// limited number.
 fn code(text: &str) -> &'static str {
     const OTHER: &str = "other";
     static CODES: OnceLock<Mutex<HashSet<&'static str>>> = OnceLock::new();

@@ -1,22 +1,22 @@
-//! Ranges that values of system files may have; every wrong value is told by its key and by what would be right.
+//! Checks of the values in system files; an error names the key and the allowed range.
 
 use super::keys::Pair;
 use crate::compute::limits;
 use crate::formats::location::{FormatError, Location};
 
-/// Most points of an outline.
+/// Maximum number of points of an outline.
 const MOST_POINTS: usize = limits::OUTLINE_POINTS;
 
 pub(super) fn wrong<T>(key: &str, found: impl Into<String>, expected: impl Into<String>) -> Result<T, FormatError> {
     Err(FormatError::new(Location::file().in_element(key), found, expected))
 }
 
-/// The value if it lies in a range; the error names both.
+/// Returns the value if it lies in a range; the error names both.
 pub(super) fn within(key: &str, value: f64, (low, high): (f64, f64)) -> Result<f64, FormatError> {
     if (low..=high).contains(&value) { Ok(value) } else { wrong(key, format!("{value}"), format!("{low} to {high}")) }
 }
 
-/// A length above 0, at most a kilometre.
+/// Returns a length above 0, of at most a kilometre.
 pub(super) fn length(key: &str, value: f64) -> Result<f64, FormatError> {
     if value > 0.0 && value <= 1000.0 {
         Ok(value)
@@ -25,7 +25,7 @@ pub(super) fn length(key: &str, value: f64) -> Result<f64, FormatError> {
     }
 }
 
-/// A length of 0 or more.
+/// Returns a length of 0 or more.
 pub(super) fn extent(key: &str, value: f64) -> Result<f64, FormatError> {
     if value == 0.0 { Ok(0.0) } else { length(key, value) }
 }
@@ -42,7 +42,7 @@ pub(super) fn absorption(key: &str, value: f64) -> Result<f64, FormatError> {
     within(key, value, (0.0, 1e6))
 }
 
-/// Points in metres.
+/// Returns the points of an outline in metres.
 pub(super) fn outline(key: &str, points: &[Pair], fewest: usize) -> Result<Vec<[f64; 2]>, FormatError> {
     let points: Vec<[f64; 2]> = points.iter().map(|point| point.0).collect();
     if points.len() < fewest || points.len() > MOST_POINTS {

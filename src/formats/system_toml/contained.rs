@@ -1,7 +1,7 @@
-//! Descriptions that name no other files: the layers of a stack stand in its own text.
+//! Self-contained descriptions, which name no other files: the layers of a stack are in its own text.
 //!
-//! `layers = [{ system = { name = "…", kind = "venetian", venetian = { … } }, state = "45" }, …]`. Such a text means the
-//! same wherever it goes, so that it can go with data; [`self_contained`] makes it from one that names files.
+//! `layers = [{ system = { name = "…", kind = "venetian", venetian = { … } }, state = "45" }, …]`. Such a text has the
+//! same meaning wherever it is, so that it can accompany data; [`self_contained`] makes it from one that names files.
 
 use super::layers::EACH_STATE;
 use super::read;
@@ -10,8 +10,8 @@ use crate::compute::system::SystemKind;
 use crate::compute::system::stack::LayerSource;
 use toml::{Table, Value};
 
-/// A description with all its layers in it. `find` gives the text of a layer that is named, self-contained itself;
-/// `None` where it is measured data or is not found. What needs no other file comes back as it was written.
+/// Returns a description with all its layers in it. `find` returns the self-contained text of a named layer, or `None`
+/// where it is measured data or is not found. A text that needs no other file is returned unchanged.
 pub fn self_contained(text: &str, find: &mut dyn FnMut(&LayerSource) -> Option<String>) -> Option<String> {
     let SystemKind::Stack(layers) = read(text.as_bytes()).ok()?.system.kind else { return Some(text.to_owned()) };
     if states(text).is_some() {
@@ -25,7 +25,7 @@ pub fn self_contained(text: &str, find: &mut dyn FnMut(&LayerSource) -> Option<S
             named => find(named)?,
         };
         let mut system: Table = toml::from_str(&own).ok()?;
-        // What the catalogue wants to know is asked of the stack.
+        // The catalogue keys of the stack count, not those of its layers.
         system.remove("catalogue");
         let mut entry_of = Table::from_iter([("system".to_owned(), Value::Table(system))]);
         if !layer.state.is_empty() {
@@ -37,7 +37,8 @@ pub fn self_contained(text: &str, find: &mut dyn FnMut(&LayerSource) -> Option<S
     states(&made).is_some().then_some(made)
 }
 
-/// Keys of the states of a self-contained description; `None` for one that names other files or cannot be read.
+/// Returns the keys of the states of a self-contained description; `None` for one that names other files or cannot be
+/// read.
 pub fn states(text: &str) -> Option<Vec<String>> {
     let system = read(text.as_bytes()).ok()?.system;
     let SystemKind::Stack(layers) = &system.kind else { return Some(system.states()) };
@@ -54,7 +55,8 @@ pub fn states(text: &str) -> Option<Vec<String>> {
     Some(moving.unwrap_or_else(|| vec![String::new()]))
 }
 
-/// A description as it goes with the data of one of its states; `None` unless it is self-contained and has the state.
+/// Returns the description that accompanies the data of one of its states; `None` unless it is self-contained and has
+/// the state.
 pub fn described(text: &str, state: &str) -> Option<DescribedState> {
     states(text)?
         .iter()

@@ -1,4 +1,4 @@
-//! The keys of a system file as typed, with their defaults. Angles in degrees, lengths in metres. `solar` is judged by
+//! Keys of a system file as typed, with their defaults. Angles in degrees, lengths in metres. `solar` is checked by
 //! [`super::solar`], which makes other keys of it.
 
 use serde::Deserialize;
@@ -20,7 +20,7 @@ pub(super) struct Venetian {
     pub lower: Face,
 }
 
-/// Listed, or from … to in steps.
+/// Angles as a list, or from … to in steps.
 #[derive(Debug, Deserialize)]
 #[serde(untagged, expecting = "a list of degrees, or { from, to, step }")]
 pub(super) enum Angles {
@@ -118,7 +118,7 @@ pub(super) struct Pane {
     _solar: Option<Table>,
 }
 
-/// Two numbers, no more: an array would leave further ones unread.
+/// Pair of numbers, and no more: an array would leave further ones unread.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(try_from = "Vec<f64>")]
 pub(super) struct Pair(pub [f64; 2]);
@@ -209,13 +209,13 @@ pub(super) struct Stack {
 pub(super) struct Layer {
     pub file: Option<String>,
     pub catalogue: Option<String>,
-    /// The layer's own description, with the keys of a system file.
+    /// Description of the layer itself, with the keys of a system file.
     pub system: Option<Table>,
     #[serde(default)]
     pub state: String,
 }
 
-/// What only the catalogue wants to know.
+/// Keys that only the catalogue uses.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(super) struct Catalogue {

@@ -1,4 +1,4 @@
-//! The layers of a stack: named by file or by key, or described where they stand.
+//! Layers of a stack: named by file or by key, or described in the stack itself.
 
 use super::checks::wrong;
 use super::keys;
@@ -6,12 +6,12 @@ use crate::compute::system::stack::{Layer, LayerSource};
 use crate::formats::location::{FormatError, Location};
 use toml::{Table, Value};
 
-/// Word of a layer's state that stands for all states of the layer.
+/// Value of a layer's state that stands for all states of the layer.
 pub const EACH_STATE: &str = "each";
-/// Stacks within stacks, at most.
+/// Maximum depth of stacks within stacks.
 pub const MOST_NESTED: usize = 4;
 
-/// The layers of a stack as they are named.
+/// Returns the layers of a stack as they are named.
 pub(super) fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
     if !(1..=10).contains(&stack.layers.len()) {
         return wrong("stack.layers", format!("{} layers", stack.layers.len()), "1 to 10, outside first");
@@ -32,7 +32,7 @@ pub(super) fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
     stack.layers.iter().enumerate().map(layer).collect()
 }
 
-/// The text of a layer's own description.
+/// Returns the text of a layer's own description.
 fn own_text(key: &str, system: &Table) -> Result<String, FormatError> {
     if nested(system) >= MOST_NESTED {
         return wrong(key, "stacks within stacks within stacks", format!("at most {MOST_NESTED} of them"));
@@ -46,7 +46,7 @@ fn layers_of(system: &Table) -> Option<&Vec<Value>> {
     system.get("stack")?.get("layers")?.as_array()
 }
 
-/// How many stacks stand one in the other.
+/// Returns the depth of stacks within the stack.
 fn nested(system: &Table) -> usize {
     let Some(layers) = layers_of(system) else { return 0 };
     let inner = layers.iter().filter_map(|layer| layer.get("system")?.as_table());

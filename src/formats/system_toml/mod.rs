@@ -1,7 +1,7 @@
-//! System files (`.system.toml`): geometry and material of a system, for the numerical goniophotometer.
+//! System files (`.system.toml`): geometry and material of a system, for the virtual goniophotometer.
 //!
-//! Keys, defaults and ranges; every wrong value is told by its key and by what would be right. Materials may have solar
-//! properties beside those of light (`solar`).
+//! Keys, defaults and ranges; an error names the key and what was expected. Materials may have solar properties beside
+//! the visible ones (`solar`).
 
 mod checks;
 mod contained;
@@ -29,30 +29,31 @@ use serde::Deserialize;
 use sheets::{diffuser, perforated, woven};
 use transparent::{laser_cut, pane, prismatic, redirecting};
 
-/// Most bytes of a system file.
+/// Maximum size of a system file. \[bytes\]
 const MOST_BYTES: usize = limits::SYSTEM_BYTES;
-/// Most states of a family.
+/// Maximum number of states of a family.
 const MOST_STATES: usize = limits::SYSTEM_STATES;
 
-/// A system file: the system, and what it tells the catalogue.
+/// System file: the system with its product data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SystemFile {
-    /// The system.
+    /// Described system.
     pub system: SystemDescription,
     /// Key for the catalogue; empty: made from the name.
     pub key: String,
-    /// Words to find it by.
+    /// Tags to find the product by.
     pub tags: Vec<String>,
-    /// Word of the rule that makes its control curve; empty: none.
+    /// Key of the rule that makes its control curve; empty: none.
     pub control: String,
-    /// The system by its solar properties; `None` where it has none, and for a stack, whose layers have their own.
+    /// System with its solar properties; `None` where it has none, and for a stack, whose layers have their own.
     pub solar: Option<SystemKind>,
-    /// How many of its materials have solar properties, and how many there are; those of a stack are its layers'.
+    /// Number of its materials with solar properties, and number of all its materials. Those of a stack are in its
+    /// layers.
     pub materials: [usize; 2],
 }
 
 impl SystemFile {
-    /// The system in a spectral band; by light where the file has no solar properties.
+    /// Returns the system in a spectral band; with visible properties where the file has no solar ones.
     pub fn in_band(&self, band: BandName) -> SystemDescription {
         match (band, &self.solar) {
             (BandName::Solar, Some(kind)) => SystemDescription { kind: kind.clone(), ..self.system.clone() },
@@ -61,15 +62,15 @@ impl SystemFile {
     }
 }
 
-/// Does the name say that a file is a system file?
+/// Whether the name is that of a system file.
 pub fn is_system_file(name: &str) -> bool {
     name.to_ascii_lowercase().ends_with(".system.toml")
 }
 
-/// Reads a system file.
+/// Reads a system file from its bytes.
 ///
 /// # Errors
-/// Bytes that are no TOML, keys that are missing, unknown or out of range.
+/// Returns an error if the bytes are not TOML, or if keys are missing, unknown or out of range.
 pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     if bytes.len() > MOST_BYTES {
         return Err(FormatError::new(Location::file(), format!("{} bytes", bytes.len()), "at most 1 MB of TOML"));
@@ -105,7 +106,8 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     })
 }
 
-/// The system by its solar properties, and how many of its materials have some.
+/// Returns the system with its solar properties, and the numbers of materials with such properties and of all
+/// materials.
 fn solar_kind(text: &str, word: &str) -> Result<(Option<SystemKind>, [usize; 2]), FormatError> {
     let (table, materials) = solar::keys(text, word)?;
     let Some(table) = table else { return Ok((None, materials)) };
@@ -117,7 +119,7 @@ fn solar_kind(text: &str, word: &str) -> Result<(Option<SystemKind>, [usize; 2])
     Ok((Some(kind), materials))
 }
 
-/// Reads what describes a layer itself, to tell what is wrong with it.
+/// Returns an error if the description in a layer is not valid.
 fn layer_is_right(k: usize, layer: &Layer) -> Result<(), FormatError> {
     let LayerSource::Text(text) = &layer.source else { return Ok(()) };
     read(text.as_bytes()).map(drop).map_err(|error| {
@@ -128,8 +130,8 @@ fn layer_is_right(k: usize, layer: &Layer) -> Result<(), FormatError> {
     })
 }
 
-/// The keys of a file, and from its table to what it describes. A line a family: its kind, the word of its kind and
-/// table, the table's keys, and who reads them.
+/// Keys of a file, and the functions that read them. One line per family: its kind, the key of its kind and table, the
+/// table's keys, and the function that reads them.
 macro_rules! families {
     ($($kind:ident $word:literal $table:ident: $keys:ty, $read:path;)*) => {
         #[derive(Debug, Deserialize)]
@@ -151,7 +153,7 @@ macro_rules! families {
             $(#[serde(rename = $word)] $kind,)*
         }
 
-        /// Word and reading of a file's kind.
+        /// Returns the key and the system of a file's kind.
         fn kind(keys: &Keys) -> Result<(&'static str, SystemKind), FormatError> {
             let word = match keys.kind { $(Kind::$kind => $word,)* };
             let there = [$(($word, keys.$table.is_some()),)*];

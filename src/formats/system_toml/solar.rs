@@ -1,8 +1,9 @@
-//! Solar properties beside those of light.
+//! Solar properties of materials, beside the visible ones.
 //!
-//! Whatever table holds properties of a material may hold a table `solar` with those of them that are others for the whole of
-//! the sun's radiation: `upper = { reflectance = 0.45, solar = { reflectance = 0.6 } }`, `[pane.solar]`. Keys that it leaves
-//! out are those of light, so that an empty one says that all of them hold for both. Geometry is the same in both bands.
+//! A table with properties of a material may contain a table `solar` with those that differ for the whole solar
+//! spectrum: `upper = { reflectance = 0.45, solar = { reflectance = 0.6 } }`, `[pane.solar]`. Keys that it omits are
+//! those of visible light, so that an empty one says that all of them hold for both. Geometry is the same in both
+//! bands.
 
 use super::checks::wrong;
 use crate::formats::location::{FormatError, Location};
@@ -11,10 +12,10 @@ use toml::{Table, Value};
 /// Name of the table.
 const NAME: &str = "solar";
 
-/// A table with properties of a material: its name within that of the family, empty for that itself, and the properties.
+/// Table with properties of a material: its name within the family's table, empty for that itself, and the properties.
 type Material = (&'static str, &'static [&'static str]);
 
-/// The materials of a family, by its word; none of a stack, whose layers have their own.
+/// Returns the materials of a family, by its key; none of a stack, whose layers have their own.
 fn materials(word: &str) -> &'static [Material] {
     const FACE: &[&str] = &["reflectance", "specular", "roughness"];
     const CLEAR: &[&str] = &["index", "absorption"];
@@ -33,16 +34,16 @@ fn materials(word: &str) -> &'static [Material] {
     }
 }
 
-/// Properties that stand instead of others: a pane is known by its absorption or by its data sheet.
+/// Properties that replace others: a pane is known by its absorption or by its data sheet.
 const INSTEAD: [(&str, &[&str]); 2] = [
     ("absorption", &["transmittance_normal", "reflectance_normal", "reflectance_normal_back"]),
     ("transmittance_normal", &["absorption"]),
 ];
 
-/// The keys of a file with its solar properties in their place, `None` where it has none; and how many of its materials have
-/// some, of how many. `family`: the word of its kind.
+/// Returns the keys of a file with its solar properties in place of the visible ones, `None` where it has none; also
+/// the number of materials with solar properties and of all materials. `family`: the key of its kind.
 pub(super) fn keys(text: &str, family: &str) -> Result<(Option<Table>, [usize; 2]), FormatError> {
-    // What is no TOML was told before.
+    // A text that is not TOML was refused before.
     let mut file: Table = toml::from_str(text).unwrap_or_default();
     let (mut given, mut all) = (0, 0);
     for (name, properties) in materials(family) {
@@ -59,7 +60,7 @@ pub(super) fn keys(text: &str, family: &str) -> Result<(Option<Table>, [usize; 2
     Ok(((given > 0).then_some(file), [given, all]))
 }
 
-/// Puts solar properties in the place of those of light.
+/// Replaces visible properties by solar ones.
 fn put(table: &mut Table, solar: Value, place: &str, properties: &[&str]) -> Result<(), FormatError> {
     let Value::Table(solar) = solar else {
         return wrong(&format!("{place}.{NAME}"), solar.type_str(), "a table, as solar = { reflectance = 0.6 }");
@@ -85,7 +86,7 @@ fn put(table: &mut Table, solar: Value, place: &str, properties: &[&str]) -> Res
     Ok(())
 }
 
-/// The place of a value that is wrong among the solar ones.
+/// Returns an error with its place marked as solar.
 pub(super) fn told(error: FormatError) -> FormatError {
     let element = error.at.element.map_or_else(|| NAME.to_owned(), |inner| format!("{inner} (solar)"));
     FormatError::new(Location::file().in_element(element), error.found, error.expected)

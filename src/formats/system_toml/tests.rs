@@ -1,4 +1,4 @@
-//! What system files say, and what is wrong with wrong ones.
+//! Tests of reading system files, and of the errors for wrong ones.
 
 use super::*;
 use crate::compute::system::panes::coated::{self, CoatedPane};

@@ -1,8 +1,9 @@
 //! EPW, the weather files of EnergyPlus ("Auxiliary Programs: EPW data dictionary").
 //!
-//! Read: eight lines of header in any of their spellings, then rows of 35 fields of which the first 16 must be there.
-//! Hours count from 1 to 24 and end there, or from 0 to 23; of one record an hour the minute (0 or 60) says nothing. Rows are
-//! believed and the header's flags not: leap years, periods, gaps, records per hour. Missing codes are no values.
+//! Read: eight lines of header in any of their spellings, then rows of 35 fields of which the first 16 are required.
+//! Hours count from 1 to 24 and mark the end, or from 0 to 23; with one record per hour the minute (0 or 60) says
+//! nothing. Rows count, not the header's flags: leap years, periods, gaps, records per hour. Missing codes are read as
+//! missing values.
 
 use super::fields::{Changed, Field, check_count, day, diffuse, direct, global, lines, place, weekday};
 use super::labels::{Label, Stated, place_intervals};
@@ -12,7 +13,7 @@ use crate::compute::weather::{Quantity, Record, Station, Weather};
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-/// Names of the fields that are read, with their numbers from 1.
+/// Fields that are read: numbers from 1, and names.
 const NAMES: [(usize, &str); 11] = [
     (1, "field 1 (year)"),
     (2, "field 2 (month)"),
@@ -28,9 +29,9 @@ const NAMES: [(usize, &str); 11] = [
 ];
 const DIRECT: &str = "field 15 (direct normal irradiance)";
 const DIFFUSE: &str = "field 16 (diffuse horizontal irradiance)";
-/// Fields without which a row is none.
+/// Minimum number of fields of a row.
 const LEAST_FIELDS: usize = 16;
-/// Lines of header that are looked through for DATA PERIODS.
+/// Maximum number of header lines that are searched for DATA PERIODS.
 const LONGEST_HEADER: usize = 200;
 
 /// Reads an EPW file.
@@ -78,12 +79,12 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
     Ok(weather)
 }
 
-/// What the lines before the first row state.
+/// Header: what the lines before the first row state.
 struct Header {
     station: Station,
-    /// Length of the intervals by the line DATA PERIODS.
+    /// Length of the intervals according to the line DATA PERIODS.
     stated: Stated,
-    /// Of the first row, 0 (Monday) … 6 (Sunday).
+    /// Weekday of the first row, 0 (Monday) … 6 (Sunday).
     first_weekday: Option<u8>,
 }
 
@@ -116,7 +117,7 @@ fn header<'a>(
     Err(FormatError::new(Location::file(), "no DATA PERIODS line", "eight lines of header before the first row"))
 }
 
-/// Fields of a header's line with their places.
+/// Returns the fields of a header's line with their places.
 fn header_fields<'a>(text: &'a str, line: usize, name: &'static str) -> Vec<Field<'a>> {
     let mut column = 1;
     let mut fields = Vec::new();
@@ -127,7 +128,7 @@ fn header_fields<'a>(text: &'a str, line: usize, name: &'static str) -> Vec<Fiel
     fields
 }
 
-/// `LOCATION,city,state,country,source,WMO,latitude,longitude,time zone,elevation`
+/// Reads `LOCATION,city,state,country,source,WMO,latitude,longitude,time zone,elevation`.
 fn location(text: &str) -> Result<Station, FormatError> {
     let fields = header_fields(text, 1, "LOCATION");
     if fields.len() < 10 {
@@ -161,7 +162,8 @@ fn location(text: &str) -> Result<Station, FormatError> {
     Ok(station)
 }
 
-/// `HOLIDAYS/DAYLIGHT SAVINGS,leap year observed,start,end,holidays`: hours of the rows are standard time all the same.
+/// Adds a finding on `HOLIDAYS/DAYLIGHT SAVINGS,leap year observed,start,end,holidays`: the hours of the rows are
+/// standard time nevertheless.
 fn say_summer_time(text: &str, findings: &mut Vec<Finding>) {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let dates = fields.get(2..4).unwrap_or_default();
@@ -174,7 +176,7 @@ fn say_summer_time(text: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// `DATA PERIODS,number,records per hour,name,first weekday,…`
+/// Reads `DATA PERIODS,number,records per hour,name,first weekday,…`. Returns the length of the intervals. \[min\]
 fn interval(fields: &[Field<'_>], line: usize) -> Result<u16, FormatError> {
     let Some(field) = fields.get(2) else {
         let expected = "DATA PERIODS, number of periods, records per hour, …";
@@ -184,7 +186,7 @@ fn interval(fields: &[Field<'_>], line: usize) -> Result<u16, FormatError> {
     if 60 % records != 0 { Err(field.wrong("a number that divides 60")) } else { Ok(60 / records as u16) }
 }
 
-/// Returns a record whose begin is not known yet, and the label that tells it.
+/// Returns a record whose begin is not known yet, and the label that determines it.
 fn row(text: &str, line: usize, changed: &mut Changed) -> Result<(Record, Label), FormatError> {
     let mut fields = [Field { text: "", line, column: 0, name: "" }; NAMES.len()];
     let (mut count, mut column, mut next) = (0, 1, 0);
@@ -228,14 +230,15 @@ fn row(text: &str, line: usize, changed: &mut Changed) -> Result<(Record, Label)
     Ok((record, label))
 }
 
-/// Missing: 9999, in older files 99990 and more.
+/// Returns an irradiance; `None` for the missing codes 9999, in older files 99990 and more. \[W/m²\]
 fn irradiance(field: &Field<'_>) -> Result<Option<f64>, FormatError> {
     let value = field.number()?;
     // Beyond five digits it is a slip, to be refused by its range.
     Ok((value < 9999.0 || (10_000.0..99_990.0).contains(&value) || value >= 1e5).then_some(value))
 }
 
-/// Missing: 999999, in older files 999900; or no such field.
+/// Returns an illuminance; `None` for the missing codes 999999, in older files 999900, or if there is no such field.
+/// \[lx\]
 fn illuminance(field: &Field<'_>) -> Result<Option<f64>, FormatError> {
     if field.name.is_empty() || field.text.trim().is_empty() {
         return Ok(None);

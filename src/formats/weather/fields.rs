@@ -1,4 +1,4 @@
-//! Lines of numbers: fields with their place, and the limits that all weather formats share.
+//! Fields of lines of numbers with their places, and the limits that all weather formats share.
 
 use crate::compute::limits;
 use crate::compute::sky::perez::SOLAR_CONSTANT;
@@ -6,7 +6,7 @@ use crate::compute::weather::{Day, Record, Station};
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-/// The lines of a text with their numbers from 1.
+/// Returns the lines of a text with their numbers from 1.
 pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.split('\n').enumerate().map(|(k, line)| (k + 1, line.strip_suffix('\r').unwrap_or(line)))
 }
@@ -14,39 +14,39 @@ pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
 /// Days of the week as files name them, Monday first.
 pub const WEEKDAYS: [&str; 7] = ["Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"];
 
-/// Place of a name in [`WEEKDAYS`].
+/// Returns the index of a name in [`WEEKDAYS`].
 pub fn weekday(text: &str) -> Option<u8> {
     let named = |name: &&str| text.trim().eq_ignore_ascii_case(name);
     WEEKDAYS.iter().position(named).map(|place| place as u8)
 }
 
-/// A field in its line.
+/// Field of a line.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {
-    /// The text.
+    /// Text of the field.
     pub text: &'a str,
-    /// Number of its line.
+    /// Number of the field's line, from 1.
     pub line: usize,
-    /// Its column in the line, from 1.
+    /// Column of the field in the line, from 1.
     pub column: usize,
-    /// What it is, for messages.
+    /// Name of the field, for messages.
     pub name: &'static str,
 }
 
 impl Field<'_> {
-    /// An error at this place.
+    /// Returns an error at the place of the field.
     pub fn wrong(&self, expected: impl Into<String>) -> FormatError {
         let at = Location::line_column(self.line, self.column).in_element(self.name);
         FormatError::new(at, format!("\"{}\"", excerpt(self.text)), expected)
     }
 
-    /// A finite number.
+    /// Returns the field as a finite number.
     pub fn number(&self) -> Result<f64, FormatError> {
         let value = self.text.trim().parse::<f64>().ok().filter(|value| value.is_finite());
         value.ok_or_else(|| self.wrong("a number"))
     }
 
-    /// A finite number between limits.
+    /// Returns the field as a finite number between limits.
     pub fn within(&self, min: f64, max: f64, unit: &str) -> Result<f64, FormatError> {
         let value = self.number()?;
         if (min..=max).contains(&value) {
@@ -56,7 +56,7 @@ impl Field<'_> {
         }
     }
 
-    /// A whole number between limits.
+    /// Returns the field as a whole number between limits.
     pub fn integer(&self, min: i32, max: i32) -> Result<i32, FormatError> {
         // 1.0 is written by programs that know no integers.
         let value = self.number()?;
@@ -68,7 +68,7 @@ impl Field<'_> {
     }
 }
 
-/// Latitude, longitude (east positive), hours ahead of UTC and elevation within what there is.
+/// Sets latitude, longitude (east positive), UTC offset and elevation of a station, checked against their ranges.
 pub fn place(station: &mut Station, fields: [Field<'_>; 4], longitude_sign: f64, zone: f64) -> Result<(), FormatError> {
     let [latitude, longitude, time_zone, elevation] = fields;
     station.latitude = latitude.within(-90.0, 90.0, "° (north positive)")?;
@@ -81,7 +81,7 @@ pub fn place(station: &mut Station, fields: [Field<'_>; 4], longitude_sign: f64,
     Ok(())
 }
 
-/// A day that some year has; years that cannot be are 2001, or 2004 for a leap day.
+/// Returns a day of the calendar; years outside 1900 to 2100 become 2001, or 2004 for a leap day.
 pub fn day(year: i32, month: &Field<'_>, day: &Field<'_>) -> Result<Day, FormatError> {
     let (m, d) = (month.integer(1, 12)?, day.integer(1, 31)?);
     let year = if (1900..=2100).contains(&year) {
@@ -94,21 +94,21 @@ pub fn day(year: i32, month: &Field<'_>, day: &Field<'_>) -> Result<Day, FormatE
     Day::new(year as i16, m as u8, d as u8).ok_or_else(|| day.wrong(format!("a day that month {m} has")))
 }
 
-/// Least irradiance that is taken for 0. \[W/m²\]
+/// Lowest irradiance below 0 that is accepted; it is read as 0. \[W/m²\]
 const LEAST: f64 = -1.0;
-/// Most diffuse irradiance that any sky sends. \[W/m²\]
+/// Maximum diffuse irradiance of any sky. \[W/m²\]
 const MOST_DIFFUSE: f64 = 1000.0;
 
-/// Counts of what was changed while reading.
+/// Counts of values that were changed while reading.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Changed {
-    /// Irradiances a little below 0 that became 0.
+    /// Number of irradiances a little below 0 that became 0.
     pub negative: usize,
-    /// Years that cannot be.
+    /// Number of impossible years.
     pub years: usize,
 }
 
-/// An irradiance that some sun or sky sends: from a little below 0, which becomes 0.
+/// Returns an irradiance within the range of sun or sky; values slightly below 0 become 0. \[W/m²\]
 fn limited(value: f64, field: &Field<'_>, most: f64, changed: &mut Changed) -> Result<f64, FormatError> {
     if !(LEAST..=most).contains(&value) {
         return Err(field.wrong(format!("0 to {most:.0} W/m²")));
@@ -118,22 +118,22 @@ fn limited(value: f64, field: &Field<'_>, most: f64, changed: &mut Changed) -> R
     Ok(value.max(0.0) + 0.0)
 }
 
-/// Direct irradiance: at most a tenth more than the sun of that day sends.
+/// Returns the direct irradiance: at most a tenth more than the extraterrestrial irradiance of that day. \[W/m²\]
 pub fn direct(value: f64, field: &Field<'_>, day: Day, changed: &mut Changed) -> Result<f64, FormatError> {
     limited(value, field, 1.1 * SOLAR_CONSTANT * day.eccentricity(), changed)
 }
 
-/// Diffuse irradiance.
+/// Returns the diffuse irradiance. \[W/m²\]
 pub fn diffuse(value: f64, field: &Field<'_>, changed: &mut Changed) -> Result<f64, FormatError> {
     limited(value, field, MOST_DIFFUSE, changed)
 }
 
-/// Global irradiance: bright clouds around the sun may send more than the sun alone.
+/// Returns the global irradiance: bright clouds around the sun may send more than the sun alone. \[W/m²\]
 pub fn global(value: f64, field: &Field<'_>, changed: &mut Changed) -> Result<f64, FormatError> {
     limited(value, field, 2000.0, changed)
 }
 
-/// Not more of them than anybody has, and one at least.
+/// Returns an error if there are no records or more than the limit.
 pub fn check_count(records: &[Record], at: Location) -> Result<(), FormatError> {
     if records.is_empty() {
         return Err(FormatError::new(at, "no rows of data", "a row for every interval"));

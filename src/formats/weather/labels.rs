@@ -1,9 +1,10 @@
-//! The intervals that the hours and minutes of EPW rows name.
+//! Intervals that the hours and minutes of EPW rows name.
 //!
-//! The dictionary has the minute at which the interval ends, and programs write the one at which it begins as well: 10 to 60
-//! or 0 to 50. The rows tell which, since they follow each other without gaps; where both do, the sun tells. The number of
-//! records per hour in the header is checked against the minutes. Hours count from 1 to 24; where they count from 0 to 23, the
-//! sun tells as well whether the intervals begin or end there.
+//! The EPW dictionary defines the minute as that at which the interval ends, and programs write the one at which it
+//! begins as well: 10 to 60 or 0 to 50. The rows decide which, since they follow each other without gaps; where both
+//! are possible, the sun's position decides. The number of records per hour in the header is checked against the
+//! minutes. Hours count from 1 to 24; where they count from 0 to 23, the sun's position also decides whether the
+//! intervals begin or end there.
 
 use crate::compute::btdf::Finding;
 use crate::compute::weather::{Record, Weather};
@@ -29,7 +30,7 @@ pub struct Stated {
     pub line: usize,
 }
 
-/// Difference in closure by which the sun tells begin from end. \[W/m²\]
+/// Difference in closure by which the sun distinguishes begin from end. \[W/m²\]
 const CLEARLY: f64 = 5.0;
 /// Name of the hour in messages.
 const HOUR: &str = "field 4 (hour)";
@@ -39,8 +40,8 @@ const MINUTE: &str = "field 5 (minute)";
 /// Sets the length of the intervals and where each begins.
 ///
 /// # Errors
-/// Returns an error if a minute is not that of an interval, if rows are apart by what does not divide an hour, or if an hour 0
-/// is not the first of a day.
+/// Returns an error if a minute is not that of an interval, if rows are apart by what does not divide an hour, or if an
+/// hour 0 is not the first of a day.
 pub fn place_intervals(weather: &mut Weather, labels: &mut [Label], stated: Stated) -> Result<(), FormatError> {
     let is_from_zero = count_from_one(&weather.records, labels)?;
     place_in_hours(weather, labels, stated)?;
@@ -79,7 +80,7 @@ fn count_from_one(records: &[Record], labels: &mut [Label]) -> Result<bool, Form
     Ok(true)
 }
 
-/// Moves all intervals. \[s\]
+/// Moves all intervals by `seconds`.
 fn shift(weather: &mut Weather, seconds: i32) {
     weather.records.iter_mut().for_each(|record| record.start += seconds);
 }
@@ -165,8 +166,8 @@ fn interval(weather: &Weather, labels: &[Label], stated: Stated) -> Result<u16, 
     Err(FormatError::new(Location::line(stated.line).in_element("DATA PERIODS, records per hour"), found, expected))
 }
 
-/// Returns how often two rows that follow each other within an hour are 1 … 60 min apart, by minutes; the hour ends with minute 60
-/// or 0.
+/// Returns how often two rows that follow each other within an hour are 1 … 60 min apart, by minutes; the hour ends
+/// with minute 60 or 0.
 fn distances(records: &[Record], labels: &[Label]) -> [usize; 61] {
     let mut counts = [0; 61];
     for (pair, records) in labels.windows(2).zip(records.windows(2)) {

@@ -17,23 +17,23 @@ use super::encoding::{Encoding, any_text, decode};
 use super::{FormatError, Location};
 use crate::compute::weather::Weather;
 
-/// Does a file's name say that it is one?
+/// Whether a file's name is that of a weather file.
 pub fn is_weather_file(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     [".epw", ".wea", table::EXTENSION].iter().any(|end| name.ends_with(end))
 }
 
-/// Returns the extension of the weather format that a text's first word tells.
+/// Returns the extension of the weather format that a text's first word identifies.
 pub fn extension_of(text: &str) -> Option<&'static str> {
     let words = [(table::MAGIC, table::EXTENSION), ("LOCATION", ".epw"), ("place", ".wea")];
     words.iter().find(|(word, _)| text.starts_with(word)).map(|(_, extension)| *extension)
 }
 
-/// Reads a weather file of any of the formats, recognised by its first word, then by its name; in UTF-8, UTF-16 or Windows-1252, with
-/// any line ends.
+/// Reads a weather file of any of the formats, recognised by its first word, then by its name; in UTF-8, UTF-16 or
+/// Windows-1252, with any line ends.
 ///
 /// # Errors
-/// Line and column, what is wrong there, what would be right.
+/// Returns an error with line and column, what was found and what was expected.
 pub fn read(name: &str, bytes: &[u8]) -> Result<Weather, FormatError> {
     // The mark of UTF-8 may stand before text of one byte a character.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

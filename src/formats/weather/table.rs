@@ -1,4 +1,4 @@
-//! `cfs-weather 1`, a year as a compact table of figures: what a computation of light needs, and nothing else.
+//! Compact tables of a year (`cfs-weather 1`): what a computation of light needs, and nothing else.
 //!
 //! ```text
 //! cfs-weather 1
@@ -26,9 +26,9 @@ use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// First words of such a table.
+/// First words of a table.
 pub const MAGIC: &str = "cfs-weather 1";
-/// End of its name.
+/// Ending of the file names of tables.
 pub const EXTENSION: &str = ".weather.txt";
 
 const KEYS: [&str; 11] = [
@@ -50,7 +50,7 @@ const DIFFUSE: &str = "value 3 (diffuse horizontal irradiance)";
 /// Reads a table.
 ///
 /// # Errors
-/// Line and column, what is wrong there, what would be right.
+/// Returns an error with line and column, what was found and what was expected.
 pub fn read(text: &str) -> Result<Weather, FormatError> {
     let mut rows = lines(text).map(|(number, line)| (number, line.trim()));
     // The magic word.
@@ -175,7 +175,8 @@ fn hour(fields: &[Field<'_>], day: &mut [Record], changed: &mut Changed) -> Resu
 /// Writes whole days of hours as a table.
 ///
 /// # Errors
-/// Other records than hours, whole days of them; irradiances that are missing where there is light; a day with a gap.
+/// Returns an error if the records are not hours or not whole days of them, if irradiances are missing where there is
+/// light, or if a day has a gap.
 pub fn write(weather: &Weather) -> Result<String, FormatError> {
     let refuse = |record: &Record, found: &str, expected: &str| {
         Err(FormatError::new(Location::line(record.line as usize), found, expected))

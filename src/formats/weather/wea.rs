@@ -1,8 +1,8 @@
 //! WEA, the weather files of Radiance's `gendaymtx`: six lines of header, then `month day hour value value`.
 //!
 //! Longitude and time zone count west positive, the zone in degrees (15 an hour). Hours are the instants at which
-//! `gendaymtx` puts the sun, from 0 to beyond 24 (24.25 is a quarter past midnight of the next day); each is the middle of
-//! an interval. There is no year (2001 is taken, so that a 29th of February lies in 2004), no dew point, no global
+//! `gendaymtx` puts the sun, from 0 to beyond 24 (24.25 is a quarter past midnight of the next day); each is the middle
+//! of an interval. There is no year (2001 is taken, so that a 29th of February lies in 2004), no dew point, no global
 //! irradiance. Any number of rows; intervals are as long as the least distance of two rows, an hour at most.
 
 use super::fields::{Changed, Field, check_count, day, diffuse, direct, lines, place};
@@ -12,7 +12,7 @@ use crate::compute::weather::{Quantity, Record, Station, Weather};
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-/// The header's words, in order.
+/// Words of the header, in order.
 const KEYS: [&str; 6] = ["place", "latitude", "longitude", "time_zone", "site_elevation", "weather_data_file_units"];
 const UNITS: [(Quantity, [&str; 2]); 3] = [
     (Quantity::NormalIrradiance, ["column 4 (direct normal irradiance)", "column 5 (diffuse horizontal irradiance)"]),
@@ -27,19 +27,19 @@ const UNITS: [(Quantity, [&str; 2]); 3] = [
 ];
 /// Name of the hour in messages.
 const HOUR: &str = "column 3 (hour)";
-/// More than any sun or sky sends. \[lx\]
+/// Maximum illuminance of any sun or sky. \[lx\]
 const MOST_LIGHT: f64 = 200_000.0;
 
-/// Hours from midnight that belong to a day: a day may be written half an hour late.
+/// Range of hours from midnight that belong to a day: a day may be written half an hour late. \[h\]
 const HOURS: std::ops::Range<f64> = 0.0..25.0;
 /// Number of rows among which one pair may have the same time and different light: a row that was written twice.
 const STRAY: usize = 1000;
-/// Days by which a date goes back where a year ends and the next one begins.
+/// Number of days by which a date must go back to begin the next year.
 const HALF_A_YEAR: i32 = 182;
 /// Length of a day. \[s\]
 const DAY: i64 = 86_400;
 
-/// A row before it is known how long the intervals are.
+/// Row of a file before the length of the intervals is known.
 struct Row {
     record: Record,
     /// Middle of the interval, from the midnight of the record's day. \[s\]
@@ -56,7 +56,8 @@ impl Row {
         (DAY * self.record.day.number()) as f64 + self.middle
     }
 
-    /// Returns the second that the hour means: of what rounds to its digits a half or whole interval, or a minute. \[s\]
+    /// Returns the second that the hour means: of what rounds to its digits a half or whole interval, or a minute.
+    /// \[s\]
     fn second(&self, interval: u16) -> i64 {
         let near = |unit: f64| unit * (self.middle / unit).round();
         let units = [30.0 * f64::from(interval), 60.0];
@@ -112,7 +113,7 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
     })
 }
 
-/// Station and index of the unit.
+/// Reads the header. Returns the station and the index of the unit.
 fn header<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<(Station, usize), FormatError> {
     let mut texts: Vec<(usize, String)> = Vec::with_capacity(KEYS.len());
     for key in KEYS {
@@ -187,7 +188,7 @@ fn row(
     Ok(Row { record, middle: 3600.0 * time, rounding, column: hour.column })
 }
 
-/// Gives rows the years that the format has not: a date that goes back by half a year begins the next one.
+/// Sets the years of rows, which the format lacks: a date that goes back by half a year begins the next one.
 fn set_years(rows: &mut [Row]) {
     let (mut turns, mut before, mut leap) = (0_i16, None, None);
     for row in rows.iter_mut() {
@@ -209,7 +210,7 @@ fn set_years(rows: &mut [Row]) {
     }
 }
 
-/// Refuses rows that follow each other at one time, with different light or again and again: when they were is lost.
+/// Returns an error if successive rows have one time with different light, or repeatedly: their times are lost.
 fn check_times(rows: &[Row]) -> Result<(), FormatError> {
     let equal = || rows.windows(2).filter(|pair| pair[0].moment() == pair[1].moment());
     let light = |row: &Row| (row.record.direct, row.record.diffuse);
@@ -230,8 +231,8 @@ fn check_times(rows: &[Row]) -> Result<(), FormatError> {
     }
 }
 
-/// Returns the least distance of two rows, an hour at most and for a single row; where other distances are not multiples of
-/// it, the largest part of an hour within it. \[min\]
+/// Returns the shortest distance of two rows, at most an hour, and an hour for a single row; where other distances are
+/// not multiples of it, the largest part of an hour within it. \[min\]
 fn interval(rows: &[Row]) -> u16 {
     let steps = || {
         let minutes = rows.windows(2).map(|pair| ((pair[1].moment() - pair[0].moment()) / 60.0).round());
@@ -297,7 +298,7 @@ mod tests {
             ("6 21 9.000 0 0\n6 21 9.017 0 0\n6 21 9.033 0 0\n", 1, [32_370, 32_430, 32_490]),
             ("6 21 9.00 0 0\n6 21 9.02 0 0\n6 21 9.03 0 0\n", 1, [32_370, 32_430, 32_490]),
             ("6 21 9.0 0 0\n6 21 9.75 0 0\n6 21 10.5 0 0\n", 45, [31_050, 33_750, 36_450]),
-            // What is no whole minute is kept: 9.3375 h are 9:20:15.
+            // A time that is not a whole minute is kept: 9.3375 h are 9:20:15.
             ("6 21 9.3375 0 0\n6 21 10.3375 0 0\n6 21 11.3375 0 0\n", 60, [31_815, 35_415, 39_015]),
             // Apart by 30 and 50 min: what divides an hour.
             ("6 21 9.0 0 0\n6 21 9.5 0 0\n6 21 10.3333 0 0\n", 30, [31_500, 33_300, 36_300]),

@@ -1,4 +1,4 @@
-//! Products in order, as the window has ranked them.
+//! Ranking tile: products in the order of the window's ranking.
 
 use crate::drawing::colours::Inks;
 use crate::drawing::{Drawing, Frame};

@@ -1,4 +1,4 @@
-//! Control: which state for which profile angle, today's way of the sun over that curve, and the year.
+//! Control tile: states over the profile angle, today's path of the sun on that curve, and the year.
 
 use crate::drawing::chart;
 use crate::drawing::colours::{ColourMap, Inks};
@@ -15,7 +15,7 @@ fn colour(states: usize, index: usize) -> Rgb {
     ColourMap::Sequential.rgb(index as f32 / (states.max(2) - 1) as f32)
 }
 
-/// "state 45 (slat angle 45°)".
+/// Returns a text such as "state 45 (slat angle 45°)".
 fn state(control: &Controlled, index: usize) -> String {
     let (quantity, unit) = control.quantity.split_once(" / ").unwrap_or((control.quantity, ""));
     control.states.get(index).map_or_else(String::new, |(key, value)| {
@@ -54,7 +54,7 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
     let unit = if unit == "°" { Unit::Degrees } else { Unit::Named("") };
     let value = |index: u16| control.states.get(usize::from(index)).map_or(f64::NAN, |(_, value)| *value);
     let today = control.today.iter().map(|(_, point)| match point {
-        // Beyond the axis the line ends.
+        // The line ends at the end of the axis.
         Some((angle, index)) if *angle <= 90.0 => [*angle, value(*index)],
         _ => [f64::NAN; 2],
     });
@@ -95,7 +95,7 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
     }
 }
 
-/// A column a day, noon in the middle, the colour of its state for every hour.
+/// Draws one column per day, noon in the middle, with the colour of its state for every hour.
 fn hours(
     drawing: &mut Drawing,
     frame: Frame,
@@ -138,7 +138,7 @@ fn hours(
     }
 }
 
-/// Which colour is which state.
+/// Draws the legend of the colours of the states.
 fn states(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks) {
     let count = control.states.len();
     let room = ((frame.width - 180.0) / 48.0).max(2.0) as usize;

@@ -1,4 +1,4 @@
-//! The two hemispheres of the BTDF, and τ over the incident one with the sun's paths.
+//! Hemispheres of the BTDF, and τ over the incident hemisphere with the sun's paths.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
@@ -21,17 +21,17 @@ use crate::texts::words::MONTHS;
 use crate::texts::{fixed, hand_on as texts};
 
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
-/// Room round a disk for the words at its rim.
+/// Space around a disk for the texts at its rim.
 const RIM: f64 = 19.0;
 
-/// A disk over its legend, and its caption between them.
+/// Returns the places of a disk, of the legend under it, and of the caption between them.
 fn places(frame: Frame) -> (Round, Frame, Point) {
     let [above, below] = frame.cut_bottom(legend::HEIGHT);
     let [disk, caption] = above.cut_bottom(20.0);
     (Round::within(disk, RIM), below, [caption.centre()[0], caption.top + 8.0])
 }
 
-/// Where the light of the incidence comes from.
+/// Draws a ring at an incident direction other than the sun's, and a dot at the sun.
 fn mark(drawing: &mut Drawing, round: &Round, incidence: &Incidence, sun: Option<Incident>, inks: &Inks) {
     if incidence.source != Source::Sun {
         let at = round.place(incident_disk(PROJECTION, incidence.direction));
@@ -45,8 +45,8 @@ fn mark(drawing: &mut Drawing, round: &Round, incidence: &Incidence, sun: Option
     }
 }
 
-/// Where light from one direction goes, with a caption and, where it is forced, the greatest value and the decades of the
-/// scale.
+/// Draws the light distribution for one incident direction, with a caption and, where they are given, the maximum and
+/// the decades of the scale.
 pub fn indicatrix(
     drawing: &mut Drawing,
     frame: Frame,
@@ -118,7 +118,7 @@ pub(super) fn btdf(
     Ok(of_incidence(btdf, &subject.incidence))
 }
 
-/// Hair lines between cells, while they are large enough to be told apart.
+/// Draws thin lines between cells, while they are large enough to be distinguished.
 fn outlines(drawing: &mut Drawing, round: &Round, basis: &RingBasis, inks: &Inks) {
     if basis.len() > 400 {
         return;
@@ -131,7 +131,7 @@ fn outlines(drawing: &mut Drawing, round: &Round, basis: &RingBasis, inks: &Inks
     }
 }
 
-/// "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)".
+/// Returns a text such as "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)".
 pub(super) fn of_incidence(btdf: &Btdf, incidence: &Incidence) -> String {
     let incident = incidence.direction;
     let tau = btdf.tau(incident);
@@ -186,7 +186,7 @@ pub(super) fn transmittance(
     Ok(format!("{}. {}", of_incidence(btdf, &subject.incidence), split.sentence()))
 }
 
-/// The sun's paths on the 21st of each month, with hours and the names of three.
+/// Draws the sun's paths on the 21st of each month, with hours and the names of three.
 fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
     let mut names: Vec<(Frame, Point, String)> = Vec::new();
     let mut name = |at: Point, text: String| {
@@ -234,7 +234,7 @@ fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
     }
 }
 
-/// Where the light of one direction leaves to, as an upright bar.
+/// Draws the shares of the light of one incident direction by where it leaves, as a vertical bar.
 fn bar(drawing: &mut Drawing, frame: Frame, split: &FluxSplit, incidence: &Incidence, inks: &Inks) {
     let line = LEADING * TEXT;
     let words = |drawing: &mut Drawing, y: f64, text: &str, colour| {

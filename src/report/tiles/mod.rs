@@ -1,4 +1,4 @@
-//! The tiles of the bench on paper, each drawn into a frame.
+//! Tiles of the tile area on paper, each drawn into a frame.
 
 mod choose;
 mod control;
@@ -20,38 +20,38 @@ use crate::study::subject::{Subject, Wanted};
 use crate::texts::{Text, hand_on as texts};
 use std::str::FromStr;
 
-/// A tile.
+/// Kind of a tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum TileKind {
-    /// One incidence and where its light goes.
+    /// BTDF: one incident direction and the distribution of its light.
     Btdf,
     /// τ over the incident hemisphere.
     Transmittance,
-    /// The dome.
+    /// Sky dome.
     Sky,
-    /// The aperture as a luminaire.
+    /// LID: the aperture as a luminaire.
     Lid,
-    /// Illuminances.
+    /// Illuminances in the room.
     Room,
     /// States over profile angle and year.
     Control,
-    /// The hours of a year.
+    /// Hours of a year.
     Year,
-    /// Products in order.
+    /// Ranking of products.
     Choose,
 }
 
 impl TileKind {
-    /// All, in the order of the bench.
+    /// All kinds, in the order of the tile area.
     pub const ALL: [Self; 8] =
         [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control, Self::Year, Self::Choose];
 
-    /// The title of the tile in the window's own books.
+    /// Returns the title by which the window stores the tile.
     pub const fn title(self) -> &'static str {
         self.words().english()
     }
 
-    /// The same for people.
+    /// Returns the translated title.
     pub const fn words(self) -> Text {
         match self {
             Self::Btdf => texts::TILE_BTDF,
@@ -65,7 +65,7 @@ impl TileKind {
         }
     }
 
-    /// The word on the command line and in file names.
+    /// Returns the key on the command line and in file names.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Btdf => "btdf",
@@ -79,12 +79,12 @@ impl TileKind {
         }
     }
 
-    /// The tile of a title.
+    /// Returns the tile of a title.
     pub fn titled(title: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.title() == title)
     }
 
-    /// What has to be computed for it.
+    /// Returns the computations that the tile needs.
     pub const fn needs(self) -> Wanted {
         Wanted {
             lid: matches!(self, Self::Lid | Self::Sky),
@@ -99,7 +99,7 @@ impl FromStr for TileKind {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        // A ranking is no picture of a scene: `cfs rank` makes it.
+        // A ranking does not show a scene: `cfs rank` makes it.
         let all: Vec<Self> = Self::ALL.into_iter().filter(|kind| *kind != Self::Choose).collect();
         let words = || all.iter().map(|kind| kind.word()).collect::<Vec<_>>().join(", ");
         let found = all.iter().copied().find(|kind| kind.word() == text);
@@ -107,7 +107,7 @@ impl FromStr for TileKind {
     }
 }
 
-/// Draws a tile; what it says in a line.
+/// Draws a tile. Returns its summary in a line.
 pub(super) fn draw(
     drawing: &mut Drawing,
     frame: Frame,
@@ -118,7 +118,7 @@ pub(super) fn draw(
     draw_on(drawing, frame, subject, (tile, None), inks)
 }
 
-/// The same on a scale that is shared with others: its lowest and highest value, as [`scale_of`] finds them.
+/// Draws a tile on a scale shared with others, with its lowest and highest value as [`scale_of`] returns them.
 pub(super) fn draw_on(
     drawing: &mut Drawing,
     frame: Frame,
@@ -139,7 +139,7 @@ pub(super) fn draw_on(
     .map_err(|why| ReportError::Nothing(tile.words(), why))
 }
 
-/// The scale of a tile that holds all of these; `None` where it is fixed, or where there is no light.
+/// Returns the scale of a tile that covers all subjects; `None` where it is fixed, or where there is no light.
 pub(super) fn scale_of<'a>(tile: TileKind, subjects: impl Iterator<Item = &'a Subject>) -> Range {
     match tile {
         TileKind::Btdf => scales::of_q(subjects.filter_map(|one| Some((one.transmission()?, one.incidence.direction)))),

@@ -1,4 +1,5 @@
-//! Illuminance on the sensor plane: plan in false colour with iso-lux lines, and a section along the depth.
+//! Room tile: illuminance on the work plane as a plan in false colour with iso-lux lines, and a section along the
+//! depth.
 
 use crate::drawing::chart;
 use crate::drawing::colours::{ColourMap, ColourScale, Inks, contrast};
@@ -14,15 +15,15 @@ use crate::study::scene_words::error_words;
 use crate::study::subject::Subject;
 use crate::texts::hand_on as texts;
 
-/// The plan on paper: depth to the right, x downwards (seen from above), the façade at the left.
+/// Floor plan on paper: depth to the right, x downwards (seen from above), the façade at the left.
 pub(crate) struct Plan {
-    /// The room.
+    /// Frame of the room.
     pub area: Frame,
     scale: f64,
 }
 
 impl Plan {
-    /// The largest in the middle of a frame.
+    /// Creates the largest plan in the middle of a frame.
     pub fn within(frame: Frame, [width, depth]: [f64; 2]) -> Self {
         let scale = (frame.width / depth).min(frame.height / width).max(1e-3);
         let [across, down] = [depth * scale, width * scale];
@@ -34,14 +35,14 @@ impl Plan {
         [self.area.left + y * self.scale, self.area.top + x * self.scale]
     }
 
-    /// A sensor's piece, by its column and row and their steps. \[m\]
+    /// Returns the frame of a sensor's cell, by its column and row and their steps. \[m\]
     pub fn cell(&self, [i, j]: [usize; 2], step: [f64; 2]) -> Frame {
         let [left, top] = self.place(i as f64 * step[0], j as f64 * step[1]);
         Frame::new(left, top, step[1] * self.scale, step[0] * self.scale)
     }
 }
 
-/// Mean, extremes and error in words.
+/// Returns mean, extremes and error as a text.
 pub fn figures(sensors: &[SensorResult]) -> String {
     let totals = || sensors.iter().map(SensorResult::total);
     let values = || totals().map(|total| total.value);
@@ -140,7 +141,7 @@ fn openings(drawing: &mut Drawing, file: &SceneFile, plan: &Plan, inks: &Inks) {
     }
 }
 
-/// Writes a line's level on it where nothing else stands; false where there is no such place.
+/// Writes a line's level on it where nothing else stands. Returns `false` where there is no such place.
 fn name(
     drawing: &mut Drawing,
     points: &[Point],
@@ -174,7 +175,7 @@ fn name(
     false
 }
 
-/// A bar of whole metres in the deep corner; the place that it takes.
+/// Draws a scale bar of whole metres in the deep corner. Returns its frame.
 fn scale_bar(drawing: &mut Drawing, plan: &Plan) -> Frame {
     let metres = [10.0, 5.0, 2.0].into_iter().find(|m| m * plan.scale < 0.3 * plan.area.width).unwrap_or(1.0);
     let text = format!("{metres} m");

@@ -1,14 +1,14 @@
-//! A described system in section: outside left, inside right, with a scale.
+//! Section of a described system: outside at the left, room side at the right, with a scale.
 
 use crate::compute::system::SystemDescription;
 use crate::drawing::colours::Inks;
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT};
 use crate::texts::{decimal, hand_on as texts};
 
-/// Periods drawn.
+/// Number of periods that are drawn.
 const PERIODS: usize = 3;
 
-/// Draws the section of a state; false where it has none.
+/// Draws the section of a state. Returns `false` where it has none.
 pub fn section(drawing: &mut Drawing, frame: Frame, system: &SystemDescription, state: &str, inks: &Inks) -> bool {
     let family = system.family();
     let one = family.drawing(state);

@@ -1,4 +1,4 @@
-//! The year: its hours as a map, or the lamps over a sunny day and by month.
+//! Year tile: its hours as a map, or electric lighting over a sunny day and by month.
 
 use crate::drawing::chart;
 use crate::drawing::colours::Inks;

@@ -1,8 +1,8 @@
-//! Error against run time of a year: the same year with rising effort, each beside the finest.
+//! Error against run time of an annual simulation: the same year with rising effort, each compared with the finest.
 //!
-//! What is measured is how far the computation has converged, not what weather, sky model or data leave out. Compared are the
-//! illuminances of all hours at all sensors and eyes, and the figures that the year comes to. Each year is timed by itself, with
-//! nothing known before, on all processors.
+//! The errors show how far the computation has converged, not what weather, sky model or data leave out. The
+//! illuminances of all hours at all sensors and observers, and the annual figures are compared. Each year is timed
+//! separately, with nothing stored before, on all processors.
 
 use super::{Coverage, Errors};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -15,75 +15,76 @@ use serde_json::Value;
 use std::path::Path;
 use std::time::Instant;
 
-/// Error targets of a year, the last one is the finest: what the others are measured by.
+/// Error targets of a year; the last one is the finest, the reference of the others.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
-/// Hours darker than this share of the mean at a sensor do not count.
+/// Share of the mean illuminance below which an hour at a sensor is left out.
 const DARK: f64 = 0.01;
-/// Figures that are told.
+/// Keys of the compared figures.
 const FIGURES: [&str; 7] =
     ["annual_mean_lx", "DA300", "UDI_a", "sDA300_50", "sDA300_50_LM83_12", "lighting.LENI_kWh_m2", "lighting.kWh_m2"];
 
 /// A figure at one effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearFigure {
-    /// Its key; of a list its mean.
+    /// Key of the figure; of a list the mean is compared.
     pub key: &'static str,
-    /// What the year says.
+    /// Value of the figure.
     pub value: f64,
-    /// How far that may be off, as stated.
+    /// Uncertainty of the figure, as stated.
     pub stated: f64,
-    /// Distance from the finest year's.
+    /// Distance from the finest year's value.
     pub real: f64,
 }
 
-/// One year.
+/// One year of the refinement series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearRung {
-    /// Relative error that was asked for; `None`: as the scene has it.
+    /// Requested relative error; `None`: without an error target.
     pub target: Option<f64>,
-    /// From nothing to the last hour. \[s\]
+    /// Duration of the computation, with nothing stored before. \[s\]
     pub seconds: f64,
-    /// How long its stages took. \[s\]
+    /// Durations of the stages, by name. \[s\]
     pub stages: Vec<(&'static str, f64)>,
-    /// Of every hour at every sensor and eye that is not dark, relative to the finest; none in the finest itself.
+    /// Errors of every hour at every sensor and observer that is not dark, relative to the finest; empty for the finest
+    /// itself.
     pub errors: Vec<Errors>,
     /// Mean of the stated errors, relative to the light of all hours.
     pub stated: f64,
-    /// What the year comes to.
+    /// Annual figures.
     pub figures: Vec<YearFigure>,
 }
 
 impl YearRung {
-    /// Root of the mean square of the distances from the finest.
+    /// Returns the root mean square of the distances from the finest.
     pub fn rms(&self) -> f64 {
         (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
     }
 
-    /// Largest distance from the finest.
+    /// Returns the largest distance from the finest.
     pub fn max(&self) -> f64 {
         self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
     }
 
-    /// What the stated errors of the hours are worth; `None` of the finest itself.
+    /// Returns the reliability of the stated errors of the hours; `None` for the finest itself.
     pub fn coverage(&self) -> Option<Coverage> {
         (!self.errors.is_empty()).then(|| Coverage::of(&self.errors))
     }
 }
 
-/// The whole comparison.
+/// Comparison of a year's whole refinement series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearAccuracy {
-    /// By rising effort; the last one is what the others are measured by.
+    /// Years by rising effort; the last one is the reference of the others.
     pub rungs: Vec<YearRung>,
-    /// Hours that were computed, and those of them with light.
+    /// Number of computed hours, and number of those with light.
     pub steps: [usize; 2],
-    /// Sensors and eyes.
+    /// Number of sensors and observers.
     pub places: usize,
-    /// Threads that the times are of.
+    /// Number of threads used for the times.
     pub threads: usize,
 }
 
-/// Hands on that the work is not wanted any more; its own steps are the ladder's.
+/// Progress that passes on cancellation alone; steps are reported by the refinement series.
 pub(super) struct Inner<'a>(pub &'a dyn Progress);
 
 impl Progress for Inner<'_> {
@@ -92,10 +93,10 @@ impl Progress for Inner<'_> {
     }
 }
 
-/// The year of a scene by rising effort. Takes as long as five years.
+/// Computes the year of a scene with rising effort. Takes about as long as five years.
 ///
 /// # Errors
-/// As [`crate::study::year::year`].
+/// Returns the errors of [`crate::study::year::year`].
 pub fn annual(
     file: &SceneFile,
     base: &Path,
@@ -134,12 +135,12 @@ pub fn annual(
     Ok(YearAccuracy { rungs, steps, places: finest.light.places, threads: rayon::current_num_threads() })
 }
 
-/// Error targets by rising effort. The scene's own, where it names one, is a line of its own; so is none.
+/// Returns the error targets by rising effort. The scene's own target is a separate entry, also if it has none.
 pub(super) fn targets(own: Option<f64>) -> Vec<Option<f64>> {
     let mut targets: Vec<Option<f64>> = TARGETS.into_iter().map(Some).collect();
     if !targets.contains(&own) {
         let place = own.map_or(0, |own| TARGETS.iter().filter(|target| **target > own).count());
-        // The last is what all are measured by.
+        // The last target is the reference of all.
         targets.insert(place.min(TARGETS.len() - 1), own);
     }
     targets
@@ -161,8 +162,8 @@ fn timed(
     Ok((year, clock.elapsed().as_secs_f64()))
 }
 
-/// Of every lit hour at every place, relative to the finest. States are the same: controls see the outside alone, but for those
-/// that read the room.
+/// Returns the errors of every lit hour at every place, relative to the finest. States are the same, since controls
+/// depend on the outside alone, except those that read the room.
 fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
     let (own, last) = (&year.light, &finest.light);
     let lit = last.values.iter().filter(|value| **value > 0.0).count();
@@ -178,7 +179,7 @@ fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
     (0..last.values.len()).filter_map(of).collect()
 }
 
-/// Values of the figures, with what the hours' errors leave open of them.
+/// Returns the figures with their uncertainty by the errors of the hours.
 fn told(year: &Year, area: f64) -> Vec<YearFigure> {
     let all: [Value; 3] = figures(year).map(|one| metrics::metrics(year, &one, area));
     let of = |key: &'static str| {

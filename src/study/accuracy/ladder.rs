@@ -1,4 +1,4 @@
-//! The runs of the comparison: the reference, then every method with rising effort.
+//! Runs of the comparison: the reference, then every method with rising effort.
 
 use super::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series, Truth};
 use crate::compute::angle::Bearing;
@@ -13,29 +13,29 @@ use crate::study::scene::Scene;
 use crate::study::session::{RoomResult, SensorResult, Session};
 use std::time::Instant;
 
-/// Error targets of the ordinary method.
+/// Error targets of the default method.
 const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
-/// Point luminaires along each side.
+/// Numbers of point luminaires along each side.
 const SIDES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
-/// Random points a sensor.
+/// Numbers of random points per sensor.
 const POINTS: [usize; 6] = [64, 256, 1024, 4096, 16_384, 65_536];
-/// Cells along each profile angle.
+/// Numbers of cells along each profile angle.
 const CELLS: [usize; 4] = [45, 90, 180, 360];
-/// Targets of the reference and of the second finest, without and with interreflection.
+/// Error targets of the reference and of the second finest run, without and with interreflection.
 const REFERENCE: [[f64; 2]; 2] = [[1e-7, 1e-6], [2e-4, 5e-4]];
-/// Most sensors of a ladder; of more, an even selection.
+/// Maximum number of sensors in a refinement series; of more, an even selection is computed.
 const MOST_SENSORS: usize = 256;
-/// Sensors darker than this share of the mean do not count.
+/// Share of the mean illuminance below which a sensor is left out.
 const DARK: f64 = 0.01;
-/// A time below this is taken three times, and the best counts. \[s\]
+/// Duration below which a run is timed three times, and the shortest counts. \[s\]
 const SHORT: f64 = 0.3;
 
-/// Runs the ladder beside the method's own finest run. Takes some seconds for a hundred sensors.
+/// Computes the refinement series against the method's own finest run. Takes some seconds for a hundred sensors.
 pub fn ladder(scene: &Scene, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
     ladder_against(scene, None, progress)
 }
 
-/// The same beside a truth from outside, where there is one.
+/// Computes the refinement series against an external reference if there is one, else against the finest run.
 pub fn ladder_against(scene: &Scene, truth: Option<&Truth>, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
     let run = || {
         let chosen = selection(scene.sensors.len());
@@ -43,7 +43,7 @@ pub fn ladder_against(scene: &Scene, truth: Option<&Truth>, progress: &dyn Progr
         let mut ladder = Ladder { scene: thinned(scene, &chosen), truth, progress, done: 0, steps: 0 };
         ladder.run(scene.sensors.len())
     };
-    // Times of many threads say more about the machine than about the method.
+    // Times of many threads describe the machine rather than the method.
     let mut accuracy = match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
         Ok(pool) => pool.install(run),
         Err(_) => run(),
@@ -52,13 +52,13 @@ pub fn ladder_against(scene: &Scene, truth: Option<&Truth>, progress: &dyn Progr
     Ok(accuracy)
 }
 
-/// Which of so many sensors are computed: all, or an even selection.
+/// Returns the indices of the sensors that are computed: all of `count`, or an even selection.
 fn selection(count: usize) -> Vec<usize> {
     let most = count.min(MOST_SENSORS);
     (0..most).map(|k| k * count / most).collect()
 }
 
-/// The scene with these sensors alone.
+/// Returns the scene with the chosen sensors alone.
 fn thinned(scene: &Scene, chosen: &[usize]) -> Scene {
     let mut scene = scene.clone();
     if chosen.len() < scene.sensors.len() {
@@ -77,14 +77,14 @@ struct Ladder<'a> {
     steps: usize,
 }
 
-/// What one quantity is judged by: the reference's illuminances with what they may be off, and whether the data's error
-/// is to be covered, too: a truth from outside is none of these data's.
+/// Reference of one quantity: illuminances with their uncertainty, and whether stated errors must cover the error of
+/// the data too, since an external reference does not depend on them.
 struct Judge {
     values: Vec<Estimate>,
     outside: bool,
 }
 
-/// Hands on that the work is not wanted any more; its own steps are the ladder's.
+/// Progress that passes on cancellation alone; steps are reported by the refinement series.
 struct Inner<'a>(&'a dyn Progress);
 
 impl Progress for Inner<'_> {
@@ -106,7 +106,7 @@ impl Ladder<'_> {
             list.push(NearField::Subdivision(None));
         }
         let rungs: usize = methods.iter().map(|(_, list)| list.len()).sum();
-        // Where nothing reflects, all light is direct.
+        // If nothing reflects, all light is direct.
         let given = self.truth.as_ref().and_then(|truth| if reflects { truth.direct() } else { Some(truth.total()) });
         let runs = 2 * (usize::from(given.is_none()) + usize::from(reflects && self.truth.is_none()));
         self.steps = runs + TARGETS.len() * (1 + usize::from(reflects)) + rungs;
@@ -145,7 +145,7 @@ impl Ladder<'_> {
         Ok(())
     }
 
-    /// What a quantity is measured against: the truth that is given, or else the finest run.
+    /// Returns the reference of a quantity: the given external one, or else the finest run.
     fn reference(
         &mut self,
         scene: &Scene,
@@ -216,7 +216,7 @@ impl Ladder<'_> {
     }
 }
 
-/// Seconds of the fastest of three runs, or of a single long one.
+/// Returns the duration of the fastest of three runs, or of a single long one. \[s\]
 fn best(mut run: impl FnMut(usize) -> Result<RoomResult, StudyError>) -> Result<f64, StudyError> {
     let mut least = f64::INFINITY;
     for repeat in 0..3 {
@@ -230,14 +230,14 @@ fn best(mut run: impl FnMut(usize) -> Result<RoomResult, StudyError>) -> Result<
     Ok(least)
 }
 
-/// Share of all light at the sensors that an error of theirs is.
+/// Returns the sum of the sensors' errors, relative to the sum of their illuminances.
 fn share(result: &RoomResult, error: impl Fn(&SensorResult) -> f64) -> f64 {
     let all: f64 = result.sensors.iter().map(|row| row.total().value).sum();
     if all > 0.0 { result.sensors.iter().map(error).sum::<f64>() / all } else { 0.0 }
 }
 
 impl Judge {
-    /// Of the sensors that are not in the dark.
+    /// Returns the errors of the sensors that are not dark.
     fn errors(&self, result: &RoomResult) -> Vec<Errors> {
         let of = |(row, truth): (&SensorResult, &Estimate)| {
             let stated = if self.outside { row.total().error } else { row.numerical_error() };
@@ -251,13 +251,13 @@ impl Judge {
         result.sensors.iter().zip(&self.values).filter(|(_, truth)| truth.value > lit).map(of).collect()
     }
 
-    /// The largest relative error of its own, where it is not dark.
+    /// Returns the largest relative error of the reference itself, over sensors that are not dark.
     fn stated(&self) -> f64 {
         let lit = self.least();
         self.values.iter().filter(|e| e.value > lit).map(|e| e.error / e.value).fold(0.0, f64::max)
     }
 
-    /// Illuminance above which a sensor counts. \[lx\]
+    /// Returns the illuminance above which a sensor counts. \[lx\]
     fn least(&self) -> f64 {
         DARK * self.values.iter().map(|e| e.value).sum::<f64>() / self.values.len().max(1) as f64
     }

@@ -1,8 +1,9 @@
-//! Error against run time of a ranking: the same products with rising effort, each list beside the finest.
+//! Error against run time of a ranking: the same products with rising effort, each list compared with the finest.
 //!
-//! Of interest is what products are worth, 0 … 1, and whether lists say the same of two of them. Where the finest list has two
-//! further apart than twice what it states of both, every other has to tell them apart, and not the other way round. Each is
-//! timed by itself in a room of its own, on all processors; the first computes data of built-in products that are missing.
+//! Compared are the products' scores, 0 … 1, and the order of pairs of products. If two products differ in the finest
+//! list by more than twice its stated errors of both, every other list must distinguish them, in the same order. Each
+//! list is timed separately with its own session, on all processors; the first one also computes missing data of
+//! built-in products.
 
 use super::annual::{Inner, targets};
 use super::{Coverage, Errors};
@@ -16,77 +17,77 @@ use crate::study::system::SystemLibrary;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What a ranking is computed by.
+/// Effort that a ranking is computed with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Effort {
-    /// Data constant on their cells: what a window shows first.
+    /// Data that are constant on their patches: the first result that the window shows.
     Cells,
-    /// By this error target with beams as they are; `None`: all as the scene has it.
+    /// Error target with sharp beams; `None`: all as in the scene.
     Target(Option<f64>),
 }
 
-/// What a ranking says of the pairs that the finest has apart.
+/// Order of the pairs of products that the finest list distinguishes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pairs {
-    /// All that were ranked in both.
+    /// Number of pairs that were ranked in both lists.
     pub all: usize,
-    /// Further apart in the finest than twice what it states of both.
+    /// Number of pairs that differ in the finest list by more than twice its stated errors of both.
     pub apart: usize,
-    /// Of these, told apart in the same order.
+    /// Number of these pairs that are distinguished in the same order.
     pub told: usize,
-    /// Of these, told apart the other way round; the rest is left open.
+    /// Number of these pairs that are distinguished in the opposite order; the rest is not distinguished.
     pub reversed: usize,
 }
 
-/// One ranking.
+/// One ranking of the refinement series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RankRung {
-    /// By what.
+    /// Effort of the computation.
     pub effort: Effort,
-    /// From nothing to the last product. \[s\]
+    /// Duration of the computation, with nothing stored before. \[s\]
     pub seconds: f64,
-    /// Mean of the errors that are stated of what products are worth.
+    /// Mean of the stated errors of the scores.
     pub stated: f64,
-    /// Of what every product is worth, as parts of 1; none in the finest itself.
+    /// Errors of every product's score, on the scale 0 … 1; empty for the finest itself.
     pub errors: Vec<Errors>,
-    /// Against the finest; in that itself against its own statement.
+    /// Pairs compared with the finest; for the finest itself with its own stated errors.
     pub pairs: Pairs,
 }
 
 impl RankRung {
-    /// Root of the mean square of the distances from the finest.
+    /// Returns the root mean square of the distances from the finest.
     pub fn rms(&self) -> f64 {
         (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
     }
 
-    /// Largest distance from the finest.
+    /// Returns the largest distance from the finest.
     pub fn max(&self) -> f64 {
         self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
     }
 
-    /// What the stated errors are worth; `None` of the finest itself.
+    /// Returns the reliability of the stated errors; `None` for the finest itself.
     pub fn coverage(&self) -> Option<Coverage> {
         (!self.errors.is_empty()).then(|| Coverage::of(&self.errors))
     }
 }
 
-/// The whole comparison.
+/// Comparison of a ranking's whole refinement series.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RankAccuracy {
-    /// By rising effort; the last one is what the others are measured by.
+    /// Rankings by rising effort; the last one is the reference of the others.
     pub rungs: Vec<RankRung>,
-    /// Lists, and the products of all of them.
+    /// Number of lists.
     pub lists: usize,
-    /// Products of all lists, and those of them that have figures in the finest.
+    /// Number of products of all lists, and number of those that have figures in the finest.
     pub products: [usize; 2],
-    /// Threads that the times are of.
+    /// Number of threads used for the times.
     pub threads: usize,
 }
 
-/// A ranking by rising effort. The last two take several times as long as an ordinary one.
+/// Computes a ranking with rising effort. The last two take several times as long as one with the default effort.
 ///
 /// # Errors
-/// As [`run`].
+/// Returns the errors of [`run`].
 pub fn ranking(
     groups: &[Group],
     library: &dyn SystemLibrary,
@@ -100,7 +101,7 @@ pub fn ranking(
         }
         progress.advance("accuracy", k, efforts.len());
         let clock = Instant::now();
-        // What is measured by leaves nothing out.
+        // The reference is computed without approximations of the session.
         let finest = k + 1 == efforts.len();
         let session = if finest { Session::passing().point_by_point() } else { Session::passing() };
         let lists = lists(groups, *effort, library, &session, &Inner(progress))?;
@@ -133,7 +134,7 @@ fn efforts(groups: &[Group]) -> Vec<Effort> {
     std::iter::once(Effort::Cells).chain(targets(own).into_iter().map(Effort::Target)).collect()
 }
 
-/// The lists by an effort, all of them with the same products in the same order.
+/// Computes the lists with an effort, all of them with the same products in the same order.
 fn lists(
     groups: &[Group],
     effort: Effort,
@@ -149,7 +150,7 @@ fn lists(
     if effort != Effort::Target(None) {
         for group in &mut groups {
             let compute = &mut Arc::make_mut(&mut group.file).compute;
-            // What is measured by has beams as they are, also where the scene takes data on their cells.
+            // The reference has sharp beams, even if the scene uses patch-averaged data.
             compute.interpolation = Interpolation::Auto;
             if let Effort::Target(target) = effort {
                 compute.error_target = target;
@@ -161,7 +162,7 @@ fn lists(
     Ok(lists_of(&groups, &items, outcomes, &vec![String::new(); items.len()]))
 }
 
-/// What products are worth, by list; `None` of those that are left out.
+/// Scores of the products, by list; `None` for excluded ones.
 type Worth = Vec<Vec<Option<Estimate>>>;
 
 fn worth(lists: &[List]) -> Worth {

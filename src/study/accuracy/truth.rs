@@ -1,4 +1,4 @@
-//! A truth from outside: illuminances of the same sensors in a file, by measurement or by another program.
+//! External reference: illuminances of the same sensors from a file, by measurement or by another program.
 
 use crate::compute::estimate::Estimate;
 use crate::formats::decimal_comma::with_decimal_points;
@@ -9,20 +9,20 @@ use crate::study::scene::Scene;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::path::Path;
 
-/// How far a sensor's position, or its unit normal, may differ from the scene's: tables are rounded. \[m\]
+/// Tolerance of a sensor's position, and of the components of its unit normal, since tables are rounded. \[m\]
 const SAME: f64 = 1e-4;
 
 /// Illuminances of a scene's sensors, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
     name: String,
-    /// All light. \[lx\]
+    /// Illuminances by all light. \[lx\]
     total: Vec<Estimate>,
-    /// Straight from the apertures, where the file tells it. \[lx\]
+    /// Illuminances directly from the apertures, if the file has them. \[lx\]
     direct: Option<Vec<f64>>,
 }
 
-/// Where the columns are.
+/// Indices of the columns.
 struct Columns {
     position: [usize; 3],
     normal: Option<[usize; 3]>,
@@ -32,12 +32,12 @@ struct Columns {
 }
 
 impl Truth {
-    /// Reads a table with the columns of `cfs room`: x,y,z and E_lx; beside these nx,ny,nz, E_direct_lx and E_error_lx
-    /// count, where they are there. Lines that begin with # are passed over, and decimal commas are read.
+    /// Reads a table with the columns of `cfs room`: x, y, z and E_lx; the columns nx, ny, nz, E_direct_lx and
+    /// E_error_lx are optional. Lines that begin with # are skipped, and decimal commas are accepted.
     ///
     /// # Errors
-    /// One sentence that names the file, the line and what is wrong there: a column that is missing, another number of
-    /// sensors than the scene's, or another sensor.
+    /// Returns an error that names the file, the line and the cause: a missing column, another number of sensors than
+    /// the scene's, or another sensor.
     pub fn read(path: &Path, scene: &Scene) -> Result<Self, StudyError> {
         let wrong = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
@@ -91,23 +91,24 @@ impl Truth {
         Ok(Self { name, total, direct })
     }
 
-    /// The file's name.
+    /// Returns the name of the file.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// All light. \[lx\]
+    /// Returns the illuminances by all light. \[lx\]
     pub(super) fn total(&self) -> Vec<Estimate> {
         self.total.clone()
     }
 
-    /// Light straight from the apertures, where it is told; the uncertainty of all bounds that of its part. \[lx\]
+    /// Returns the illuminances directly from the apertures, if the file has them; their uncertainty is that of all
+    /// light. \[lx\]
     pub(super) fn direct(&self) -> Option<Vec<Estimate>> {
         let direct = self.direct.as_ref()?;
         Some(direct.iter().zip(&self.total).map(|(&value, total)| Estimate::new(value, total.error)).collect())
     }
 
-    /// Of these sensors.
+    /// Returns the reference of the chosen sensors alone.
     pub(super) fn only(&self, chosen: &[usize]) -> Self {
         Self {
             name: self.name.clone(),
@@ -137,7 +138,7 @@ impl Columns {
     }
 }
 
-/// What the reader of tables says, in one line.
+/// Returns the message of the table reader in one line.
 fn told(error: &csv::Error) -> String {
     let line = error.position().map_or(1, csv::Position::line);
     match error.kind() {

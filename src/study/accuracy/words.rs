@@ -1,16 +1,16 @@
-//! What is to be said of a comparison in words: what was measured, where it tells nothing, and where effort does not help.
-//! The command line and the window say the same.
+//! Texts about a comparison: what was compared, where it cannot determine errors, and where effort does not help.
+//! Command line and window use the same texts.
 
 use super::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series};
 use crate::texts::{decimal, words as texts};
 
-/// A relative error in per cent, three digits behind the point where there are that many.
+/// Formats a relative error in per cent, with up to three decimals.
 pub fn percent(relative: f64) -> String {
     let percent = 100.0 * relative;
     decimal(if percent == 0.0 || percent >= 1e-3 { format!("{percent:.3} %") } else { format!("{percent:.0e} %") })
 }
 
-/// A relative error in per cent, two significant digits.
+/// Formats a relative error in per cent, with two significant digits.
 fn short(relative: f64) -> String {
     let percent = 100.0 * relative;
     if percent > 0.0 && percent < 1e-2 {
@@ -20,7 +20,7 @@ fn short(relative: f64) -> String {
     decimal(format!("{percent:.digits$} %"))
 }
 
-/// The word for a quantity in tables.
+/// Returns the label of a quantity in tables.
 pub fn quantity(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Direct => texts::DIRECT.get(),
@@ -28,7 +28,7 @@ pub fn quantity(quantity: Quantity) -> &'static str {
     }
 }
 
-/// What kind of error a reference tells.
+/// Returns the kind of error that a reference determines.
 pub fn kind(reference: &Reference) -> String {
     match &reference.origin {
         Origin::FinestRun { .. } => texts::KIND_FINEST.into(),
@@ -36,7 +36,7 @@ pub fn kind(reference: &Reference) -> String {
     }
 }
 
-/// The same for an axis that shows all series.
+/// Returns the kind of error for an axis that shows all series.
 pub fn axis(accuracy: &Accuracy) -> &'static str {
     let given = |reference: &Reference| matches!(reference.origin, Origin::Given(_));
     match accuracy.references.iter().filter(|reference| given(reference)).count() {
@@ -47,7 +47,7 @@ pub fn axis(accuracy: &Accuracy) -> &'static str {
     .get()
 }
 
-/// What a reference is, and how good.
+/// Describes a reference and its accuracy.
 pub fn reference(reference: &Reference) -> String {
     let stated = percent(reference.stated);
     match (&reference.origin, reference.quantity) {
@@ -63,7 +63,7 @@ pub fn reference(reference: &Reference) -> String {
     }
 }
 
-/// Why a computation has no error beside this reference; `None` where it has one.
+/// Returns the reason why this reference cannot determine the error of a computation; `None` if it can.
 pub fn untold(rung: &Rung, reference: &Reference) -> Option<String> {
     if rung.is_told() {
         return None;
@@ -76,7 +76,8 @@ pub fn untold(rung: &Rung, reference: &Reference) -> Option<String> {
     })
 }
 
-/// From which effort on more does not help, since the data leave more open than the computation.
+/// Returns the effort above which more does not help, since the data are less certain than the computation; `None` if
+/// there is none.
 pub fn data_limit(series: &Series) -> Option<String> {
     let first = series.rungs.iter().position(Rung::is_limited_by_data)?;
     let rung = &series.rungs[first];

@@ -1,4 +1,4 @@
-//! The sun over a prepared scene: its scattered light, and its beams where they fall.
+//! Light of the sun in a prepared scene: scattered light, and beams where they fall.
 
 use super::Coefficients;
 use super::sun_way::SunLight;
@@ -17,11 +17,12 @@ use crate::study::session::responses::Responses;
 use crate::study::session::unit_beams::{Together, UnitBeam};
 use std::sync::{Arc, OnceLock};
 
-/// Error of the share of scattered light that a part of an aperture sends, relative to the product of that share and the rest.
+/// Error of the share of scattered light from a part of an aperture, relative to the product of that share and the
+/// rest.
 const ALIKE: f64 = 0.1;
 
-/// Scattered sunlight of a part of an aperture. `all`: of the whole aperture; `reflected`: its interreflected part; `shares` of the
-/// part in direct and in interreflected light.
+/// Returns the scattered sunlight of a part of an aperture. `all`: light of the whole aperture; `reflected`: its
+/// interreflected part; `shares`: those of the part in direct and in interreflected light.
 fn of_part(all: Estimate, reflected: f64, shares: Option<[f64; 2]>) -> Estimate {
     let Some([straight, by_room]) = shares else { return all };
     let value = (all.value - reflected) * straight + reflected * by_room;
@@ -29,32 +30,33 @@ fn of_part(all: Estimate, reflected: f64, shares: Option<[f64; 2]>) -> Estimate 
     Estimate::new(value, all.error * straight.max(by_room) + error.abs())
 }
 
-/// Beams that are seen as sharp as they are, the strongest of a fan.
+/// Maximum number of beams of a fan that are seen with sharp outlines, strongest first.
 const OUTLINED: usize = 4;
 
 impl Coefficients {
-    /// The sun's light at every sensor, its disc seen straight through included. \[lx\]
+    /// Computes the sun's light at every sensor, the disc seen by regular transmission included. \[lx\]
     pub fn sun(&self, sun: &Sun) -> Vec<f64> {
         self.of_sun(None, sun, false).into_iter().map(|e| e.value).collect()
     }
 
-    /// The same with its error.
+    /// Computes the sun's light at every sensor with its error. \[lx\]
     pub fn sun_estimate(&self, sun: &Sun) -> Vec<Estimate> {
         self.of_sun(None, sun, true)
     }
 
-    /// Returns the same of the sun of an hour of the year of [`Self::keep_year`]; for many systems it is faster.
+    /// Computes the sun's light with its error for an hour of the year of [`Self::keep_year`]. \[lx\] For many systems
+    /// it is faster than [`Self::sun_estimate`].
     pub fn hour_sun_estimate(&self, hour: usize, sun: &Sun) -> Vec<Estimate> {
         self.of_sun(Some(hour), sun, true)
     }
 
-    /// Without `errors` values only.
+    /// Computes the sun's light at every sensor; without `errors` values only. \[lx\]
     fn of_sun(&self, hour: Option<usize>, sun: &Sun, errors: bool) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
         let mut sums = vec![Estimate::default(); sensors];
         let mut first = FirstLight::dark(0);
         let mut units: Vec<(Arc<UnitBeam>, f64)> = Vec::new();
-        // Of a beam past boxes.
+        // Number of pieces of a beam past boxes.
         let mut pieces = 1;
         for index in 0..self.parts.len() {
             let facing = Facing { sun: Some(sun), ..self.scene.facing(index) };
@@ -101,7 +103,7 @@ impl Coefficients {
                     first.add_beam_through(aperture, &part.pieces, beam, &facing);
                     continue;
                 }
-                // Others may ask for the suns of a year.
+                // Other systems may need the suns of a year.
                 let shared = || landed.of(&self.scene, index, beam, &facing, &room.radiosity);
                 match (self.suns > 0).then(shared).flatten() {
                     Some(unit) => units.push((unit, beam.exitance * aperture.area())),
@@ -116,7 +118,8 @@ impl Coefficients {
         sums.into_iter().map(whole).collect()
     }
 
-    /// Adds what the room makes of beams: of those that are known by 1 lm, each with its flux \[lm\], and of others.
+    /// Adds the interreflected light of beams: of those that are known per 1 lm, each with its flux \[lm\], and of
+    /// others.
     fn add_landed(
         &self,
         room: &Responses,
@@ -131,7 +134,7 @@ impl Coefficients {
         let mesh = &room.radiosity.nested.fine;
         let mut all = Together::dark(&room.radiosity, landed);
         units.iter().for_each(|(unit, flux)| all.add(unit, *flux));
-        // How far the others' light at the sensors may be off for where in a patch they lie.
+        // Uncertainty of the others' light at the sensors by their position within the patches.
         let mut placed = vec![0.0; sums.len()];
         if !beams.is_empty() {
             let direct = |beams: &[Beam]| {
@@ -142,8 +145,8 @@ impl Coefficients {
             let on_patches = direct(&beams);
             let light = landed.of(&room.radiosity, &on_patches);
             all.add_others(&light, &on_patches);
-            // The strongest are seen as the outlines that they are; what patches tell of these tells how well they tell of
-            // the others.
+            // The strongest are seen as sharp outlines; the difference to their light by patches estimates that of the
+            // others.
             beams.sort_by(|a, b| b.flux.total_cmp(&a.flux));
             let few = &beams[..beams.len().min(outlined)];
             let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
@@ -164,7 +167,7 @@ impl Coefficients {
         }
     }
 
-    /// Adds light found for this very sun, and gives its beams.
+    /// Adds light computed for the actual sun position, and returns its beams.
     fn add_scattered(
         &self,
         index: usize,
@@ -184,7 +187,7 @@ impl Coefficients {
         found.beams.into_iter().chain(BeamLight::regular(regular, facing)).map(|beam| beam.scaled(clear)).collect()
     }
 
-    /// The same by the data's own cells or directions.
+    /// Adds light by the data's own cells or directions, and returns the beams of regular transmission.
     fn add_data(
         &self,
         index: usize,
@@ -203,7 +206,7 @@ impl Coefficients {
                 let error = column.as_ref().map_or(0.0, |column| {
                     let reflected = column.light[sensors + s].abs() * illuminance;
                     let doubt = column.light[2 * sensors + s] * illuminance;
-                    // What the data's own cells alone would tell, with fluxes interpolated in straight lines.
+                    // Result of the data's own cells alone, with fluxes interpolated in straight lines.
                     let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
                     doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s]
                 });

@@ -1,8 +1,8 @@
 //! V·T·D of an aperture behind boxes: columns for the luminances outside.
 //!
-//! Direct light of a sensor is followed back: to the point of the aperture in every direction, to the patches from which the
-//! system sends light there, to the luminances that the point sees through these. Interreflected light depends less on
-//! where light enters: nine nodes of the aperture are enough.
+//! Direct light of a sensor is traced back: to the point of the aperture in every direction, to the patches from which
+//! the system sends light there, to the luminances that the point sees through these. Interreflected light depends
+//! less on where light enters: nine nodes of the aperture are enough.
 
 use super::sent::{Luminances, Patch, Sent, lit as lit_cells};
 use super::transport::Column;
@@ -31,23 +31,23 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Directions in which a sensor looks straight through an aperture, below the horizon and above.
+/// Number of directions in which a sensor sees the outside by regular transmission, below the horizon and above.
 const THROUGH: u32 = 4096;
-/// Memory that a sensor takes for a cell that it sees. \[bytes\]
+/// Memory per sensor for a cell that it sees. \[bytes\]
 const CELL_SEEN: usize = 128;
-/// Nodes along each side for the room.
+/// Number of nodes along each side of an aperture for interreflected light.
 const NODES: usize = 3;
-/// Number of sensors whose weights are found together.
+/// Number of sensors whose weights are computed together.
 const TOGETHER: usize = 16;
 
-/// What stands before all apertures of a scene.
+/// Obstructions in front of all apertures of a scene.
 pub(super) struct Behind {
     pub prepared: Arc<Prepared>,
-    /// The boxes alone, dark.
+    /// Boxes alone, dark.
     pub around: Surroundings,
 }
 
-/// One aperture behind it.
+/// Aperture behind obstructions.
 pub(super) struct Past {
     aperture: Aperture,
     grid: Grid,
@@ -55,30 +55,31 @@ pub(super) struct Past {
     patches: RingBasis,
     sent: Option<Sent>,
     sensors: Vec<Sensor>,
-    /// Emergent cells that every sensor sees, and bands.
+    /// Emergent cells that every sensor sees, then bands.
     cells: Arc<Vec<CellWeights>>,
     bands: Arc<Vec<CellWeights>>,
-    /// What the sensors see of scattered light by patch, sensor and point of the grid; empty where that would be too much.
+    /// Scattered light at the sensors by patch, sensor and point of the grid; empty where that would need too much
+    /// memory.
     by_patch: Vec<OnceLock<Vec<f32>>>,
     /// Interreflected light per illuminance by patch, node and sensor.
     reflected: Vec<Vec<f32>>,
 }
 
-/// What is outside at a time, which may be an hour of a year.
+/// Outside and sun at one time, which may be an hour of a year.
 pub(super) struct Moment<'a> {
     pub outside: &'a Outside,
     pub sun: Option<&'a Sun>,
     pub hour: Option<usize>,
 }
 
-/// Returns for every cell its place in a list; `None` where the list lacks it.
+/// Returns the place of every cell in a list; `None` where the list lacks it.
 fn places(named: &CellWeights, count: usize) -> Vec<Option<usize>> {
     let mut places = vec![None; count];
     named.iter().enumerate().for_each(|(place, (cell, _))| places[*cell] = Some(place));
     places
 }
 
-/// Adds what a sensor sees of cells to the points of a grid where it leaves the aperture.
+/// Adds the light of cells that a sensor sees to the points of a grid where it leaves the aperture.
 fn add(light: &Luminances, seen: &CellWeights, places: &[Option<usize>], points: &mut [f64]) {
     for (cell, q) in light {
         let Some(place) = places[*cell] else { continue };
@@ -91,11 +92,11 @@ impl Behind {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
     }
 
-    /// Prepares an aperture and returns its columns by luminance, with rows of all sensors as in [`super::part::Sums`].
-    /// `columns`: interreflected light of every patch, node by node.
+    /// Prepares an aperture and returns its columns by luminance, with rows of all sensors as in
+    /// [`super::part::Sums`]. `columns`: interreflected light of every patch, node by node.
     ///
     /// # Errors
-    /// More sensors than this is made for; cancelled.
+    /// Returns an error if there are more sensors than fit, or if cancelled.
     pub fn past(
         &self,
         opening: &Opening<'_>,
@@ -111,7 +112,7 @@ impl Behind {
         let cells = sent.as_ref().map_or(0, Sent::count);
         within_budget(scene, 3 * size_of::<f32>() * self.prepared.count() + CELL_SEEN * cells)?;
         let mut tables: Mat<f32> = Mat::zeros(3 * sensors, self.prepared.count());
-        // By way of the room.
+        // Interreflected light.
         let places = sensors * nodes.count();
         let by_node = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
         let by_node = if columns.is_empty() { Arc::default() } else { by_node() };
@@ -143,7 +144,7 @@ impl Behind {
             reflected: columns.iter().map(reflected).collect(),
             sent,
         };
-        // Straight.
+        // Direct light.
         let scattered = |first: usize| {
             check(opening.progress)?;
             Ok((first, past.scattered(first, &by_point, self.prepared.count())))
@@ -190,8 +191,8 @@ impl Behind {
 }
 
 impl Past {
-    /// Returns the weights of luminances in scattered direct light at sensors from the `first` on: luminance by luminance.
-    /// `by_point`: their weights at the grid's points by patch. `count`: number of luminances. \[sr\]
+    /// Returns the weights of luminances in scattered direct light at sensors from the `first` on, luminance by
+    /// luminance. `by_point`: their weights at the grid's points by patch. `count`: number of luminances. \[sr\]
     fn scattered(&self, first: usize, by_point: &[Vec<Counts>], count: usize) -> Vec<[f32; TOGETHER]> {
         let Some(sent) = &self.sent else { return Vec::new() };
         let count_of_points = self.grid.count();
@@ -222,7 +223,7 @@ impl Past {
         sums
     }
 
-    /// Returns what a sensor sees of rows through the points of the grid. \[sr\]
+    /// Returns the light of rows that a sensor sees through the points of the grid. \[sr\]
     fn rows_seen(&self, sent: &Sent, sensor: usize, by_cell: &[Option<usize>], rows: &[usize]) -> Vec<Vec<f64>> {
         let by_band = sent.bands.map(|(_, count)| places(&self.bands[sensor], count));
         let of = |row: &usize| {
@@ -236,7 +237,8 @@ impl Past {
         rows.iter().map(of).collect()
     }
 
-    /// Returns what every sensor sees through the points of the grid of light on cells and of shares of rows, sensor by sensor.
+    /// Returns the light by cells and by shares of rows that every sensor sees through the points of the grid, sensor
+    /// by sensor.
     fn seen(&self, sent: &Sent, own: &Luminances, rows: &[(usize, f64)]) -> Vec<f32> {
         let numbers: Vec<usize> = rows.iter().map(|(row, _)| *row).collect();
         let of = |sensor: usize| {
@@ -251,9 +253,9 @@ impl Past {
         (0..self.sensors.len()).flat_map(of).collect()
     }
 
-    /// Returns for every sensor the shares of a sunlit part in the aperture's scattered sunlight, direct and interreflected. The
-    /// light's distribution over directions is that of `cells`, luminances of the data's cells where they are known for this
-    /// very sun \[cd/m²\], or else that of the incident patch without its own beams.
+    /// Returns the shares of a sunlit part in the aperture's scattered sunlight, direct and interreflected, for every
+    /// sensor. The light's distribution over directions is that of `cells`, luminances of the data's cells where they
+    /// are known for the actual sun position \[cd/m²\], or else that of the incident patch without its own beams.
     pub fn shares(&self, facing: &Facing<'_>, part: &SunlitPart, cells: &[f64]) -> Vec<[f64; 2]> {
         let patch = facing.sun_entering().and_then(|sun| self.patches.index(sun));
         let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[part.share; 2]; self.sensors.len()] };
@@ -394,7 +396,7 @@ pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, moments: &
     kept.into_iter().zip(missing).map(one).collect()
 }
 
-/// Nodes of an aperture for the room.
+/// Returns the nodes of an aperture for interreflected light.
 pub(super) fn nodes(aperture: &Aperture) -> Nodes {
     Nodes::new(aperture, NODES, NODES)
 }

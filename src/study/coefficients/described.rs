@@ -1,4 +1,4 @@
-//! A system by its description: sky by columns of single patches, the sun by its very direction.
+//! Light of a described system: sky by columns of single patches, the sun by its actual direction.
 
 use super::views::{Opening, SensorRows, Views, Want};
 use crate::compute::basis::RingBasis;
@@ -12,29 +12,29 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// The light of a described system's patches at the sensors.
+/// Light at the sensors through the patches of a described system.
 pub(super) struct Described {
-    /// Patches of the outside.
+    /// Patches of the incident hemisphere.
     pub basis: Arc<RingBasis>,
-    /// By patch.
+    /// Light at the sensors, patch by patch.
     pub columns: Vec<SensorRows>,
-    /// Error of all of it, relative.
+    /// Relative error of all light.
     pub error: f64,
-    /// What is scattered, where that depends on the profile angle alone.
+    /// Scattered light by profile angle, where it depends on that angle alone.
     pub by_angle: Option<Arc<ByAngle>>,
 }
 
-/// What is scattered of light of an illuminance of 1 lx, by the profile angle that it comes from.
+/// Scattered light at the sensors per illuminance of 1 lx, by profile angle of the incident light.
 pub(super) struct ByAngle {
     upright: bool,
     rows: Vec<SensorRows>,
-    /// Relative.
+    /// Relative errors of the rows.
     errors: Vec<f64>,
 }
 
 impl ByAngle {
-    /// Adds light from a name, between two angles in a straight line; `errors`: those of the data, and how far light may
-    /// be from that line.
+    /// Adds the light at the sensors for one incident direction, interpolated linearly between two profile angles.
+    /// `errors`: those of the data, and the distance that light may have from the straight line, are added to it.
     pub fn add(&self, name: Dir<Facade>, illuminance: f64, light: &mut [f64], errors: &mut [f64]) {
         let (row, near) = between_rows(self.upright, name, self.rows.len());
         let (a, b) = (&self.rows[row], &self.rows[row + 1]);
@@ -52,10 +52,10 @@ impl ByAngle {
     }
 }
 
-/// Light at the sensors of 1 lx, and the error of it, relative.
+/// Light at the sensors per 1 lx on the aperture, and its relative error.
 type Node = Arc<(SensorRows, f64)>;
 
-/// What a described system scatters, between directions: nodes are asked for when the sun is near.
+/// Scattered light of a described system, interpolated between directions: nodes are computed when the sun is near.
 pub(super) struct Lattice {
     upright: bool,
     /// Steps of the angle along the structure and of the profile angle. \[°\]
@@ -63,17 +63,18 @@ pub(super) struct Lattice {
     nodes: Mutex<HashMap<[i64; 2], Node>>,
 }
 
-/// Steps across an endless structure, where what blades hide of each other ends sharply, are the finer ones. \[°\]
+/// Steps of the angle along the structure and of the profile angle, for a structure that is endless along one axis:
+/// the profile angle has the finer steps, since what blades hide of each other ends sharply across it. \[°\]
 const ACROSS: [f64; 2] = [7.5, 2.5];
-/// Steps where all directions are alike. \[°\]
+/// Steps of both angles for a structure that is alike in all directions. \[°\]
 const EVEN: [f64; 2] = [5.0, 5.0];
-/// The nodes end here. \[°\]
+/// Maximum angle of a node. \[°\]
 const STEEPEST: f64 = 89.5;
-/// Of what four nodes and two make different, so much may be wrong: many times as much as smooth light is off; a third of what
-/// a lone kink amid four nodes would be, but that is never all of the light.
+/// Factor of the difference between interpolation by four nodes and by two that gives the error: many times the error
+/// of smooth light, and a third of that of a lone kink amid four nodes, which is never all of the light.
 const UNEVEN: f64 = 1.0;
 
-/// Nodes around a place between them.
+/// Nodes around a place between them, with the weights of interpolation.
 struct Around {
     first: i64,
     near: f64,
@@ -81,7 +82,7 @@ struct Around {
 }
 
 impl Around {
-    /// `at` in steps, nodes up to ±`last`.
+    /// Creates the weights for the place `at`, in steps; nodes end at ±`last`.
     fn new(at: f64, last: f64) -> Self {
         let first = at.floor();
         let t = at - first;
@@ -100,14 +101,14 @@ impl Around {
         Self { first: first as i64 - 1, near: t, cubic }
     }
 
-    /// Of two nodes.
+    /// Returns the weights of linear interpolation between two nodes.
     fn linear(&self) -> [f64; 4] {
         [0.0, 1.0 - self.near, self.near, 0.0]
     }
 }
 
 impl Lattice {
-    /// Of a system.
+    /// Creates an empty lattice with the steps that suit a system.
     pub fn of(specimen: &dyn Specimen) -> Self {
         let (upright, steps) = match specimen.structure() {
             Structure::Along { upright } => (upright, ACROSS),
@@ -131,7 +132,7 @@ impl Lattice {
         found
     }
 
-    /// Adds light from a name.
+    /// Adds the light at the sensors for one incident direction.
     pub fn add(
         &self,
         specimen: &dyn Specimen,
@@ -162,30 +163,33 @@ impl Lattice {
         for (s, error) in errors.iter_mut().enumerate() {
             *error += illuminance * (doubt[s] + UNEVEN * (own[s] - straight[s]).abs());
         }
-        // A polynomial may run below what four nodes above nothing leave: of the light, not of what its error hangs on.
+        // A polynomial may run below zero amid four nodes above zero: this holds for the light, not for the values
+        // that give its error.
         for (k, (sum, e)) in light.iter_mut().zip(own).enumerate() {
             *sum += illuminance * if k < errors.len() { e.max(0.0) } else { e };
         }
     }
 }
 
-/// What the sensors see of a described system's light.
+/// Views of a described system's light from the sensors.
 pub(super) struct DescribedViews {
-    /// On [`sun_cells`].
+    /// Light on the cells of [`sun_cells`].
     pub cells: Views,
-    /// In the bands that it scatters to; upright or not, and how many.
+    /// Light in the bands of the profile angle that the system scatters to: whether the angle is in the horizontal
+    /// plane, and the number of bands.
     pub bands: Option<((bool, usize), Views)>,
 }
 
 impl DescribedViews {
-    /// `bands`: a system that scatters by profile angle says how.
+    /// Computes the views. `bands`: for a system that scatters by profile angle, whether the angle is in the
+    /// horizontal plane, and the number of bands.
     pub fn new(opening: &Opening<'_>, bands: Option<(bool, usize)>) -> Result<Self, StudyError> {
         let cells = Views::new(opening, Arc::clone(sun_cells()), Want::All)?;
         let of = |kind| Views::of_bands(opening, kind).map(|views| (kind, views));
         Ok(Self { cells, bands: bands.map(of).transpose()? })
     }
 
-    /// Adds light in bands.
+    /// Adds the light at the sensors of light in bands.
     pub fn add_bands(&self, light: &BandLight, factor: f64, out: &mut [f64]) {
         if let Some((_, views)) = &self.bands {
             for (band, q) in light.light.q.iter().enumerate().filter(|(_, q)| **q != 0.0) {
@@ -196,7 +200,7 @@ impl DescribedViews {
 }
 
 impl Described {
-    /// Patch by patch.
+    /// Computes the light at the sensors, patch by patch.
     pub fn new(through: &SkyThrough, views: &DescribedViews) -> Self {
         let rows: Vec<SensorRows> = match through.rows() {
             ScatteredRows::None => Vec::new(),
@@ -240,7 +244,7 @@ impl Described {
     }
 }
 
-/// Error of what is scattered, relative.
+/// Returns the relative error of scattered light.
 pub(super) fn relative_error(light: &ProfileLight) -> f64 {
     let share = light.share();
     if share > 0.0 { light.error / share } else { 0.0 }

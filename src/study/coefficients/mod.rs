@@ -1,24 +1,24 @@
-//! Daylight coefficients: a scene prepared once, so that a new sky or sun is a product of what it sends with what every
-//! sensor makes of it, E = V·T·D·s, interreflection included.
+//! Daylight coefficients: a scene prepared once, so that the light of a new sky or sun is the product of its
+//! luminances with the response of every sensor, E = V·T·D·s, interreflection included.
 //!
-//! | file | what |
+//! | file | content |
 //! | --- | --- |
 //! | `views` | V: sensors by emergent cell |
 //! | `transport` | V·T: sensors by incident direction |
-//! | `described` | the same of systems known by their description |
+//! | `described` | V·T of described systems |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
 //! | `behind`, `sent` | V·T·D behind boxes: columns by luminance |
-//! | `straight` | the outside that is seen straight through |
-//! | `far` | what stands far away: its light, and what it hides |
-//! | `sun_way` | how the very sun comes through a system |
-//! | `beam` | the sun |
+//! | `straight` | the outside seen by regular transmission |
+//! | `far` | distant skyline: its light, and the directions that it hides |
+//! | `sun_way` | transmission of direct sunlight through a system |
+//! | `beam` | light of the sun |
 //!
-//! The sun is the moment's: by the description where there is one, with the beams that are taken out of the data's cells,
-//! or, with `[compute] beam = "cells"`, by the data's own cells or directions.
+//! Direct sunlight is computed for the actual sun position: by the description where there is one, with the beams that
+//! are extracted from the data's cells, or, with `[compute] beam = "cells"`, by the data's own cells or directions.
 //!
-//! Prepared are the room, its apertures and sensors, the systems in their present states and the altitude of the skyline.
-//! A measured sky, constant over patches with jumps between them, and a skyline of another altitude have no fixed
-//! directions that suit them: their light is integrated anew and takes milliseconds.
+//! Prepared are the room, its apertures and sensors, the systems in their current states and the altitude of the
+//! skyline. A measured sky, constant over patches with jumps between them, and a skyline of another altitude have no
+//! fixed directions that suit them: their light is integrated again and takes milliseconds.
 
 mod beam;
 mod behind;
@@ -54,30 +54,30 @@ use std::sync::Arc;
 pub(super) use transport::{SPACING, patches as incident_patches};
 use views::Opening;
 
-/// A prepared scene.
+/// Scene prepared for many skies and suns.
 pub struct Coefficients {
     scene: Scene,
     parts: Vec<AperturePart>,
     behind: Option<Behind>,
     room: Option<Responses>,
-    /// What the room makes of beams, where there may be any.
+    /// Responses of the sensors to beams; `None` where there are no beams.
     landed: Option<Arc<UnitBeams>>,
     directions: f64,
-    /// Data part of the uncertainty, by aperture.
+    /// Data part of the uncertainty, by aperture, as shares of the light.
     data: Vec<DataShare>,
-    /// Suns that will be asked for, as far as is known.
+    /// Expected number of suns; 0 where it is not known.
     suns: usize,
 }
 
 /// Error by prepared obstructions, relative to all light: the bound in the test of [`Prepared`], and a third more.
 const BEHIND: f64 = 4e-3;
-/// Safety on the error of the fixed directions, seen on some skies and stated for others.
+/// Safety factor on the error of the fixed directions, which is measured on a few skies and stated for others.
 const OTHER_SKIES: f64 = 2.0;
 
-/// Altitude of the sun of the steep sky among these. \[rad\]
+/// Altitude of the sun of the steep sky among the trial skies. \[rad\]
 const STEEP: f64 = 0.5;
 
-/// Skies without a ground that fixed directions are tried under: two clear ones, and a steep one.
+/// Returns the skies without ground that fixed directions are tried under: two clear ones, and a steep one.
 fn trial_skies(facade: Bearing) -> Vec<Outside> {
     let under = |of: &dyn Fn(Dir<World>) -> Option<Distribution>, altitude: f64, turn: f64| {
         let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade.radians() + turn));
@@ -94,17 +94,19 @@ fn trial_skies(facade: Bearing) -> Vec<Outside> {
 }
 
 impl Coefficients {
-    /// Prepares a scene. Its own sky and sun do not matter, but for how finely the room is meshed.
+    /// Prepares a scene. Its own sky and sun do not matter, except for how finely the room is meshed.
     ///
-    /// Refuses scenes whose near field is to be done by one of the methods for comparison.
+    /// # Errors
+    /// Returns an error if the scene needs a near-field method other than the solid-angle method, has luminaire files
+    /// or boxes, cannot be computed, or if cancelled.
     pub fn new(session: &Session, scene: &Scene, progress: &dyn Progress) -> Result<Self, StudyError> {
         Self::past(session, scene, None, progress)
     }
 
-    /// Prepares a scene behind obstructions that are prepared already; its own outside names none.
+    /// Prepares a scene behind obstructions that are prepared already; its own outside has none.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Returns the errors of [`Self::new`].
     pub fn past(
         session: &Session,
         scene: &Scene,
@@ -189,8 +191,8 @@ impl Coefficients {
         Ok(())
     }
 
-    /// Largest relative difference between the fixed directions and integrals, on the scene's sky, two clear
-    /// ones and a steep one.
+    /// Returns the largest relative difference between the fixed directions and integrals, on the scene's sky, two
+    /// clear ones and a steep one.
     fn gap_of_directions(&self, session: &Session) -> f64 {
         let around = self.scene.outside.surroundings().map(|around| Arc::new(around.clone()));
         let own = &self.scene.outside;
@@ -213,14 +215,14 @@ impl Coefficients {
         largest
     }
 
-    /// Can it be done by the fixed directions?
+    /// Whether the fixed directions suit an outside.
     fn is_smooth(&self, outside: &Outside) -> bool {
         self.behind.is_some() || !outside.is_piecewise_constant() && far::same(outside, &self.scene.outside)
     }
 
-    /// Keeps in `session`, for all systems, what the hours of a year are on the patches of this one; `year`: a number that
-    /// no other year has, and how many hours there are. They are asked by [`Self::hours_estimate`], about `suns` of them:
-    /// what many suns make may be found between directions, with the error of it.
+    /// Stores in `session`, for all systems, the values of the hours of a year on the patches of this scene. `year`: a
+    /// number that no other year has, and the count of its hours. The hours are computed by [`Self::hours_estimate`],
+    /// with about `suns` suns: the light of many suns may be interpolated between directions, with the error of that.
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize), suns: usize) {
         self.suns = suns;
         let parts = self.parts.iter_mut().enumerate();
@@ -240,18 +242,18 @@ impl Coefficients {
         sums
     }
 
-    /// Diffuse light at every sensor from sky, ground and skyline. \[lx\]
+    /// Computes the diffuse light at every sensor from sky, ground and skyline. \[lx\]
     pub fn sky(&self, outside: &Outside) -> Vec<f64> {
         self.diffuse(outside, self.way(outside))
     }
 
-    /// The same with its error.
+    /// Computes the diffuse light at every sensor with its error. \[lx\]
     pub fn sky_estimate(&self, outside: &Outside) -> Vec<Estimate> {
         self.estimated(&[(outside, self.way(outside))]).swap_remove(0)
     }
 
-    /// The same of hours of the year of [`Self::keep_year`], whose outsides these are: faster for many at once, and the
-    /// same.
+    /// Computes the diffuse light with its error for hours of the year of [`Self::keep_year`], whose outsides these
+    /// are. \[lx\] The results are those of [`Self::sky_estimate`]; many hours together take less time.
     pub fn hours_estimate(&self, hours: &[(usize, &Outside, Option<&Sun>)]) -> Vec<Vec<Estimate>> {
         let way = |&(hour, outside, sun)| {
             (outside, if self.is_smooth(outside) { Way::Hour(hour, sun) } else { Way::Exact(None) })
@@ -284,18 +286,18 @@ impl Coefficients {
         estimates
     }
 
-    /// What the fixed directions cost, relative, at the sensor where they cost most: twice the difference to integrals
-    /// under the scene's sky, two clear ones and a steep one. Part of [`Self::sky_estimate`].
+    /// Returns the relative error of the fixed directions, at the sensor where it is largest: twice the difference to
+    /// integrals under the scene's sky, two clear ones and a steep one. It is part of [`Self::sky_estimate`].
     pub fn error(&self) -> f64 {
         self.directions
     }
 
-    /// Number of sky luminances that a new sky takes.
+    /// Returns the number of luminances that are evaluated for a new sky.
     pub fn evaluations(&self) -> usize {
         self.parts.iter().map(AperturePart::evaluations).sum()
     }
 
-    /// What the mesh leaves besides the difference of its densities, relative to interreflected light.
+    /// Returns the error of the mesh besides the difference of its densities, relative to interreflected light.
     fn rest(&self) -> f64 {
         self.room.as_ref().map_or(0.0, |room| REST / room.radiosity.nested.fine.patches.len() as f64)
     }

@@ -1,5 +1,5 @@
-//! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside that
-//! is seen straight through, by directions of every sensor's own.
+//! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside seen
+//! by regular transmission, by directions chosen for every sensor.
 
 use super::behind::{Behind, Moment, Past, luminances, nodes};
 use super::described::{Described, DescribedViews};
@@ -32,56 +32,57 @@ use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// Maximum number of skies whose sums are found at once.
+/// Maximum number of skies whose sums are computed together.
 pub(crate) const TOGETHER: usize = 128;
-/// Number of skies of which there are as many, or dark ones besides, so that no sky's sums hang on the number of others.
+/// Multiple to which the number of skies is filled up with dark ones, so that no sky's sums depend on the number of
+/// others.
 const COLUMNS: usize = 32;
 
-/// One aperture.
+/// Prepared aperture of a scene.
 pub(super) struct AperturePart {
     sky: Seen,
-    /// What that is in the hours of a year, where it is kept.
+    /// Values of the sky in the hours of a year, where the year is kept.
     year: Option<Arc<SkyYear>>,
-    /// Its sunlit part in these, behind boxes.
+    /// Sunlit part of the aperture in these hours, behind boxes.
     sunlit: Option<Arc<SunlitYear>>,
-    /// Columns for every patch of the sky's samples, one for the ground and one for the skyline; behind boxes for the luminances
-    /// of a moment. Rows of all sensors for all diffuse light but what is seen straight through an aperture before which
-    /// nothing stands, then for what of it is interreflected, the doubt of that, and the doubt of the interpolation where
-    /// there is any: what [`Sums`] holds. Half the digits are 10⁻⁶ of the sums.
+    /// Columns for every patch of the sky's samples, one for the ground and one for the skyline; behind boxes for the
+    /// luminances of a moment. Rows of all sensors for all diffuse light except regular transmission of an aperture
+    /// without obstructions, then for its interreflected part, the uncertainty of that part, and the uncertainty of
+    /// the interpolation where there is any: the fields of [`Sums`]. Single precision is 10⁻⁶ of the sums.
     tables: Mat<f32>,
-    /// What the system does with light.
+    /// Response of the sensors to light scattered by the system.
     pub transport: Transport,
-    /// The regular part.
+    /// Regular transmittance of the system; `None` without one.
     pub regular: Option<AngularTransmittance>,
-    /// How the very sun comes through.
+    /// Method for the transmission of direct sunlight.
     pub sun: SunWay,
-    /// Mean relative gap of flux of the regular part.
+    /// Mean relative gap of flux of regular transmission.
     pub gap: f64,
-    /// Share of the light that frame and dirt leave.
+    /// Transmission factor of frame and dirt, 0–1.
     pub clear: f64,
 }
 
-/// How the outside is seen.
+/// View of the outside from an aperture.
 enum Seen {
-    /// By patches that are the same at all points of an aperture; what is straight, by sensors.
+    /// Patches that are the same at all points of an aperture; regular transmission by sensors.
     Alike {
         patches: Arc<SkyPatches>,
         straight: Vec<StraightView>,
-        /// The moments of what the sensors see in the hours of a year, where they are kept.
+        /// Moments of what the sensors see in the hours of a year, where they are kept.
         year: Option<Arc<SkyYear>>,
     },
-    /// Behind boxes, by luminances.
+    /// Luminances seen past boxes.
     Behind(Arc<Prepared>, Box<Past>),
 }
 
-/// How the light of a sky is found.
+/// Method by which the light of a sky is computed.
 #[derive(Clone, Copy)]
 pub(super) enum Way<'a> {
-    /// By the fixed directions.
+    /// Fixed directions.
     Fixed,
-    /// By the fixed directions, kept for an hour of the year; with its sun.
+    /// Fixed directions with the values of an hour of the year, which are kept; with the sun of that hour.
     Hour(usize, Option<&'a Sun>),
-    /// By integrals; with a session as a trial of the fixed directions, and kept.
+    /// Integrals; with a session: a trial of the fixed directions, whose result is kept.
     Exact(Option<&'a Session>),
 }
 
@@ -92,20 +93,20 @@ impl<'a> Way<'a> {
     }
 }
 
-/// What one sky gives, sensor by sensor.
+/// Light of one sky, sensor by sensor. \[lx\]
 pub(super) struct Sums {
-    /// All.
+    /// All diffuse light.
     pub total: Vec<f64>,
-    /// Interreflected.
+    /// Interreflected part of `total`.
     pub reflected: Vec<f64>,
-    /// Doubt of that.
+    /// Uncertainty of `reflected`.
     pub doubtful: Vec<f64>,
-    /// Doubt of the interpolation, signed.
+    /// Uncertainty of the interpolation, signed.
     pub interpolated: Vec<f64>,
 }
 
 impl Sums {
-    /// Nothing yet at so many sensors.
+    /// Creates sums of no light at `sensors` sensors.
     pub fn dark(sensors: usize) -> Self {
         let dark = || vec![0.0; sensors];
         Self { total: dark(), reflected: dark(), doubtful: dark(), interpolated: dark() }
@@ -120,7 +121,7 @@ impl AperturePart {
         let by_description = described_through(session, scene, index)
             .zip(described.as_ref())
             .map(|((_, through), views)| Described::new(&through.1, views));
-        // What the description answers for is not asked of the data, which need not be there.
+        // Light that the description covers is not computed from the data, which need not exist.
         let nothing = Btdf::default();
         let btdf = if by_description.is_some() { &nothing } else { btdf };
         let (patches, spacing, transport) = match by_description {
@@ -161,7 +162,8 @@ impl AperturePart {
                 let (columns, gap) = columns(opening, &transport, &patches, regular)?;
                 let sky = session.sky_patches(scene, index, patches, spacing);
                 let tables = by_patches(&sky, &columns, scene.sensors.len());
-                // Through an opening every sensor sees another part of the sky, with sharp borders: patches would blur them.
+                // Through an aperture every sensor sees another part of the sky, with sharp borders: patches would
+                // blur them.
                 let constants = regular.map(|_| Constants::of(&scene.outside));
                 let view = |sensor| {
                     let (tau, constants) = regular.zip(constants.as_ref())?;
@@ -184,22 +186,23 @@ impl AperturePart {
         })
     }
 
-    /// May the sun come on as beams?
+    /// Whether the sun's light may leave the aperture as beams.
     pub fn sends_beams(&self) -> bool {
         self.regular.is_some() || !matches!(self.sun, SunWay::Data)
     }
 
-    /// The aperture past boxes, where there are any.
+    /// Returns the aperture's view past boxes; `None` without boxes.
     pub fn past(&self) -> Option<&Past> {
         if let Seen::Behind(_, past) = &self.sky { Some(past) } else { None }
     }
 
-    /// The place of an hour's sunlit part, where the year is kept and something stands before the aperture.
+    /// Returns the store of an hour's sunlit part; `None` where the year is not kept or the aperture has no
+    /// obstructions.
     pub fn sunlit(&self, hour: Option<usize>) -> Option<&OnceLock<SunlitPart>> {
         self.sunlit.as_ref().zip(hour).map(|(year, hour)| &year[hour])
     }
 
-    /// Number of luminances that a new sky costs.
+    /// Returns the number of luminances that are evaluated for a new sky.
     pub fn evaluations(&self) -> usize {
         match &self.sky {
             Seen::Alike { patches, straight, .. } => {
@@ -209,7 +212,8 @@ impl AperturePart {
         }
     }
 
-    /// Keeps in `session` what the hours of a year are on its patches; `year`: its number, and how many hours it has.
+    /// Stores in `session` the values of the hours of a year on the aperture's patches. `year`: its number, and the
+    /// count of its hours.
     pub fn keep_year(&mut self, session: &Session, (scene, index): (&Scene, usize), year: (u64, usize)) {
         self.year = match &mut self.sky {
             Seen::Behind(prepared, _) => {
@@ -226,8 +230,8 @@ impl AperturePart {
         };
     }
 
-    /// Light by the columns of the tables: illuminance through every patch, then the luminances of ground and skyline; behind
-    /// boxes all luminances.
+    /// Returns the light by the columns of the tables: illuminance through every patch, then the luminances of ground
+    /// and skyline; behind boxes all luminances.
     fn light(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
         let sky = match &self.sky {
             Seen::Alike { patches, .. } => patches,
@@ -261,7 +265,7 @@ impl AperturePart {
         e
     }
 
-    /// Adds the diffuse light to what every sensor has.
+    /// Adds the diffuse light at every sensor to `out`. \[lx\]
     pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
         let light: Vec<f32> = self.light(outside, way).into_iter().map(|e| e as f32).collect();
         let mut all = vec![0.0_f32; scene.sensors.len()];
@@ -298,7 +302,7 @@ impl AperturePart {
         }
     }
 
-    /// The same of many skies with all that its error needs.
+    /// Adds the diffuse light of many skies at every sensor, with the values from which its error follows.
     pub fn add_sums(&self, scene: &Scene, index: usize, skies: &[(&Outside, Way<'_>)], sums: &mut [Sums]) {
         for (skies, sums) in skies.chunks(TOGETHER).zip(sums.chunks_mut(TOGETHER)) {
             let columns = skies.len().next_multiple_of(COLUMNS);
@@ -328,7 +332,7 @@ impl AperturePart {
     }
 }
 
-/// Returns an aperture's system if its description answers for the sky, with its transmission of the sky.
+/// Returns the system of an aperture with its transmission of the sky, if its description covers the sky.
 fn described_through<'a>(
     session: &Session,
     scene: &'a Scene,
@@ -338,14 +342,15 @@ fn described_through<'a>(
     Some((very, session.sky_through(very)))
 }
 
-/// Returns light through all patches at the sensors, without direct light of the regular part, and the gap of its flux.
+/// Returns the light at the sensors through all patches, without direct light by regular transmission, and the gap of
+/// its flux.
 fn columns(
     opening: &Opening<'_>,
     transport: &Transport,
     patches: &RingBasis,
     regular: Option<&AngularTransmittance>,
 ) -> Result<(Vec<Column>, f64), StudyError> {
-    // What goes straight to the sensors is found by itself: here is what the room makes of that light.
+    // Direct light by regular transmission is computed separately: these are its interreflections.
     let straight = match (regular, opening.room) {
         (Some(tau), Some(_)) => Some((tau, Views::new(opening, Arc::new(patches.clone()), Want::Reflected)?)),
         _ => None,
@@ -355,7 +360,7 @@ fn columns(
         let cell = patches.cell(p);
         let mut column = transport.through_patch(p, &cell, opening.places());
         if let Some((tau, views)) = &straight {
-            // What goes straight leaves by the patch that it came through, as a luminance even over it.
+            // Regular transmission leaves by the patch that it entered through, as a luminance uniform over it.
             let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
             views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
         }
@@ -365,12 +370,12 @@ fn columns(
     Ok((columns, straight.map_or(0.0, |(_, views)| views.gap)))
 }
 
-/// Returns the tables of an aperture whose points all see the same patches.
+/// Returns the tables of an aperture of which all points see the same patches.
 fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
     let open = sky.samples.cells();
     let width = open.len() + 2;
-    // Only lobes between directions are in doubt of their interpolation: others save the fourth table.
+    // Only lobes between directions have an uncertainty of interpolation: others save the fourth table.
     let doubts = columns.iter().any(|column| !column.doubt.is_empty());
     let rows = places * if doubts { 4 } else { 3 };
     let mut tables = Mat::zeros(rows, width);
@@ -380,7 +385,7 @@ fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     for (to, &p) in open.iter().enumerate() {
         put(to, &mut columns[p].light.iter().chain(&columns[p].doubt).copied());
     }
-    // Both are even, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
+    // Both are uniform, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
     for (to, share) in [(width - 2, &sky.ground), (width - 1, &sky.skyline)] {
         let mut sum = vec![0.0; rows];
         for (column, share) in columns.iter().zip(share) {
@@ -393,14 +398,14 @@ fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     tables
 }
 
-/// What the sensors see of a system known by its description.
+/// Computes the views of a described system's light from the sensors.
 fn described_views(opening: &Opening<'_>, very: &VerySystem) -> Result<DescribedViews, StudyError> {
     let normal = Dir::from_unit(DVec3::Z);
     let bands = very.0.profile_light(normal, Side::Front).map(|light| (light.upright, light.q.len()));
     DescribedViews::new(opening, bands)
 }
 
-/// Accuracy of what is not done by fixed directions.
+/// Relative accuracy of light that is integrated instead of computed by fixed directions.
 const EXACT: f64 = 1e-5;
-/// The same where fixed directions are tried against it, which are off by some 1e-4 and more.
+/// Relative accuracy of integrals that fixed directions are compared with, which are off by some 1e-4 and more.
 const TRIED: f64 = 1e-4;

@@ -17,28 +17,29 @@ use std::sync::Arc;
 /// Cells or bands with their luminance per illuminance. \[1/sr\]
 pub(crate) type Luminances = Vec<(usize, f64)>;
 
-/// The light of all patches.
+/// Emergent light of a system for light through each patch of its incident hemisphere.
 pub(crate) struct Sent {
-    /// Emergent cells.
+    /// Emergent cells of the system.
     pub cells: Arc<RingBasis>,
-    /// Bands of the profile angle, where rows are by these: whether in the horizontal plane, and how many.
+    /// Bands of the profile angle, where rows are by these: whether the angle is in the horizontal plane, and the
+    /// number of bands.
     pub bands: Option<(bool, usize)>,
-    /// Light that many patches share.
+    /// Rows of light that many patches share.
     pub rows: Vec<Luminances>,
-    /// Of every patch.
+    /// Emergent light of every patch.
     pub patches: Vec<Patch>,
 }
 
-/// The light of one patch.
+/// Emergent light of one patch, per illuminance through it.
 #[derive(Default)]
 pub(crate) struct Patch {
-    /// On cells.
+    /// Light by cells.
     pub own: Luminances,
-    /// Rows, with the illuminance that each stands for.
+    /// Rows with the illuminance that each represents.
     pub rows: Vec<(usize, f64)>,
 }
 
-/// Returns cells that are not dark with their values.
+/// Returns the cells that are not dark, with their values.
 pub(super) fn lit(row: &[f64]) -> Luminances {
     row.iter().copied().enumerate().filter(|(_, q)| *q != 0.0).collect()
 }
@@ -49,7 +50,7 @@ impl Sent {
         self.cells.len() + self.bands.map_or(0, |(_, count)| count)
     }
 
-    /// Returns the cell and the band that a direction is seen by, these numbered after the cells.
+    /// Returns the cell and the band of a direction; bands are numbered after the cells.
     pub fn index(&self, through: Dir<Facade>) -> [Option<usize>; 2] {
         let band = |(upright, count)| {
             self.cells.len() + ProfileLight::band(ProfileLight::angle_of(upright, through), count).min(count - 1)
@@ -69,7 +70,7 @@ impl Sent {
         all
     }
 
-    /// Of a described system.
+    /// Creates the light of a described system.
     pub fn described(through: &SkyThrough) -> Self {
         let (bands, rows) = match through.rows() {
             ScatteredRows::None => (None, Vec::new()),
@@ -82,7 +83,8 @@ impl Sent {
         Self { cells: Arc::clone(through.basis()), bands, rows, patches: patches.collect() }
     }
 
-    /// By data, on the patches that suit them ([`super::transport::patches`]); `None` where nothing is scattered.
+    /// Creates the light of a system given by data, on the patches that suit them ([`super::transport::patches`]);
+    /// `None` where nothing is scattered.
     pub fn of_data(session: &Session, btdf: &Btdf, interpolation: Interpolation, patches: &RingBasis) -> Option<Self> {
         let single = |row: usize, share: f64| Patch { own: Vec::new(), rows: vec![(row, share)] };
         let sent = |cells: &RingBasis, rows: Vec<Luminances>, patches: Vec<Patch>| {

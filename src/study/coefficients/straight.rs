@@ -1,6 +1,7 @@
-//! The outside that sensors see straight through a system: by directions of every sensor's own, whose luminances are
-//! taken together as moments over the cosine of incidence. They hang on the opening alone, so that one year of them
-//! serves every system behind it.
+//! Outside that sensors see by regular transmission of a system.
+//!
+//! Directions are chosen for every sensor; their luminances are summed as moments over the cosine of incidence. These
+//! depend on the aperture alone, so that one year of them serves every system behind it.
 
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, World};
@@ -14,37 +15,38 @@ use crate::study::scene::Scene;
 use crate::study::session::far::{self, Constants};
 use std::hash::{Hash, Hasher};
 
-/// Gauss points along each side of a piece of what a sensor sees straight through, at least.
+/// Minimum number of Gauss points along each side of a piece of the outside that a sensor sees by regular
+/// transmission.
 const POINTS: usize = 4;
 
-/// Moments of a sensor, at most. τ(θ) is taken as a polynomial of cosθ of one degree less; what it leaves is at right angles
-/// to all these polynomials, and a sky is nearly one of them: the light behind panes is off by
+/// Maximum number of moments of a sensor. τ(θ) is approximated by a polynomial of cosθ of one degree less; the
+/// remainder is orthogonal to all these polynomials, and a sky is nearly one of them: the light behind panes is off by
 /// 10⁻⁷, by a table of ten angles by 10⁻⁵.
 const MOMENTS: usize = 8;
 
-/// A polynomial whose square sums to less than this share of what its recurrence began with is but rounding.
+/// Share of the initial sum of squares below which a polynomial of the recurrence is only rounding.
 const NOTHING_NEW: f64 = 1e-20;
 
-/// Accuracy of the constant columns.
+/// Relative accuracy of the columns of ground and skyline.
 const RELATIVE: f64 = 1e-7;
 
-/// The outside as one sensor sees it straight through.
+/// Outside as one sensor sees it by regular transmission.
 #[derive(Default)]
 pub(super) struct StraightView {
     directions: Vec<Dir<World>>,
-    /// How many polynomials there are.
+    /// Number of polynomials.
     moments: usize,
-    /// Direction by direction, polynomials that are orthonormal over the sensor's directions, times what the direction
-    /// weighs without the system. \[sr^½\]
+    /// Values of the polynomials, direction by direction: orthonormal over the sensor's directions, times the weight
+    /// of the direction without the system. \[sr^½\]
     functions: Vec<f64>,
-    /// What the system makes of every moment.
+    /// Share of every moment in the illuminance, by the system.
     shares: Vec<f64>,
     ground: f64,
     skyline: f64,
 }
 
 impl StraightView {
-    /// Through an aperture of the scene whose regular part is `tau`.
+    /// Creates the view through an aperture of the scene whose regular transmittance is `tau`.
     pub fn new(
         scene: &Scene,
         index: usize,
@@ -72,7 +74,7 @@ impl StraightView {
         if let Some(skyline) = far::shape(&scene.outside) {
             let open = exact(&constants.even);
             let free = |seen: &Seen| !skyline.covers(seen.direction.vector());
-            // Of an opening of which but a corner shows sky, between the directions, they stand for it.
+            // Of an aperture of which only a corner shows sky, between the directions, all directions represent it.
             if samples.iter().any(free) {
                 samples.retain(free);
             }
@@ -83,7 +85,7 @@ impl StraightView {
         Self { ground, skyline, ..Self::of(&samples, |seen| factor * passed(seen)) }
     }
 
-    /// Of the sky alone; `passed`: what comes through by a direction, per luminance. \[sr\]
+    /// Creates the view of the sky alone; `passed`: returns the light through a direction, per luminance \[sr\].
     fn of(samples: &[Seen], passed: impl Fn(&Seen) -> f64) -> Self {
         let polynomials = orthonormal(samples);
         let share = |p: &Vec<f64>| p.iter().zip(samples).map(|(p, seen)| p * passed(seen)).sum();
@@ -98,17 +100,17 @@ impl StraightView {
         }
     }
 
-    /// Number of luminances that a new sky costs.
+    /// Returns the number of luminances that are evaluated for a new sky.
     pub fn directions(&self) -> usize {
         self.directions.len()
     }
 
-    /// Number of moments.
+    /// Returns the number of moments.
     pub fn moments(&self) -> usize {
         self.moments
     }
 
-    /// Tells this opening from others, whatever the system.
+    /// Feeds a hasher with the values that distinguish this aperture from others, whatever the system.
     pub fn hash(&self, hasher: &mut impl Hasher) {
         self.moments.hash(hasher);
         self.directions.iter().for_each(|d| d.vector().to_array().map(f64::to_bits).hash(hasher));
@@ -126,24 +128,25 @@ impl StraightView {
         }
     }
 
-    /// Illuminance at the sensor; `moments`: of all sensors from this one on, of which its own are taken. \[lx\]
+    /// Returns the illuminance at the sensor. `moments`: those of all sensors from this one on, of which its own are
+    /// consumed. \[lx\]
     pub fn light(&self, outside: &Outside, moments: &mut impl Iterator<Item = f64>) -> f64 {
         let sky: f64 = self.shares.iter().zip(moments).map(|(share, moment)| share * moment).sum();
         sky + self.ground * outside.ground_luminance() + self.skyline * far::luminance(outside)
     }
 }
 
-/// One direction.
+/// Direction in which a sensor sees the outside.
 struct Seen {
     direction: Dir<World>,
-    /// Of incidence on the aperture.
+    /// Cosine of the angle of incidence on the aperture.
     cosine: f64,
     /// Solid angle times the sensor's cosine. \[sr\]
     weight: f64,
 }
 
-/// Polynomials of the cosine of incidence, their values by direction, that are orthonormal over the weights (Stieltjes'
-/// recurrence, each put at right angles to all before it).
+/// Returns polynomials of the cosine of incidence, their values by direction, that are orthonormal over the weights
+/// (Stieltjes' recurrence, each made orthogonal to all before it).
 fn orthonormal(samples: &[Seen]) -> Vec<Vec<f64>> {
     let inner =
         |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).zip(samples).map(|((a, b), s)| a * b * s.weight).sum() };
@@ -167,7 +170,7 @@ fn orthonormal(samples: &[Seen]) -> Vec<Vec<f64>> {
     list
 }
 
-/// The outside through the opening, integrated for one sensor.
+/// Computes the illuminance at one sensor by the outside through the aperture, as an integral. \[lx\]
 pub(super) fn seen_exactly(
     scene: &Scene,
     index: usize,

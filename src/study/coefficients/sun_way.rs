@@ -1,5 +1,5 @@
-//! How the very sun comes through a system: by the description, by beams taken out of the data's cells, or as the data's
-//! own cells and directions have it.
+//! Transmission of direct sunlight through a system: by the description, by beams extracted from the data's cells, or
+//! by the data's own cells and directions.
 
 use super::described::{ByAngle, DescribedViews, Lattice, relative_error};
 use super::views::{Opening, Views, Want};
@@ -12,21 +12,21 @@ use crate::study::system::VerySystem;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// From so many suns on, directions between which they stand are fewer.
+/// Number of suns from which on their light is interpolated between directions, which are fewer than the suns then.
 const MANY: usize = 120;
 
-/// One of the ways.
+/// Method for the transmission of direct sunlight through one aperture.
 pub(super) enum SunWay {
-    /// By the data's own cells or directions, and what they keep apart as regular.
+    /// Cells or directions of the data, with regular transmission as the data separate it.
     Data,
-    /// By the description.
+    /// Description of the system.
     Described(Box<ByDescription>),
-    /// By beams taken out of the data's cells, what is left on these.
+    /// Beams extracted from the data's cells, the remaining light on the cells.
     Peaks(Box<InCells>),
 }
 
-/// A description, and how what it scatters is found for many suns: by the profile angle where that is all, else between
-/// directions.
+/// Description of a system, with the method for its scattered light for many suns: by the profile angle where the
+/// light depends on nothing else, or else interpolated between directions.
 pub(super) struct ByDescription {
     very: VerySystem,
     views: DescribedViews,
@@ -34,33 +34,36 @@ pub(super) struct ByDescription {
     lattice: Lattice,
 }
 
-/// Data on cells with beams in them.
+/// Patch-averaged data with the beams in them.
 pub(super) struct InCells {
     matrix: CellMatrix,
     views: Views,
-    /// Beams, by the incident cell that the sun is in where there are too many cells to look at all of them.
+    /// Beams by incident cell of the sun, where there are too many cells to examine all of them; all others under 0.
     known: Mutex<BTreeMap<usize, Arc<Peaks>>>,
 }
 
-/// What the sun makes behind a system.
+/// Direct sunlight behind a system.
 pub(super) struct SunLight {
-    /// What goes on as beams.
+    /// Light that leaves as beams.
     pub beams: Vec<BeamLight>,
-    /// Luminance of the data's cells by scattered light, where it was found for this very sun. \[cd/m²\]
+    /// Luminance of the data's cells by scattered light, where it was computed for the actual sun position; else
+    /// empty. \[cd/m²\]
     pub cells: Vec<f64>,
-    /// Scattered light at the sensors: a row of values and two of what they hang on, as views have them.
+    /// Scattered light at the sensors: three rows as in [`Views`], all light, its interreflected part and the
+    /// uncertainty of that part. \[lx\]
     pub light: Vec<f64>,
     /// Errors of the scattered light at the sensors. \[lx\]
     pub errors: Vec<f64>,
 }
 
 impl SunWay {
-    /// Is what the data keep apart as regular not among the beams?
+    /// Whether the regular transmission that the data separate is missing among the beams.
     pub const fn leaves_regular(&self) -> bool {
         matches!(self, Self::Peaks(_))
     }
 
-    /// Of one aperture; `bands`: how a described system scatters, where that is by profile angle.
+    /// Chooses the method for one aperture. `described`: model of a described system, its views, and its light by
+    /// profile angle where it scatters by that.
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
@@ -82,8 +85,8 @@ impl SunWay {
         }
     }
 
-    /// The light of the sun that stands before an aperture, one of so many suns; `None` where the data's own cells are to
-    /// be asked.
+    /// Computes the light of a sun in front of an aperture, one of `suns` suns; `None` where the data's own cells are
+    /// to be used.
     pub fn light(&self, facing: &Facing<'_>, suns: usize, sensors: usize) -> Option<SunLight> {
         match self {
             Self::Data => None,
@@ -95,7 +98,7 @@ impl SunWay {
 }
 
 impl ByDescription {
-    /// All of it for this very sun.
+    /// Computes the light at the sensors for the actual sun position, without interpolation.
     fn anew(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
         let through = SunThrough::new(self.very.0.as_ref(), facing);
         let mut sum = SunLight::of(&through, sensors);
@@ -116,7 +119,7 @@ impl ByDescription {
         sum
     }
 
-    /// Beams of this very sun; what is scattered, between known directions.
+    /// Computes beams for the actual sun position and scattered light by interpolation between known directions.
     fn between(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
         let very = self.very.0.as_ref();
         let mut sum = SunLight::of(&SunThrough::beams_alone(very, facing), sensors);
@@ -137,7 +140,7 @@ impl SunLight {
         Self { beams: Vec::new(), cells: Vec::new(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] }
     }
 
-    /// The beams, and nothing scattered yet.
+    /// Creates the light with beams and without scattered light.
     fn of(through: &SunThrough, sensors: usize) -> Self {
         Self { beams: through.beams().to_vec(), ..Self::dark(sensors) }
     }

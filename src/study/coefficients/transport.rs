@@ -1,4 +1,4 @@
-//! V·T: what every sensor receives per illuminance of an aperture from one incident direction or cell.
+//! V·T: light at every sensor per illuminance of an aperture from one incident direction or cell.
 
 use super::described::Described;
 use super::views::{Opening, SensorRows, Views, Want, even};
@@ -14,57 +14,60 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Patches where the system has none of its own. \[rad\]
+/// Size of the patches where the system defines none. \[rad\]
 const PATCH: f64 = 4.5 * PI / 180.0;
-/// Trees of more incident cells are asked by sub-patches instead of their own cells, ...
+/// Maximum number of incident cells of a tree that is evaluated by its own cells; larger ones are evaluated by
+/// sub-patches.
 const TREE_CELLS: usize = 4096;
-/// ... and those of more than this at the middle of each alone.
+/// Maximum number of incident cells of a tree that is evaluated at four points of each; larger ones only at the middle
+/// of each.
 pub(super) const TREE_SAMPLED: usize = 1024;
-/// Sub-patches where the light of lobes is interpolated. \[rad\]
+/// Size of the sub-patches where the light of lobes is interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
-/// Directions in cells that are as wide as a dataset's. \[rad\]
+/// Maximum distance of directions in cells that are as wide as a dataset's. \[rad\]
 pub(crate) const SPACING: f64 = 4.0 * PI / 180.0;
-/// Gauss points for τ across a ring.
+/// Number of Gauss points for τ across a ring.
 pub(super) const ACROSS: usize = 3;
-/// What the straightened cells of a tree cost, relative.
+/// Relative error of a tree by the straightening of its cells into rings.
 const TREE_CELL_ERROR: f64 = 5e-3;
 
-/// What a system does with light, as far as the sensors see it.
+/// Response of the sensors to light scattered by a system.
 pub(super) enum Transport {
-    /// It scatters nothing.
+    /// System that scatters nothing.
     Straight,
-    /// Lambertian: τ, and what an even luminance of 1 gives.
+    /// Lambertian system: τ, and the light at the sensors of a uniform luminance of 1.
     Even(AngularTransmittance, SensorRows),
-    /// An incident cell each.
+    /// Incident cells, with the light at the sensors for each.
     Cells(RingBasis, Vec<SensorRows>),
-    /// The nearest of a list of directions.
+    /// List of directions of which the nearest is used, with the light at the sensors for each.
     Nearest(Arc<Indicatrices>, Vec<SensorRows>),
-    /// Lobes between directions.
+    /// Lobes, interpolated between directions.
     Lobes(Box<Lobes>),
-    /// A tree and its emergent cells.
+    /// Tensor tree and the views of its emergent cells.
     Tree(Box<TensorTree>, Views),
-    /// By the description.
+    /// Described system.
     Described(Box<Described>),
 }
 
-/// Lobes that move: the bases as light at the sensors, the lobes' own cells.
+/// Lobes that move with the incident direction: the fixed bases as light at the sensors, the lobes by their cells.
 pub(super) struct Lobes {
     interpolator: Arc<Interpolator>,
     bases: Vec<SensorRows>,
     views: Views,
-    /// On the finer cells for the sun; none where the data's own are as good.
+    /// Views of the finer cells for the sun; `None` where the data's own are as good.
     fine: Option<Views>,
 }
 
-/// What light through a direction gives, per lux on the aperture.
+/// Light at the sensors from one incident direction, per illuminance of the aperture. \[lx/lx\]
 pub(super) struct Column {
-    /// Three rows, see [`SensorRows`].
+    /// Light in three rows, see [`SensorRows`].
     pub light: SensorRows,
-    /// What a simpler interpolation would add, signed; empty where there is none.
+    /// Difference of a simpler interpolation, signed; empty where there is none.
     pub doubt: Vec<f64>,
 }
 
-/// The division of the incident hemisphere that suits a system, and how far apart directions in it may stand. \[rad\]
+/// Returns the division of the incident hemisphere that suits a system, and the maximum distance of directions in it.
+/// \[rad\]
 pub(crate) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
     match &btdf.scattered {
         None | Some(Scattered::Lambert(_)) => (sub_patches(PATCH), SPACING),
@@ -80,13 +83,13 @@ pub(crate) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, 
     }
 }
 
-/// A direction in a cell: shares of its range of sin²θ and of its width.
+/// Returns a direction in a cell, given by shares of its range of sin²θ and of its width.
 pub(super) fn within(cell: &Cell, (s, t): (f64, f64)) -> Dir<Facade> {
     let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width)
 }
 
-/// The light at the sensors by every row of a system's data.
+/// Computes the light at the sensors for every row of a system's data.
 fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -> Vec<SensorRows> {
     let light = |i: usize| {
         let mut light = vec![0.0; views.width()];
@@ -97,7 +100,7 @@ fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -
 }
 
 impl Transport {
-    /// Of one aperture's system.
+    /// Computes the response of the sensors to one aperture's system.
     pub fn new(opening: &Opening<'_>, btdf: &Btdf) -> Result<Self, StudyError> {
         let Opening { session, scene, .. } = *opening;
         let views = |basis: &RingBasis, want: Want| Views::new(opening, Arc::new(basis.clone()), want);
@@ -107,8 +110,8 @@ impl Transport {
             Some(Scattered::Cells(matrix)) => {
                 let matrix: &CellMatrix = matrix;
                 let views = views(matrix.emergent(), Want::All)?;
-                // An incident cell is the same all over: its light at the sensors is all that is ever asked, so the
-                // views may go.
+                // An incident cell is the same all over: only its light at the sensors is needed, so that the views
+                // may be dropped.
                 let columns = lights(&views, matrix.incident().len(), |i| matrix.row(i).into_owned());
                 Self::Cells(matrix.incident().clone(), columns)
             }
@@ -121,7 +124,7 @@ impl Transport {
                 let interpolator = session.interpolator(data);
                 let (own, sun) = (interpolator.model().grid().basis(), interpolator.sun_grid().basis());
                 let views_of_data = views(own, Want::All)?;
-                // What stays where it is for all incidences is light at once; lobes move with the sun and need the
+                // Light that does not move with incidence is summed at once; lobes move with the sun and need the
                 // views.
                 let bases = lights(&views_of_data, data.incident().len(), |i| interpolator.model().base(i));
                 // A narrow lobe of the sun would jump between the data's cells. For the finer ones the sum is enough:
@@ -129,12 +132,12 @@ impl Transport {
                 let fine = if sun == own { None } else { Some(views(sun, Want::Sum)?) };
                 Self::Lobes(Box::new(Lobes { interpolator, bases, views: views_of_data, fine }))
             }
-            // Trees have too many cells for a row each to be kept: theirs are made when a direction is asked for.
+            // Trees have too many cells for a row each to be kept: theirs are computed when a direction is needed.
             Some(Scattered::Tree(tree)) => Self::Tree(tree.clone(), views(&tree.incident_grid().rings(), Want::All)?),
         })
     }
 
-    /// Error of the light, relative.
+    /// Returns the relative error of the light.
     pub fn relative_error(&self) -> f64 {
         match self {
             Self::Lobes(_) => REST,
@@ -144,12 +147,12 @@ impl Transport {
         }
     }
 
-    /// Do its columns contain the uncertainty on patches?
+    /// Whether the columns contain the uncertainty of the diffuse light on the data's patches.
     pub fn estimates_uncertainty(&self) -> bool {
         matches!(self, Self::Lobes(_))
     }
 
-    /// Light through a patch of [`patches`].
+    /// Computes the light through a patch of [`patches`].
     pub fn through_patch(&self, index: usize, cell: &Cell, sensors: usize) -> Column {
         match self {
             Self::Even(tau, even) => {
@@ -172,7 +175,7 @@ impl Transport {
         }
     }
 
-    /// Light from one direction, the sun's.
+    /// Computes the light from one direction, the sun's.
     pub fn for_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
         match self {
             Self::Straight => Column::dark(sensors),
@@ -196,7 +199,8 @@ impl Transport {
         }
     }
 
-    /// The sun's light: as [`Self::for_direction`], lobes on finer cells. The first row alone is as good as it gets.
+    /// Adds the light of the sun like [`Self::for_direction`], but with lobes on finer cells, where only the first row
+    /// is computed.
     pub fn sun(&self, d: Dir<Facade>, sensors: usize, out: &mut [f64], illuminance: f64) {
         match self {
             Self::Lobes(lobes) if lobes.fine.is_some() => lobes.sun(d, out, illuminance),
@@ -249,7 +253,7 @@ impl Lobes {
     }
 }
 
-/// Points a side of a cell at which a lobe of the sun is taken.
+/// Number of points along each side of a cell at which a lobe of the sun is evaluated.
 const SUN_POINTS: usize = 2;
 
 impl Column {

@@ -1,4 +1,4 @@
-//! V: what every sensor receives per luminance of every emergent cell of an aperture, directly and through the room.
+//! V: light at every sensor per luminance of every emergent cell of an aperture, directly and through the room.
 
 use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::dot::add_scaled;
@@ -15,39 +15,39 @@ use crate::study::session::responses::{Reflected, Responses};
 use crate::study::session::seen_cells::SeenCells;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Three rows of one number a sensor, one behind the other: all light, the interreflected part of it, and what that part
-/// is in doubt by.
+/// Three rows of one number per sensor, one after the other: all light, its interreflected part, and the uncertainty
+/// of that part.
 pub(super) type SensorRows = Vec<f64>;
 
-/// Divisions into bands of which it is kept how they lie in cells; the oldest goes first.
+/// Maximum number of divisions into bands whose shares in cells are kept; the oldest is dropped.
 const MOST_BANDS: usize = 4;
 
-/// Values of every cell.
+/// Light at the sensors per luminance of every cell of a basis.
 pub(super) struct Views {
     width: usize,
     sensors: usize,
-    /// What comes straight; the same for all systems.
+    /// Direct light, the same for all systems.
     straight: Option<Arc<SeenCells>>,
-    /// What the room makes of it.
+    /// Interreflected light; `None` without interreflection.
     reflected: Option<Reflections>,
-    /// Mean relative gap of flux that was closed.
+    /// Mean relative gap of flux before it was closed.
     pub gap: f64,
 }
 
-/// What the room makes of the light of cells.
+/// Interreflected light per luminance of cells.
 struct Reflections {
-    /// Sensor by sensor the light, and where all rows are wanted its doubts, cell by cell.
+    /// Light sensor by sensor, followed by its uncertainties where all rows are requested; cell by cell.
     rows: Vec<f32>,
     width: usize,
-    /// How those cells follow from the basis', where these are too many for the room's patches.
+    /// Rule by which these cells follow from those of the basis, where these are too many for the room's patches.
     merging: Option<Merging>,
 }
 
-/// From many cells to those that a room can tell apart.
+/// Merging of many cells into those that a room can distinguish.
 struct Merging {
     onto: Arc<Resampling>,
     cells: usize,
-    /// Cell by cell the merged ones, with what each gets of its luminance; found when single cells are asked for.
+    /// Merged cells of each cell, with their shares of its luminance; computed when single cells are requested.
     by_cell: OnceLock<Vec<Vec<(usize, f64)>>>,
 }
 
@@ -64,14 +64,14 @@ impl Merging {
     }
 }
 
-/// What of the light is wanted.
+/// Requested rows of the light.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Want {
-    /// All of it, as a [`SensorRows`].
+    /// All light as a [`SensorRows`].
     All,
-    /// Its first row alone.
+    /// First row of the [`SensorRows`] alone.
     Sum,
-    /// As a [`SensorRows`], without what comes straight.
+    /// Interreflected light as a [`SensorRows`], without direct light.
     Reflected,
 }
 
@@ -82,23 +82,23 @@ pub(super) struct Opening<'a> {
     pub scene: &'a Scene,
     /// Number of the aperture, from 0.
     pub index: usize,
-    /// Where there is interreflection.
+    /// Responses of the room; `None` without interreflection.
     pub room: Option<&'a Responses>,
-    /// With nodes, node by node what the room makes of light that is 1 at one of them and 0 at the others; nothing is seen
-    /// straight then.
+    /// Nodes of the aperture: if given, interreflected light is computed node by node, for light that is 1 at one of
+    /// them and 0 at the others, without direct light.
     pub nodes: Option<&'a Nodes>,
     pub progress: &'a dyn Progress,
 }
 
 impl Opening<'_> {
-    /// Number of sensors, times that of nodes: node by node, sensor by sensor.
+    /// Returns the number of sensors times that of nodes; the order is node by node, sensor by sensor.
     pub fn places(&self) -> usize {
         self.scene.sensors.len() * self.nodes.map_or(1, Nodes::count)
     }
 }
 
 impl Views {
-    /// Of the cells of a basis.
+    /// Computes the light of the cells of a basis.
     pub fn new(opening: &Opening<'_>, basis: Arc<RingBasis>, want: Want) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, nodes, progress } = *opening;
         let sensors = opening.places();
@@ -129,7 +129,8 @@ impl Views {
         Ok(Self { width, sensors, straight, reflected, gap })
     }
 
-    /// Of the bands of a profile angle instead of cells: upright or not, and how many.
+    /// Computes the light of bands of the profile angle instead of cells. `upright`: whether the angle is in the
+    /// horizontal plane; `bands`: their number.
     pub fn of_bands(opening: &Opening<'_>, (upright, bands): (bool, usize)) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, nodes, progress } = *opening;
         let sensors = opening.places();
@@ -160,12 +161,12 @@ impl Views {
         Ok(Self { width: 3 * sensors, sensors, straight, reflected, gap })
     }
 
-    /// Numbers of the light of a cell.
+    /// Returns the count of numbers per cell.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Adds a cell of some luminance.
+    /// Adds the light of a cell of the given luminance.
     pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
         if let Some(straight) = &self.straight {
             straight.add(cell, luminance, out);
@@ -182,7 +183,7 @@ impl Views {
         }
     }
 
-    /// Adds an indicatrix; one without values is dark.
+    /// Adds the light of an indicatrix, luminances of all cells; one without values is dark.
     pub fn add_all(&self, luminance: &[f64], out: &mut [f64]) {
         if let Some(straight) = &self.straight {
             for (cell, &l) in luminance.iter().enumerate().filter(|(_, l)| **l != 0.0) {
@@ -199,7 +200,7 @@ impl Views {
         self.add_reflected(&sum, 1.0, out);
     }
 
-    /// A row of what the room makes of light, to all light and by itself.
+    /// Adds a row of interreflected light to all light and to the interreflected part.
     fn add_reflected<T: Copy + Into<f64>>(&self, row: &[T], factor: f64, out: &mut [f64]) {
         add_scaled(&mut out[..self.sensors], row, factor);
         if self.width > self.sensors {
@@ -208,10 +209,11 @@ impl Views {
     }
 }
 
-/// For every merged cell the bands that its mean is made of, with their shares.
+/// Bands that the mean of every merged cell consists of, with their shares.
 type BandShares = Vec<Vec<(usize, f64)>>;
 
-/// The same for all systems and states that scatter by so many bands.
+/// Returns the shares of `bands` bands in every merged cell, which are the same for all systems and states; computed
+/// or kept.
 fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
     type Known = ((bool, usize), Arc<BandShares>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
@@ -228,7 +230,7 @@ fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
     made
 }
 
-/// The light of an aperture of even luminance 1.
+/// Computes the light at the sensors of an aperture of uniform luminance 1.
 pub(super) fn even(opening: &Opening<'_>) -> Result<SensorRows, StudyError> {
     let Opening { session, scene, index, room, nodes, progress } = *opening;
     let places = opening.places();

@@ -1,10 +1,10 @@
-//! A candidate as the scene that it is.
+//! Scene of a candidate.
 
 use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
 use crate::study::scene_words;
 use crate::texts::words as texts;
 
-/// The scene of a candidate: what its keys do not say is as in `scene`. It has no candidates of its own.
+/// Returns the scene of a candidate: parts that its keys do not name are as in `scene`. It has no candidates itself.
 pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
     let CompareKeys { name: _, system, control, sky, site, room, aperture, sensors } = keys;
     let mut scene = SceneFile { compare: Vec::new(), ..scene.clone() };
@@ -34,7 +34,7 @@ pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
     scene
 }
 
-/// Do two scenes ask for the same light? What is compared does not count.
+/// Whether two scenes have the same input of the light. Their comparison lists do not count.
 pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
     let SceneFile {
         room,
@@ -55,7 +55,7 @@ pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
         && (sensors, control) == (&b.sensors, &b.control)
 }
 
-/// What a candidate is called: its own name, else that of its system.
+/// Returns the name of a candidate: its given name, else that of its system.
 pub fn label(keys: &CompareKeys) -> String {
     if !keys.name.trim().is_empty() {
         return keys.name.trim().to_owned();

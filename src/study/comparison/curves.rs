@@ -25,7 +25,8 @@ fn plot(x: Axis, name: &str, unit: &'static str, mut series: Vec<Series>) -> Plo
     Plot { x, y: Axis::linear([low, high + reach], name, Unit::Named(unit)), series, guides: Vec::new() }
 }
 
-/// Scattered luminous intensity against γ in the planes C0–C180 and C90–C270; γ counts negative towards C180 and C270.
+/// Returns the plots of scattered luminous intensity against γ in the planes C0–C180 and C90–C270; γ counts negative
+/// towards C180 and C270.
 pub fn of_lids(list: &[(String, &Lid)]) -> [Plot; 2] {
     [0.0_f64, 90.0].map(|c| {
         let series = list.iter().map(|(name, lid)| {
@@ -43,18 +44,18 @@ pub fn of_lids(list: &[(String, &Lid)]) -> [Plot; 2] {
     })
 }
 
-/// A room's sensors on a grid.
+/// Sensors of a room on a grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Grid<'a> {
     /// Depth of the room. \[m\]
     pub depth: f64,
-    /// Sensors along x and y.
+    /// Number of sensors along x and y.
     pub count: [usize; 2],
     /// Illuminances, x running fastest. \[lx\]
     pub values: &'a [Estimate],
 }
 
-/// Illuminance along the depth in the middle row of sensors, with the band of its errors.
+/// Returns the plot of illuminance along the depth in the middle row of sensors, with the band of its errors.
 pub fn of_rooms(list: &[(String, Grid<'_>)]) -> Plot {
     let series = list.iter().map(|(name, grid)| {
         let [nx, ny] = grid.count;
@@ -70,7 +71,8 @@ pub fn of_rooms(list: &[(String, Grid<'_>)]) -> Plot {
     Plot { guides: guides.into(), ..plot(axis, texts::E_MIDDLE_ROW.get(), "lx", series.collect()) }
 }
 
-/// Transmittance for light in the vertical plane through the normal, from straight up to straight down.
+/// Returns the plot of transmittance for light in the vertical plane through the normal, from straight up to straight
+/// down.
 pub fn of_transmittances(list: &[(String, &Btdf)]) -> Plot {
     let series = list.iter().map(|(name, btdf)| {
         let at = |angle: i32| {
@@ -83,7 +85,7 @@ pub fn of_transmittances(list: &[(String, &Btdf)]) -> Plot {
     plot(Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees), "τ", "", series.collect())
 }
 
-/// What control asks for against the profile angle of the sun.
+/// Returns the plot of the state that the control requires against the profile angle of the sun.
 pub fn of_controls(list: &[(String, Vec<[f64; 2]>)]) -> Plot {
     let series = list.iter().map(|(name, curve)| Series::line(name.as_str(), curve.iter().copied()));
     plot(Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees), texts::STATE.get(), "°", series.collect())

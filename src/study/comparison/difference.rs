@@ -1,4 +1,4 @@
-//! Differences with sign: of illuminances sensor by sensor, of luminance coefficients and transmittances on common cells.
+//! Signed differences of illuminances by sensor, and of luminance coefficients and transmittances on common patches.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Btdf;
@@ -8,10 +8,11 @@ use crate::drawing::colours::{ColourMap, ColourScale};
 use crate::drawing::hemisphere::Side;
 use crate::drawing::ticks::fine_ceil;
 
-/// Rings of the cells that differences are taken on; fine enough for Klems data and what was refined of it.
+/// Number of rings of the patches that differences are taken on; fine enough for Klems data and refinements of them.
 const RINGS: usize = 24;
 
-/// Illuminances less those of the base, sensor by sensor, errors added; `None` where the sensors are not the same. \[lx\]
+/// Returns the illuminances minus those of the reference, sensor by sensor, with errors added; `None` if the sensors
+/// are not the same. \[lx\]
 pub fn of_rooms(
     [positions, base_positions]: [&[[f64; 3]]; 2],
     [room, base]: [&[Estimate]; 2],
@@ -24,16 +25,16 @@ pub fn of_rooms(
     })
 }
 
-/// Differences on cells of the hemisphere of through-names.
+/// Differences on patches of the hemisphere of through directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnCells {
-    /// The cells.
+    /// Basis of the patches.
     pub basis: RingBasis,
-    /// A value for each, at its centre.
+    /// Value at the centre of each patch.
     pub values: Vec<f64>,
 }
 
-/// Luminance coefficients q of the scattered light of one incidence, less those of the base. \[1/sr\]
+/// Returns the luminance coefficients q of the scattered light of one incidence, minus those of the reference. \[1/sr\]
 pub fn of_q(btdf: &Btdf, base: &Btdf, incident: Incident) -> OnCells {
     let basis = RingBasis::equal_area(RINGS);
     let at = |emergent: Emergent| btdf.q(incident, emergent) - base.q(incident, emergent);
@@ -41,7 +42,7 @@ pub fn of_q(btdf: &Btdf, base: &Btdf, incident: Incident) -> OnCells {
     OnCells { basis, values }
 }
 
-/// Transmittances by incident direction, less those of the base.
+/// Returns the transmittances by incident direction, minus those of the reference.
 pub fn of_tau(btdf: &Btdf, base: &Btdf) -> OnCells {
     let basis = RingBasis::equal_area(RINGS);
     let at = |incident: Incident| btdf.tau(incident) - base.tau(incident);
@@ -49,29 +50,29 @@ pub fn of_tau(btdf: &Btdf, base: &Btdf) -> OnCells {
     OnCells { basis, values }
 }
 
-/// What differs.
+/// Picture of a difference.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Picture {
     /// Illuminances at the sensors, x running fastest. \[lx\]
     Plan {
         /// Width and depth of the room. \[m\]
         room: [f64; 2],
-        /// Sensors along x and y.
+        /// Number of sensors along x and y.
         count: [usize; 2],
-        /// Candidate less base, errors added.
+        /// Candidate minus reference, with errors added.
         values: Vec<Estimate>,
     },
-    /// Luminance coefficients by where light goes \[1/sr\], or transmittances by where it comes from.
+    /// Luminance coefficients by emergent direction \[1/sr\], or transmittances by incident direction.
     Disk {
-        /// Which.
+        /// Side of the directions: emergent or incident.
         side: Side,
-        /// Candidate less base.
+        /// Candidate minus reference.
         cells: OnCells,
     },
 }
 
 impl Picture {
-    /// The largest difference, either way.
+    /// Returns the largest absolute difference.
     pub fn reach(&self) -> f64 {
         let largest = |values: &mut dyn Iterator<Item = f64>| {
             values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
@@ -82,7 +83,7 @@ impl Picture {
         }
     }
 
-    /// Name and unit of what differs.
+    /// Returns name and unit of the difference.
     pub const fn quantity(&self) -> [&'static str; 2] {
         match self {
             Self::Plan { .. } => ["ΔE", "lx"],
@@ -92,7 +93,7 @@ impl Picture {
     }
 }
 
-/// One scale for all differences of a quantity, as far down as up.
+/// Returns the common scale of all differences of a quantity, symmetric about zero.
 pub fn scale(reach: f64) -> ColourScale {
     let hi = fine_ceil(reach.max(1e-6));
     ColourScale { lo: -hi, hi, log: false, map: ColourMap::Diverging }

@@ -1,5 +1,4 @@
-//! The figures by which candidates are compared: what each is made of, its unit, how far it may be off, and which way is
-//! better.
+//! Figures by which candidates are compared: definition, unit, error, and whether more or less is better.
 //!
 //! Errors of illuminances and flux are those that the study states. Figures of the data have the error that the data
 //! state ([`stated_error`]); measured data state none, and none is made up for them.
@@ -11,12 +10,12 @@ use crate::compute::lid::c_gamma::Peaks;
 use crate::drawing::ticks::number;
 use crate::texts::{Text, compare as texts, fixed};
 
-/// A figure's value and how far it may be off, both in the figure's unit.
+/// Value of a figure with its error, both in the figure's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Value {
-    /// The value.
+    /// Value of the figure.
     pub value: f64,
-    /// Absolute error; `None` where nobody states one.
+    /// Absolute error; `None` if it is not stated.
     pub error: Option<f64>,
 }
 
@@ -27,7 +26,7 @@ impl From<Estimate> for Value {
 }
 
 impl Value {
-    /// With its error, both as far as two digits of the error reach.
+    /// Formats the value with its error, both to two digits of the error.
     pub fn words(self) -> String {
         let Self { value, error } = self;
         match error.filter(|error| *error > 0.0 && error.is_finite()) {
@@ -40,19 +39,19 @@ impl Value {
     }
 }
 
-/// Which way is better.
+/// Direction in which a figure is better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
     /// More is better.
     More,
     /// Less is better.
     Less,
-    /// Neither: it depends on what is wanted.
+    /// Neither: it depends on the aim of the design.
     Aim,
 }
 
 impl Sense {
-    /// In words.
+    /// Returns the label of the direction.
     pub const fn words(self) -> Text {
         match self {
             Self::More => texts::MORE,
@@ -62,21 +61,21 @@ impl Sense {
     }
 }
 
-/// What the data say by themselves.
+/// Figures of the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DataFacts {
     /// Visible transmittance at normal incidence.
     pub tau_normal: f64,
-    /// The same under uniform luminance.
+    /// Visible hemispherical transmittance.
     pub tau_hemispherical: f64,
-    /// Where light goes.
+    /// Figures of the distribution of transmitted light.
     pub light: LightFigures,
-    /// How far transmittances may be off, where the data state it.
+    /// Absolute error of transmittances; `None` if the data do not state it.
     pub error: Option<f64>,
 }
 
 impl DataFacts {
-    /// Of a dataset; `None` without a transmission.
+    /// Returns the figures of a dataset; `None` without transmission.
     pub fn of(dataset: &Dataset) -> Option<Self> {
         let transmission = dataset.transmission()?;
         Some(Self {
@@ -88,44 +87,44 @@ impl DataFacts {
     }
 }
 
-/// What is known of an aperture's light.
+/// Results of an aperture's light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LidFacts {
-    /// All its flux. \[lm\]
+    /// Total luminous flux. \[lm\]
     pub flux: Estimate,
-    /// Its largest intensities.
+    /// Largest luminous intensities.
     pub peaks: Option<Peaks>,
 }
 
-/// What is known of a candidate, as far as it was computed.
+/// Computed results of a candidate; `None` for what was not computed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Facts {
-    /// Of the first aperture's data.
+    /// Figures of the first aperture's data.
     pub data: Option<DataFacts>,
-    /// Of the first aperture's light.
+    /// Results of the first aperture's light.
     pub lid: Option<LidFacts>,
     /// Illuminance at the sensors. \[lx\]
     pub room: Option<Vec<Estimate>>,
 }
 
-/// A figure.
+/// Definition of a figure.
 #[derive(Debug, Clone, Copy)]
 pub struct Figure {
-    /// The word in files.
+    /// Key of the figure in files.
     pub key: &'static str,
-    /// In words, sentence case.
+    /// Label, in sentence case.
     pub name: Text,
     /// Unit; empty for shares of one.
     pub unit: &'static str,
-    /// Which way is better.
+    /// Direction in which the figure is better.
     pub sense: Sense,
-    /// What it is, and why this way is better.
+    /// Definition of the figure, and why this direction is better.
     pub tip: Text,
-    /// From what is known; `None` where that does not tell it.
+    /// Computes the value from the results; `None` if these are not sufficient.
     pub of: fn(&Facts) -> Option<Value>,
 }
 
-/// Illuminance that EN 17037 asks for over half of a room at least. \[lx\]
+/// Minimum illuminance over half of a room by EN 17037. \[lx\]
 const TARGET: f64 = 300.0;
 
 fn data(facts: &Facts, of: impl FnOnce(&DataFacts) -> f64) -> Option<Value> {
@@ -134,7 +133,7 @@ fn data(facts: &Facts, of: impl FnOnce(&DataFacts) -> f64) -> Option<Value> {
 
 fn ceiling(facts: &Facts) -> Option<Value> {
     let data = facts.data.as_ref()?;
-    // A share of what is transmitted: numerator and denominator may each be off by the error of a transmittance.
+    // The figure is a share of transmitted light: numerator and denominator may each have the error of a transmittance.
     let error = data.error.map(|error| 2.0 * error / data.tau_hemispherical.max(error));
     Some(Value { value: data.light.to_ceiling?, error: error.map(|error| if error.is_finite() { error } else { 0.0 }) })
 }
@@ -148,7 +147,7 @@ fn mean(room: &[Estimate]) -> Estimate {
     room.iter().copied().sum::<Estimate>() * (1.0 / room.len() as f64)
 }
 
-/// The least (or, with `sign` −1, the greatest) of values, and the reach of what it can be.
+/// Returns the minimum of values (with `sign` −1 the maximum), with its uncertainty.
 fn least(room: &[Estimate], sign: f64) -> Estimate {
     let of = |shift: f64| room.iter().map(|one| sign * one.value + shift * one.error).fold(f64::INFINITY, f64::min);
     let (value, low, high) = (of(0.0), of(-1.0), of(1.0));

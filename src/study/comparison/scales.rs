@@ -1,4 +1,4 @@
-//! One scale for the same tile of several candidates: its lowest and highest value, in the tile's unit.
+//! Common scales for the same tile of several candidates: minimum and maximum value, in the tile's unit.
 
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
@@ -10,7 +10,7 @@ use crate::compute::sky::Outside;
 use crate::drawing::colours::{ColourMap, ColourScale};
 use crate::drawing::ticks::fine_ceil;
 
-/// Lowest and highest value; `None` before there is any light.
+/// Minimum and maximum value; `None` without any light.
 pub type Range = Option<[f64; 2]>;
 
 fn positive(values: impl Iterator<Item = f64>) -> Option<f64> {
@@ -18,7 +18,8 @@ fn positive(values: impl Iterator<Item = f64>) -> Option<f64> {
     (greatest > 0.0).then_some(greatest)
 }
 
-/// Luminance coefficients of scattered light, each dataset at its incidence: three decades. \[1/sr\]
+/// Returns the scale of luminance coefficients of scattered light, each dataset at its incidence: three decades.
+/// \[1/sr\]
 pub fn of_q<'a>(list: impl Iterator<Item = (&'a Btdf, Incident)>) -> Range {
     let greatest = |(btdf, incident): (&Btdf, Incident)| {
         btdf.indicatrix(incident).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max))
@@ -27,14 +28,14 @@ pub fn of_q<'a>(list: impl Iterator<Item = (&'a Btdf, Incident)>) -> Range {
     Some([scale.lo, scale.hi])
 }
 
-/// Transmittances over the hemisphere.
+/// Returns the scale of transmittances over the hemisphere.
 pub fn of_tau<'a>(list: impl Iterator<Item = &'a Btdf>) -> Range {
     let basis = RingBasis::equal_area(16);
     let greatest = |btdf: &Btdf| basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max);
     Some([0.0, fine_ceil(positive(list.map(greatest))?)])
 }
 
-/// Scattered intensities, on a raster of directions. \[cd\]
+/// Returns the scale of scattered intensities, on a raster of directions. \[cd\]
 pub fn of_lids<'a>(list: impl Iterator<Item = &'a Lid>) -> Range {
     let greatest = |lid: &Lid| {
         let aim = Aim::of(lid.surface);
@@ -46,12 +47,12 @@ pub fn of_lids<'a>(list: impl Iterator<Item = &'a Lid>) -> Range {
     Some([0.0, positive(list.map(greatest))?])
 }
 
-/// Illuminances. \[lx\]
+/// Returns the scale of illuminances. \[lx\]
 pub fn of_illuminances(list: impl Iterator<Item = f64>) -> Range {
     Some([0.0, fine_ceil(positive(list)?)])
 }
 
-/// Luminances of skies, the dark left out: logarithmic. \[cd/m²\]
+/// Returns the logarithmic scale of sky luminances; zero is left out. \[cd/m²\]
 pub fn of_skies<'a>(list: impl Iterator<Item = &'a Outside>) -> Range {
     let mut range = [f64::INFINITY, 0.0_f64];
     for outside in list {

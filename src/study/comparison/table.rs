@@ -1,36 +1,36 @@
-//! Figures of several candidates side by side, and which is the better one: only where the difference is larger than the
-//! errors together.
+//! Table of the figures of several candidates. A candidate is better only if the difference is larger than the sum of
+//! the errors.
 
 use super::figures::{Facts, Figure, Sense, Value};
 use crate::texts::{Language, compare as texts, csv_cell, speak};
 
-/// What a row says of its values.
+/// Outcome of the comparison of a row's values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// Better than all others, by more than the errors together; several where they do not differ among themselves.
+    /// Better than all others by more than the sum of the errors; several if they do not differ from each other.
     Better(Vec<usize>),
-    /// No difference is larger than the errors together.
+    /// No difference is larger than the sum of the errors.
     Within,
-    /// No way is better by itself.
+    /// Neither direction is better by itself.
     Aim,
-    /// They differ, but an error is not stated.
+    /// The values differ, but an error is not stated.
     Unstated,
-    /// Fewer than two are known.
+    /// Fewer than two values are known.
     Alone,
 }
 
-/// A figure of all candidates.
+/// One figure of all candidates.
 #[derive(Debug, Clone)]
 pub struct Row {
-    /// Which.
+    /// Definition of the figure.
     pub figure: Figure,
-    /// In the order of the candidates; `None` where it is not known.
+    /// Values in the order of the candidates; `None` if a value is not known.
     pub values: Vec<Option<Value>>,
-    /// Which is better.
+    /// Outcome of the comparison.
     pub verdict: Verdict,
 }
 
-/// Figures of candidates side by side.
+/// Returns the figures of the candidates, one row per figure.
 pub fn compare(figures: &[Figure], candidates: &[&Facts]) -> Vec<Row> {
     let row = |figure: &Figure| {
         let values: Vec<Option<Value>> = candidates.iter().map(|facts| (figure.of)(facts)).collect();
@@ -40,7 +40,7 @@ pub fn compare(figures: &[Figure], candidates: &[&Facts]) -> Vec<Row> {
     figures.iter().map(row).collect()
 }
 
-/// Which of several values is better.
+/// Determines which of several values is better.
 pub fn judge(sense: Sense, values: &[Option<Value>]) -> Verdict {
     let sign = match sense {
         Sense::More => 1.0,
@@ -60,7 +60,7 @@ pub fn judge(sense: Sense, values: &[Option<Value>]) -> Verdict {
     if tied.len() == known.len() { Verdict::Within } else { Verdict::Better(tied) }
 }
 
-/// A verdict in words; `names` are those of the candidates.
+/// Formats an outcome; `names`: of the candidates.
 pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
     match verdict {
         Verdict::Better(list) => {
@@ -74,8 +74,8 @@ pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
     }
 }
 
-/// The rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`; its words are English, as in
-/// all data files.
+/// Returns the rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`. Its words are
+/// English, as in all data files.
 pub fn csv(rows: &[Row], names: &[String]) -> String {
     let _english = speak(Language::English);
     let mut out = String::from("figure,unit,better_is");

@@ -1,4 +1,5 @@
-//! What a control needs to know of a product: its states with their numbers, its curve, and the section of its slats.
+//! Properties of a product that a control needs: its states with their numbers, its curve, and the section of its
+//! slats.
 
 use super::super::error::StudyError;
 use super::keys::SlatKeys;
@@ -8,28 +9,28 @@ use crate::compute::system::slats::SlatProfile;
 use crate::formats::system_toml::SystemFile;
 use crate::study::scene_file::FamilyState;
 
-/// A device that a controller can set.
+/// Device with states that a controller can set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Device {
     /// Key of the product, for messages.
     pub name: String,
     /// Keys of the states, in the product's order.
     pub keys: Vec<String>,
-    /// Their numbers; `None` for a device that has states without numbers. \[°, or the state's own unit\]
+    /// Numbers of the states; `None` for a device that has states without numbers. \[°, or the state's own unit\]
     pub values: Option<Vec<f64>>,
-    /// The product's curve: (profile angle \[°\], value).
+    /// Control curve of the product: (profile angle \[°\], value).
     pub curve: Vec<[f64; 2]>,
-    /// Section of its slats, where it is known.
+    /// Section of the slats, where it is known.
     pub section: Option<SlatRow>,
-    /// Its slats stand upright: their profile angle is that of the horizontal plane.
+    /// Whether the slats are vertical: their profile angle is that of the horizontal plane.
     pub upright: bool,
 }
 
 impl Device {
-    /// Of a product of the catalogue.
+    /// Creates a device from a product of the catalogue.
     ///
     /// # Errors
-    /// A product without states.
+    /// Returns an error if the product has no states.
     pub fn of(product: &Product) -> Result<Self, StudyError> {
         if product.states.is_empty() {
             return Err(StudyError::Catalogue(format!("'{}' has no states", product.key)));
@@ -44,7 +45,7 @@ impl Device {
         })
     }
 
-    /// Of a description with the keys of its states.
+    /// Creates a device from a described system with the keys of its states.
     pub fn described(file: &SystemFile, text: &str, keys: Vec<String>) -> Self {
         let blind = blind_of(text);
         let curve = blind.as_ref().map(|blind| control_curve(&file.control, blind)).unwrap_or_default();
@@ -58,7 +59,7 @@ impl Device {
         }
     }
 
-    /// Of a family of files.
+    /// Creates a device from a family of files.
     pub fn of_family(states: &[FamilyState]) -> Self {
         Self {
             name: states.first().map_or_else(String::new, |one| one.file.display().to_string()),
@@ -70,7 +71,10 @@ impl Device {
         }
     }
 
-    /// Index of a state by its key; the error names the key of the scene.
+    /// Returns the index of a state by its key.
+    ///
+    /// # Errors
+    /// Returns an error that names `scene_key` and the states if the device does not have the state.
     pub fn state(&self, key: &str, scene_key: &str) -> Result<usize, StudyError> {
         self.keys.iter().position(|known| known == key).ok_or_else(|| {
             StudyError::key(
@@ -81,17 +85,21 @@ impl Device {
     }
 }
 
-/// The slats of a description: those of products that the program computes are in the catalogue.
+/// Returns the section of the slats in a description, `None` without slats; the catalogue holds the descriptions of
+/// products that the program computes.
 fn section_of(system: &str) -> Option<SlatRow> {
     SlatRow::of(&slats_of(system)?.0)
 }
 
-/// Does what moves in a description stand upright?
+/// Whether the moving part of a description is vertical.
 pub fn is_upright(system: &str) -> bool {
     moving_part(system).is_some_and(|moving| moving.upright)
 }
 
-/// The section that a scene describes.
+/// Creates the section of slats from the keys of a scene.
+///
+/// # Errors
+/// Returns an error if the keys do not give a section.
 pub fn section_from_keys(keys: &SlatKeys) -> Result<SlatRow, StudyError> {
     let wrong = |message: &str| StudyError::key("control.slats", message);
     let profile = match (keys.width, keys.profile.is_empty()) {

@@ -1,14 +1,15 @@
-//! `[control]` as typed. The same table may stand in an `[[aperture]]` as `control = { … }` and then rules there alone.
+//! Keys of the section `[control]`. The same table may stand in an `[[aperture]]` as `control = { … }` and rules there
+//! alone.
 //!
 //! ```toml
 //! [control]
-//! mode = "cut-off"          # the most open state that keeps the whole disc of the sun out
+//! mode = "cut-off"          # the most open state that blocks the whole disc of the sun
 //!                           # "din-5034": closed while the façade gets direct sun
 //!                           # "curve": a curve over the profile angle: the product's, or `curve`, or `curve_file`
 //!                           # "retro-reflect": mirror slats across the beam, 90° − ψ
 //!                           # "redirect": mirror slats that send the sun in at `elevation`, (elevation − ψ)/2
 //!                           # "fixed": `state`, or the product's first;  "user": by `schedule`, else `state`
-//!                           # "table": states given from elsewhere, `file`
+//!                           # "table": external states, `file`
 //! state = "45"                                                    # fixed, user
 //! schedule = [{ from = "08:00", to = "18:00", state = "45" }]     # user
 //! curve = [[0.0, 64.0], [30.0, 25.0], [60.0, 0.0]]                # curve: (profile angle °, value of the state)
@@ -19,15 +20,15 @@
 //! slats = { width = 0.080, spacing = 0.072, rise = 0.0 }          # cut-off: where the product does not say
 //! tolerance = 0.0           # cut-off: by how much a slat's angle may be missed \[°\]
 //! threshold = 0.0           # direct sun on the façade that counts as sun \[lx\]
-//! close_above = 70000.0     # façade in all: above it the device closes \[lx\]
-//! open_below = 300.0        # indoors: below it that closing, and DIN 5034's, is taken back \[lx\]
-//! indoor = 250.0            # what the room's sensor reads now, or at all hours of a year \[lx\]
-//! indoor_sensors = [0, 3]   # a year reads the mean of these sensors of the scene, from 0, where `indoor` is not given; default: all
-//! release = 1.0             # share of a threshold at which it lets go
-//! hysteresis = 0.0          # how much more open the rule must be before the device opens \[unit of the states\]
-//! dwell = 0.0               # least time between a movement and the next opening \[min\]
+//! close_above = 70000.0     # total illuminance of the façade above which the device closes \[lx\]
+//! open_below = 300.0        # indoor illuminance below which that closing, and DIN 5034's, is revoked \[lx\]
+//! indoor = 250.0            # reading of the room's sensor now, or at all hours of a year \[lx\]
+//! indoor_sensors = [0, 3]   # sensors from 0 whose mean a year reads, where `indoor` is not given; default: all
+//! release = 1.0             # share of a threshold at which the state is released
+//! hysteresis = 0.0          # by how much more open the rule must be before the device opens \[unit of the states\]
+//! dwell = 0.0               # minimum time between a movement and the next opening \[min\]
 //! open_state = "0"          # by day without direct sun (default: the most open)
-//! closed_state = "75"       # what DIN 5034 and close_above take (default: the most closed)
+//! closed_state = "75"       # state for DIN 5034 and close_above (default: the most closed)
 //! night_state = "0"         # while the sun is down (default: the most open)
 //! ```
 //! Hysteresis and dwell time need a past: a single moment of a scene has none, a year has.
@@ -35,35 +36,35 @@
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// `control.mode`
+/// Key `control.mode`: rule of the control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ControlMode {
     /// The most open state that lets no direct sun through.
     CutOff,
-    /// Closed while the façade gets direct sun.
+    /// Closed state while the façade gets direct sun.
     #[serde(rename = "din-5034")]
     Din5034,
-    /// A curve over the solar profile angle: the product's own or one that is given.
+    /// Curve over the solar profile angle: the product's own or a given one.
     Curve,
-    /// Mirror slats throw the sun back.
+    /// Mirror slats reflect the sun back.
     RetroReflect,
-    /// Mirror slats send the sun in at an elevation.
+    /// Mirror slats redirect the sun into the room at an elevation.
     Redirect,
-    /// The state that is named, or the product's first.
+    /// State that is named, or the product's first.
     Fixed,
-    /// By the clock.
+    /// States by local time.
     User,
-    /// States given from elsewhere, row by row in time.
+    /// External states, row by row in time.
     Table,
 }
 
 impl ControlMode {
-    /// All that can be chosen without a file, as scene files order them.
+    /// Modes that can be chosen without a file, as scene files order them.
     pub const ALL: [Self; 7] =
         [Self::CutOff, Self::Din5034, Self::Curve, Self::RetroReflect, Self::Redirect, Self::Fixed, Self::User];
 
-    /// The word in scene files.
+    /// Returns the key of the mode in scene files.
     pub const fn word(self) -> &'static str {
         match self {
             Self::CutOff => "cut-off",
@@ -78,115 +79,115 @@ impl ControlMode {
     }
 }
 
-/// `control.rounding`
+/// Key `control.rounding`: choice of the state for a demanded value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RoundingKey {
     /// The least closed state that reaches the curve.
     Closed,
-    /// The nearest.
+    /// State nearest to the curve.
     Nearest,
 }
 
-/// `control.slats`
+/// Key `control.slats`: section of the slats.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SlatKeys {
-    /// Chord, unless a profile is given. \[m\]
+    /// Chord of a slat, unless a profile is given. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Vertical pitch. \[m\]
+    /// Vertical pitch of the slats. \[m\]
     pub spacing: f64,
-    /// Crown of an arc, > 0 = convex side up. \[m\]
+    /// Rise of the arc of a slat, > 0 = convex side up. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
-    /// Section at angle 0: (outward, upward). \[m\]
+    /// Section of a slat at angle 0: (outward, upward). \[m\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub profile: Vec<[f64; 2]>,
 }
 
-/// `control.schedule`
+/// Period of the key `control.schedule`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PeriodKeys {
-    /// `HH:MM`
+    /// Start of the period, `HH:MM`.
     pub from: String,
-    /// `HH:MM`; before `from`: over midnight.
+    /// End of the period, `HH:MM`; if earlier than `from`: past midnight.
     pub to: String,
-    /// Key of the state.
+    /// Key of the state in the period.
     pub state: String,
 }
 
-/// `[control]`
+/// Section `[control]` of a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ControlKeys {
-    /// Which rule.
+    /// Rule of the control.
     pub mode: ControlMode,
-    /// Fixed: the state; user: the state outside the periods.
+    /// State of mode "fixed"; in mode "user" the state outside the periods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
-    /// Redirect: elevation of the light in the room. \[°\]
+    /// Elevation of redirected light in the room, mode "redirect". \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elevation: Option<f64>,
-    /// How a demanded value becomes a state.
+    /// Rule by which a demanded value becomes a state.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounding: Option<RoundingKey>,
-    /// Curve: (profile angle \[°\], value).
+    /// Curve of mode "curve": (profile angle \[°\], value of the state).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub curve: Vec<[f64; 2]>,
-    /// Curve: a file, relative to the scene.
+    /// File with the curve of mode "curve", relative to the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curve_file: Option<PathBuf>,
-    /// Table: times and states, relative to the scene.
+    /// File with times and states of mode "table", relative to the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// Cut-off: may be missed by. \[°\]
+    /// Tolerance of a slat's angle, mode "cut-off". \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Direct sun above it counts. \[lx\]
+    /// Illuminance of the façade by direct sun above which the sun counts. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<f64>,
-    /// Façade in all, closes. \[lx\]
+    /// Total illuminance of the façade above which the device closes. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub close_above: Option<f64>,
-    /// Indoors, takes closing back. \[lx\]
+    /// Indoor illuminance below which closing by `close_above` and by DIN 5034 is revoked. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub open_below: Option<f64>,
-    /// Reading of the room's sensor. \[lx\]
+    /// Illuminance that the room's sensor reads. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub indoor: Option<f64>,
-    /// Sensors of the scene, from 0, whose mean a year reads instead; none: all.
+    /// Sensors of the scene, from 0, whose mean a year reads instead of `indoor`; none: all sensors.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub indoor_sensors: Vec<usize>,
-    /// Share of a threshold at which it lets go.
+    /// Share of a threshold at which the state is released.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<f64>,
-    /// In the unit of the states' numbers.
+    /// Hysteresis: by how much more open the rule must be before the device opens, in the unit of the states' numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hysteresis: Option<f64>,
-    /// \[min\]
+    /// Dwell time: minimum time between a movement and the next opening. \[min\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dwell: Option<f64>,
-    /// By day without direct sun.
+    /// State by day without direct sun; default: the most open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub open_state: Option<String>,
-    /// For DIN 5034 and `close_above`.
+    /// State for DIN 5034 and `close_above`; default: the most closed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed_state: Option<String>,
-    /// While the sun is down.
+    /// State while the sun is down; default: the most open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub night_state: Option<String>,
-    /// User: by the clock.
+    /// Periods of mode "user", in local time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub schedule: Vec<PeriodKeys>,
-    /// Cut-off: the section, where the product does not say.
+    /// Section of the slats for mode "cut-off", where the product specifies none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slats: Option<SlatKeys>,
 }
 
 impl ControlKeys {
-    /// A rule alone.
+    /// Creates keys with a mode and nothing else.
     pub const fn of(mode: ControlMode) -> Self {
         Self {
             mode,
@@ -213,7 +214,8 @@ impl ControlKeys {
         }
     }
 
-    /// Another rule with the same thresholds, hysteresis and states; what belongs to the old rule alone is dropped.
+    /// Returns the keys for another mode, with the same thresholds, hysteresis and states; keys of the old mode alone
+    /// are dropped.
     pub fn with_mode(&self, mode: ControlMode) -> Self {
         let keep = |modes: &[ControlMode]| modes.contains(&mode);
         let curve = keep(&[ControlMode::Curve]);
@@ -231,7 +233,7 @@ impl ControlKeys {
         }
     }
 
-    /// The first key that another mode would take, with that mode's word.
+    /// Returns the first key that belongs to another mode, with the names of the modes that it belongs to.
     pub fn misplaced(&self) -> Option<(&'static str, &'static str)> {
         use ControlMode::{Curve, CutOff, Fixed, Redirect, Table, User};
         let only = |key, given: bool, modes: &[ControlMode], word| {
@@ -250,7 +252,7 @@ impl ControlKeys {
     }
 }
 
-/// Modes that round a demanded value.
+/// Modes that round a demanded value to a state.
 const CURVES: [ControlMode; 3] = [ControlMode::Curve, ControlMode::RetroReflect, ControlMode::Redirect];
 
 #[cfg(test)]

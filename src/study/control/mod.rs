@@ -1,5 +1,5 @@
-//! Controls of a scene's moving systems: from the keys of `[control]` and a product to a controller, and the state that
-//! it picks at the scene's moment.
+//! Shading controls of a scene: from the keys of `[control]` and a product to a controller, and the state that it
+//! picks at the scene's moment.
 
 pub mod device;
 pub mod keys;
@@ -23,30 +23,30 @@ use glam::DVec3;
 use keys::{ControlKeys, ControlMode, PeriodKeys, RoundingKey};
 use std::path::Path;
 
-/// Largest curve file that is read. \[bytes\]
+/// Maximum size of a curve file. \[bytes\]
 const LARGEST_CURVE: u64 = 1 << 20;
 
-/// What is asked of a control at one moment.
+/// Input of a control at one moment.
 #[derive(Debug, Clone, Copy)]
 pub struct ControlQuestion<'a> {
-    /// The rule.
+    /// Keys of the control.
     pub keys: &'a ControlKeys,
-    /// What its curve file is relative to.
+    /// Folder that the curve file is relative to.
     pub base: &'a Path,
     /// Hour of the day; `None` where the scene has no clock.
     pub hour: Option<f64>,
     /// Seconds since the beginning of the year, see [`table::of_scene`].
     pub of_year: Option<f64>,
-    /// Sky, ground and boxes before the aperture, and the sun.
+    /// Sky, ground and boxes in front of the aperture, and the sun.
     pub facing: Facing<'a>,
     /// Geometry of the aperture.
     pub aperture: Aperture,
 }
 
-/// The key of the state that a control picks for a device at one moment.
+/// Returns the key of the state that a control picks for a device at one moment.
 ///
 /// # Errors
-/// Keys that are wrong or do not belong together, a device that the rule cannot move.
+/// Returns an error if keys are wrong or do not belong together, or if the rule cannot move the device.
 pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
     let settings = settings(asked.keys, device, asked.base)?;
     if matches!(&settings.rule, Rule::User(_, periods) if !periods.is_empty()) && asked.hour.is_none() {
@@ -66,9 +66,9 @@ pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String
     Ok(device.keys[state].clone())
 }
 
-/// Returns the readings of façade and room sensors at one moment, without a date: the direct illuminance is the mean over the
-/// aperture past boxes, sky, ground and boxes are those that its middle sees. `global`: whether these are wanted, which takes
-/// an integral. `upright`: whether slats are vertical.
+/// Returns the readings of façade and room sensors at one moment, without a date: the direct illuminance is the mean
+/// over the aperture past boxes; sky, ground and boxes are those seen from its middle. `global`: whether these are
+/// included, which takes an integral. `upright`: whether slats are vertical.
 pub fn inputs(
     facing: &Facing<'_>,
     aperture: &Aperture,
@@ -94,14 +94,15 @@ pub fn inputs(
     }
 }
 
-/// Profile angle of a direction from outside in the section across slats that lie or stand upright. \[rad\]
+/// Returns the profile angle of a direction from outside, in the section across horizontal slats, or vertical ones
+/// with `upright`. \[rad\]
 pub fn slat_angle(direction: Dir<Facade>, upright: bool) -> f64 {
     let v = direction.vector();
     if upright { v.x } else { v.y }.atan2(v.z)
 }
 
-/// The sun's disc in the section across the slats; `None` where nothing of it is seen. Slats that stand upright are lying
-/// ones turned by 90°: what was up points to the right as seen from outside.
+/// Returns the sun's disc in the section across the slats; `None` where nothing of it is seen. Vertical slats
+/// (`upright`) are horizontal ones rotated by 90°: their "up" points to the right as seen from outside.
 pub fn sun_at(facing: &Facing<'_>, upright: bool) -> Option<SunAt> {
     let turned = |v: DVec3| if upright { DVec3::new(-v.y, v.x, v.z) } else { v };
     let direction = Dir::from_unit(turned(facing.sun_direction()?.vector()));
@@ -111,11 +112,11 @@ pub fn sun_at(facing: &Facing<'_>, upright: bool) -> Option<SunAt> {
     Some(SunAt { centre: slat_angle(direction, false).clamp(span[0], span[1]), span })
 }
 
-/// The settings of a controller for a device. Angles of `keys` and `device` are degrees, those of the result radians;
-/// numbers of states that are no angles are scaled like them throughout, which changes nothing.
+/// Creates the settings of a controller for a device. Angles of `keys` and `device` are in degrees, those of the
+/// result in radians; numbers of states that are not angles are scaled like them throughout, which changes nothing.
 ///
 /// # Errors
-/// As [`pick_state`].
+/// Returns the errors of [`pick_state`].
 pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Settings, StudyError> {
     // Ignored, such a key would look as if it did something.
     if let Some((key, modes)) = keys.misplaced() {
@@ -125,7 +126,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
     let by_name = matches!(keys.mode, ControlMode::Fixed | ControlMode::User | ControlMode::Table);
     let values = match &device.values {
         Some(values) => values.iter().map(|value| value.to_radians()).collect(),
-        // Rules that name states never look at the numbers: any will do that tell the states apart.
+        // Rules that name states never look at the numbers: any numbers serve that distinguish the states.
         None if by_name || device.keys.len() == 1 => {
             (0..device.keys.len()).map(|k| (k as f64).to_radians()).collect::<Vec<f64>>()
         }
@@ -147,7 +148,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
     };
     const LUX: [f64; 2] = [0.0, 1e6];
     settings.threshold = within("threshold", keys.threshold, 0.0, LUX, " lx")?;
-    // Judged only: left out, these mean never, which no number stands for.
+    // Checked only: left out, these mean never, for which there is no number.
     within("close_above", keys.close_above, 0.0, LUX, " lx")?;
     within("open_below", keys.open_below, 0.0, LUX, " lx")?;
     within("indoor", keys.indoor, 0.0, LUX, " lx")?;
@@ -185,7 +186,7 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
                 let message = format!("{tolerance}° is out of range (allowed: 0 to 45°)");
                 return Err(StudyError::key("control.tolerance", message));
             }
-            // What the scene says of the slats is meant to stand for what the product says.
+            // The slats that the scene describes replace those of the product.
             let described = keys.slats.as_ref().map(section_from_keys).transpose()?;
             match described.or_else(|| device.section.clone()) {
                 Some(section) => Rule::CutOff { section, tolerance: tolerance.to_radians() },
@@ -196,7 +197,7 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
                     );
                     return Err(StudyError::key("control.mode", message));
                 }
-                // Without a section the maker's own curve stands for the cut-off; rounded to the nearest it could let
+                // Without a section the maker's own curve replaces the cut-off; rounded to the nearest it could let
                 // the sun in.
                 None => Rule::Curve(radians(&device.curve), Rounding::Closed),
             }
@@ -225,14 +226,14 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
     })
 }
 
-/// Elevation at which redirected light reaches the ceiling deep in a room of usual height. \[°\]
+/// Default elevation of redirected light, at which it reaches the ceiling deep in a room of usual height. \[°\]
 pub const DEFAULT_ELEVATION: f64 = 30.0;
 
 fn radians(curve: &[[f64; 2]]) -> Vec<(f64, f64)> {
     curve.iter().map(|[angle, value]| (angle.to_radians(), value.to_radians())).collect()
 }
 
-/// The curve of mode "curve": the scene's table or file, else the product's.
+/// Returns the curve of mode "curve": the scene's table or file, or else the product's.
 pub fn curve(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
     if let Some(file) = &keys.curve_file {
         if !keys.curve.is_empty() {
@@ -281,7 +282,7 @@ fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
     Ok(Period { from: read(&keys.from)?, to: read(&keys.to)?, state: device.state(&keys.state, "control.schedule")? })
 }
 
-/// At every time one period at most may hold: which of two were meant, only their order would tell.
+/// Checks that at most one period holds at every time: which of two is meant would depend only on their order.
 fn distinct(periods: &[Period], keys: &[PeriodKeys]) -> Result<(), StudyError> {
     let spans = |period: &Period| {
         if period.from <= period.to {

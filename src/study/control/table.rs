@@ -1,4 +1,4 @@
-//! Mode "table": states given from elsewhere, row by row in time.
+//! Mode "table": external states, row by row in time.
 
 use super::device::Device;
 use crate::compute::control::controller::Rule;
@@ -9,10 +9,11 @@ use crate::study::scene_file::SceneFile;
 use crate::study::sun_position::parse_local_time;
 use std::path::Path;
 
-/// Reads the file of a table and finds its states: (seconds since the beginning of the year, index of the state).
+/// Reads the file of a table and returns its states: (seconds since the beginning of the year, index of the state).
 ///
 /// # Errors
-/// A file that cannot be read; a row with no state, or one that the device does not have, with its line.
+/// Returns an error if the file cannot be read, or if a row has no state or one that the device does not have, with
+/// its line.
 pub(super) fn read(name: Option<&Path>, device: &Device, base: &Path) -> Result<Vec<(f64, usize)>, StudyError> {
     let name = name.ok_or_else(|| {
         StudyError::key("control.file", "missing: mode = \"table\" needs a file with the columns time,state")
@@ -31,10 +32,10 @@ pub(super) fn read(name: Option<&Path>, device: &Device, base: &Path) -> Result<
         .collect()
 }
 
-/// Does a rule say nothing yet of a moment with light, since its table begins later?
+/// Checks that the table of a rule, if it is one, begins before a moment with light.
 ///
 /// # Errors
-/// That it does, and what would be right.
+/// Returns an error if the table begins later or the moment has no date, with what was expected.
 pub fn begun(rule: &Rule, of_year: Option<f64>) -> Result<(), StudyError> {
     let Rule::Table(rows) = rule else { return Ok(()) };
     let Some(at) = of_year else {
@@ -49,7 +50,7 @@ pub fn begun(rule: &Rule, of_year: Option<f64>) -> Result<(), StudyError> {
     }
 }
 
-/// Day and time of the year, in words.
+/// Returns day and time of the year as text.
 fn day(seconds: f64) -> String {
     let whole = seconds as i64;
     // The first of January is day 1.
@@ -57,7 +58,8 @@ fn day(seconds: f64) -> String {
     time.strftime("%m-%d %H:%M").to_string()
 }
 
-/// Seconds since the beginning of the year of a scene's moment, local standard time; `None` where it has none.
+/// Returns the seconds since the beginning of the year of a scene's moment, in local standard time; `None` without a
+/// time.
 pub fn of_scene(file: &SceneFile) -> Option<f64> {
     let time = parse_local_time(&file.sky.time.as_ref()?.text()).ok()?;
     Some(of_year(file.site.dst.standard(time, file.site.utc_offset.unwrap_or(0.0))))

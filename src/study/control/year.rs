@@ -1,11 +1,11 @@
-//! A year of states: every step from 1 January, in the middle of each step, the sun before every aperture, what its
-//! control asks for, and the state that results.
+//! A year of states: every step from 1 January, evaluated in the middle of each step, with the sun in front of every
+//! aperture, the value that its control demands, and the state that results.
 //!
-//! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as equally
-//! bright all over where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by
-//! those of its hours. Indoor illuminances are not computed: `open_below` works with `control.indoor` alone; a year in the room
-//! reads its sensors. The skyline hides the sun as it runs at the sun's bearing, boxes hide it from the parts of an aperture;
-//! sky and ground behind boxes count as dark here, and boxes reflect nothing.
+//! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as uniform where
+//! illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by those of its hours. Indoor
+//! illuminances are not computed: `open_below` works with `control.indoor` alone; a year in the room reads its
+//! sensors. The skyline hides the sun by its altitude at the sun's bearing, boxes hide it from the parts of an
+//! aperture; sky and ground behind boxes count as dark here, and boxes reflect nothing.
 
 use super::device::section_from_keys;
 use super::keys::ControlKeys;
@@ -38,34 +38,35 @@ use jiff::civil::{Date, DateTime};
 use std::path::Path;
 use std::sync::Arc;
 
-/// The word that leaves an aperture's state to a control.
+/// Key of the state in a scene file that leaves an aperture's state to a control.
 pub const CONTROLLED: &str = "controlled";
 
-/// Illuminances of a year: on a plane facing the sun, diffuse on a horizontal plane. \[lx\]
+/// Source of the illuminances of a year: on a plane facing the sun, and diffuse on a horizontal plane. \[lx\]
 pub trait Weather: Sync {
-    /// At a moment with the sun at an altitude \[rad\]; `None` where it does not know.
+    /// Returns the illuminances at `time` with the sun at `altitude` \[rad\]; `None` where they are unknown.
     fn illuminances(&self, time: DateTime, altitude: f64) -> Option<(f64, f64)>;
 }
 
-/// Least beam while any of the disc is up: what passes is asked, not how much. \[lx\]
+/// Minimum direct normal illuminance while any of the disc is up: the control depends on whether direct sun passes,
+/// not on how much. \[lx\]
 const LEAST_BEAM: f64 = 1.0;
 
-/// Clear at all hours, with the illuminances that the scene takes for clear skies.
+/// Clear sky at all hours, with the illuminances that the scene uses for clear skies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClearSky {
-    /// Ineichen and Perez 2002.
+    /// Clear-sky model of Ineichen and Perez 2002.
     Air {
-        /// Linke turbidity.
+        /// Linke turbidity of the air.
         turbidity: f64,
-        /// Above the sea. \[m\]
+        /// Elevation above sea level. \[m\]
         elevation: f64,
     },
-    /// IES RP-21, 1984.
+    /// Clear sky of IES RP-21, 1984.
     Practice,
 }
 
 impl ClearSky {
-    /// Of a scene: RP-21 where `sky.illuminance` says so.
+    /// Creates the clear sky of a scene: RP-21 where `sky.illuminance` says so.
     fn of(file: &SceneFile) -> Self {
         match file.sky.illuminance {
             IlluminanceKey::Rp21 => Self::Practice,
@@ -89,55 +90,56 @@ impl Weather for ClearSky {
     }
 }
 
-/// One moving aperture, ready to be stepped.
+/// Aperture with a controlled state, ready to be stepped through time.
 #[derive(Debug, Clone)]
 pub struct Moving {
     /// Number of the aperture, from 1.
     pub aperture: usize,
     /// Geometry of the aperture.
     pub opening: Aperture,
-    /// What moves.
+    /// Device that the control sets.
     pub device: Device,
-    /// Its rule.
+    /// Keys of the control.
     pub keys: ControlKeys,
-    /// The slats, where they are known: they say whether direct sun passes.
+    /// Section of the slats, where it is known: it decides whether direct sun passes.
     pub section: Option<SlatRow>,
 }
 
-/// One aperture at one moment.
+/// Controlled state of one aperture at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
-    /// Profile angle of the sun's centre \[rad\]; `None` while nothing of it is before the aperture.
+    /// Profile angle of the sun's centre \[rad\]; `None` while nothing of the sun is in front of the aperture.
     pub profile_angle: Option<f64>,
-    /// What the rule asks for, in the unit of the states' numbers.
+    /// Value that the rule demands, in the unit of the states' numbers.
     pub demanded: Option<f64>,
-    /// Index of the state.
+    /// Index of the resulting state.
     pub state: usize,
-    /// Does direct sun pass between the slats? `None` where they are not known.
+    /// Whether direct sun passes between the slats; `None` where they are not known.
     pub passes: Option<bool>,
-    /// Why this state.
+    /// Reason for the state.
     pub reason: Reason,
-    /// Another state than the step before.
+    /// Whether the state differs from that of the step before.
     pub moved: bool,
 }
 
-/// All apertures at one moment.
+/// Controlled states of all apertures at one moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
-    /// Local standard time.
+    /// Local standard time of the moment.
     pub time: DateTime,
     /// True altitude of the sun. \[rad\]
     pub altitude: f64,
-    /// Its bearing.
+    /// Bearing of the sun.
     pub bearing: Bearing,
-    /// By moving aperture.
+    /// Settings of the moving apertures, in their order.
     pub settings: Vec<Setting>,
 }
 
-/// The apertures whose state a control picks, with what is known of them; `device` finds what moves.
+/// Returns the apertures whose state a control picks, with their devices and keys; `device` finds the device of a
+/// system.
 ///
 /// # Errors
-/// No such product, or a control that cannot be.
+/// Returns an error if a product is missing, a control is not valid, or no aperture is controlled.
 pub fn moving(
     file: &SceneFile,
     base: &Path,
@@ -165,7 +167,7 @@ pub fn moving(
             )
         })?;
         let device = device(&aperture.system)?;
-        // Judged here, so that a wrong key is told before the year starts.
+        // Checked here, so that a wrong key is reported before the year starts.
         settings(keys, &device, base)?;
         let described = keys.slats.as_ref().map(section_from_keys).transpose()?;
         let section = described.or_else(|| device.section.clone());
@@ -178,36 +180,36 @@ pub fn moving(
     Ok(list)
 }
 
-/// All that a year of control hangs on besides what moves.
+/// Conditions of a year of control other than the moving apertures: place, clock, surroundings and sky.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Situation {
-    /// Where the sun is seen from.
+    /// Place from which the sun's position is computed.
     pub place: Place,
-    /// Hours that its standard time is ahead of UTC.
+    /// UTC offset of the place's standard time. \[h\]
     pub utc_offset: f64,
-    /// When schedules are summer time.
+    /// Rule of summer time, which schedules follow.
     pub dst: DstKey,
-    /// Which year.
+    /// Calendar year.
     pub year: i16,
     /// Bearing of the façade's outward normal.
     pub facade: Bearing,
-    /// Uniform ground.
+    /// Reflectance of the ground, which is uniform.
     pub ground_reflectance: f64,
-    /// Altitude of a skyline of even height. \[rad\]
+    /// Altitude of a uniform skyline. \[rad\]
     pub skyline: f64,
-    /// The one that rises and falls with the bearing, in its place.
+    /// Skyline that rises and falls with the bearing, which replaces `skyline`.
     pub skyline_by_bearing: Option<Skyline>,
-    /// Boxes outside, in the world's axes.
+    /// Boxes outside, in the world frame.
     pub boxes: Vec<Solid>,
-    /// How bright the year is, without a weather.
+    /// Clear sky that gives the illuminances of the year without a weather.
     pub sky: ClearSky,
 }
 
 impl Situation {
-    /// Of a scene; without a time the year 2026.
+    /// Creates the conditions of a scene; a scene without a time gets the year 2026.
     ///
     /// # Errors
-    /// A scene without a whole place, or with a wrong one.
+    /// Returns an error if place, clock, sky or obstructions of the scene are missing or not valid.
     pub fn of(file: &SceneFile) -> Result<Self, StudyError> {
         let site = &file.site;
         let need = |key: &str, value: Option<f64>| {
@@ -261,16 +263,16 @@ impl Situation {
         })
     }
 
-    /// Altitude of the skyline at a bearing. \[rad\]
+    /// Returns the altitude of the skyline at a bearing. \[rad\]
     fn skyline_at(&self, bearing: Bearing) -> f64 {
         self.skyline_by_bearing.as_ref().map_or(self.skyline, |skyline| skyline.altitude(bearing.radians()))
     }
 }
 
-/// Steps the controls through a year; `minutes` from 1 to 1440 a step, which divide a day.
+/// Steps the controls through a year, with `minutes` from 1 to 1440 per step, which divide a day.
 ///
 /// # Errors
-/// A wrong scene, or [`Cancelled`].
+/// Returns an error if the step or the scene is not valid, or [`Cancelled`].
 pub fn year(
     situation: &Situation,
     base: &Path,
@@ -303,10 +305,10 @@ pub fn year(
     Ok(moments)
 }
 
-/// Every `minutes` of one day from midnight to midnight, hysteresis and dwell time included.
+/// Steps the controls through one day from midnight to midnight, every `minutes`, hysteresis and dwell time included.
 ///
 /// # Errors
-/// As [`year`].
+/// Returns the errors of [`year`].
 pub fn day(
     situation: &Situation,
     base: &Path,
@@ -326,19 +328,21 @@ pub fn day(
         .collect()
 }
 
-/// The controllers on their way through time.
+/// Controllers of all moving apertures with their states at the current time.
 struct Stepper<'a> {
     situation: &'a Situation,
     moving: &'a [Moving],
     controllers: Vec<Controller>,
     weather: &'a dyn Weather,
-    /// Boxes, dark; `None` without any.
+    /// Dark boxes in front of the apertures; `None` without any.
     around: Option<Arc<Surroundings>>,
-    /// Illuminance of each aperture's middle per horizontal illuminance of a uniform sky, and per exitance of the ground.
+    /// Illuminance at each aperture's middle per horizontal illuminance of a uniform sky, and per exitance of the
+    /// ground.
     received: Vec<[f64; 2]>,
 }
 
-/// Returns the illuminance of an aperture's middle per horizontal illuminance of a uniform sky, and per exitance of the ground.
+/// Returns the illuminance at an aperture's middle per horizontal illuminance of a uniform sky, and per exitance of
+/// the ground.
 fn received(aperture: &Aperture, around: Option<&Arc<Surroundings>>, orientation: Orientation) -> [f64; 2] {
     let Some(around) = around else {
         return match aperture.surface {
@@ -387,7 +391,7 @@ impl<'a> Stepper<'a> {
             None => outside,
         };
         let sun = Sun { direction: Dir::from_altitude_bearing(altitude, bearing), direct_normal: direct };
-        // Schedules go by the clock on the wall.
+        // Schedules follow local time, summer time included.
         let clock = here.dst.clock(time, here.utc_offset);
         let hour = f64::from(clock.hour()) + f64::from(clock.minute()) / 60.0 + f64::from(clock.second()) / 3600.0;
         let mut list = Vec::with_capacity(self.moving.len());
@@ -405,7 +409,7 @@ impl<'a> Stepper<'a> {
             if up {
                 begun(&controller.settings().rule, Some(at))?;
             }
-            // An even sky, and the ground below it.
+            // A uniform sky, and the ground below it.
             let horizontal = diffuse + direct * altitude.sin().max(0.0);
             inputs.facade_global += of_sky * diffuse + of_ground * here.ground_reflectance * horizontal;
             let decision = controller.step(seconds, &inputs);
@@ -424,16 +428,16 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// What a year of one aperture comes to. Times in hours.
+/// Summary of a year of one aperture. Times in hours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// Changes of state.
+    /// Number of state changes.
     pub movements: usize,
-    /// With sun on the aperture.
+    /// Time with sun on the aperture. \[h\]
     pub sun_hours: f64,
-    /// With direct sun through it; `None` where the slats are not known.
+    /// Time with direct sun through the aperture \[h\]; `None` where the slats are not known.
     pub direct_hours: Option<f64>,
-    /// In each state, by day.
+    /// Time in each state while the sun is up. \[h\]
     pub state_hours: Vec<f64>,
 }
 

@@ -1,8 +1,8 @@
-//! Faults of the program: what is known of a panic, wherever it happened, and the report on it that a person can send.
+//! Internal errors: data of every panic, wherever it happened, and the report on it that a user can send.
 //!
-//! Once [`watch`] was called, message, place and backtrace of every panic are kept while its thread still stands where it
-//! happened, ours or one of a pool. Whoever catches it finds them by its message ([`caught`]): a pool hands a panic on to
-//! who waits for it, with the message alone.
+//! Once [`watch`] was called, message, place and backtrace of every panic are kept while its thread is still where it
+//! happened, ours or one of a pool. Whoever catches the panic finds them by its message ([`caught`]): a pool passes a
+//! panic to the thread that waits for it, with the message alone.
 
 mod report;
 
@@ -16,23 +16,23 @@ use std::panic::PanicHookInfo;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 
-/// Faults kept until somebody asks for them; of more the oldest go.
+/// Maximum number of faults that are kept until they are caught; the oldest are dropped.
 const MOST_KEPT: usize = 20;
 
-/// What is known of a panic.
+/// Data of a panic.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fault {
-    /// What it said.
+    /// Message of the panic.
     pub message: String,
-    /// File, line and column; empty where nobody watched.
+    /// File, line and column; empty if [`watch`] was not called.
     pub place: String,
-    /// Name of the thread.
+    /// Name of the thread that panicked.
     pub thread: String,
-    /// When: UTC.
+    /// Time of the panic in UTC.
     pub at: String,
-    /// The calls that led there; empty where nobody watched.
+    /// Backtrace of the panic; empty if [`watch`] was not called.
     pub backtrace: String,
-    /// The report on it, where one was written already.
+    /// Path of the report on the panic, if one was written already.
     pub report: Option<PathBuf>,
 }
 
@@ -43,7 +43,7 @@ impl std::fmt::Display for Fault {
 }
 
 impl Fault {
-    /// Do both come from the same place, with the same words?
+    /// Whether both faults have the same place and message.
     pub fn is_same(&self, other: &Self) -> bool {
         self.message == other.message && self.place == other.place
     }
@@ -53,18 +53,18 @@ impl Fault {
     }
 }
 
-/// What a panic says that carries no text.
+/// Message of a panic without text.
 const NO_MESSAGE: &str = "no message";
 
-/// The last faults, the newest last.
+/// Recent faults that nobody has caught, oldest first.
 static KEPT: Mutex<VecDeque<Fault>> = Mutex::new(VecDeque::new());
 
 fn kept() -> MutexGuard<'static, VecDeque<Fault>> {
     KEPT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Keeps what is known of every panic from now on. `told`: it is also told on standard error where it happens, as without
-/// watching; else who catches it has to. What was asked first holds.
+/// Keeps the data of every panic from now on. With `true` panics are also printed on standard error where they happen,
+/// as without this call; with `false` whoever catches them has to report them. The value of the first call holds.
 pub fn watch(told: bool) {
     static WATCHING: Once = Once::new();
     WATCHING.call_once(|| {
@@ -93,7 +93,7 @@ fn keep(info: &PanicHookInfo<'_>) {
     kept.push_back(fault);
 }
 
-/// What is known of a panic that was caught. It is forgotten here.
+/// Returns the data of a panic that was caught, and removes them from the kept faults.
 pub fn caught(panic: &(dyn Any + Send)) -> Fault {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     let fault = Fault::said(text);
@@ -102,19 +102,20 @@ pub fn caught(panic: &(dyn Any + Send)) -> Fault {
     known.and_then(|place| kept.remove(place)).unwrap_or(fault)
 }
 
-/// The fault that came last and that nobody has caught yet.
+/// Returns the newest fault that nobody has caught yet.
 pub fn newest() -> Option<Fault> {
     kept().back().cloned()
 }
 
-/// A report on a fault that nobody has caught yet was written: whoever catches it need not write another.
+/// Records that the report on a fault that nobody has caught yet was written: whoever catches the fault need not write
+/// another.
 pub fn reported(fault: &Fault, report: PathBuf) {
     if let Some(one) = kept().iter_mut().rev().find(|one| one.is_same(fault)) {
         one.report = Some(report);
     }
 }
 
-/// Those that nobody has caught, the newest first: what a thread said that nobody waits for, and what came before.
+/// Returns the faults that nobody has caught, newest first: those of threads that nobody waits for, and earlier ones.
 fn uncaught() -> Vec<Fault> {
     kept().iter().rev().cloned().collect()
 }

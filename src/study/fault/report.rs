@@ -1,4 +1,5 @@
-//! The report on a fault: one text that says what happened where and in the middle of what, to be sent to who can mend it.
+//! Report on an internal error: one text that says what happened, where and during which work, for the user to send to
+//! the developers.
 
 use super::Fault;
 use crate::study::StudyError;
@@ -7,26 +8,26 @@ use crate::study::files::write_at_once;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Reports kept; of more the oldest go.
+/// Maximum number of reports that are kept; the oldest are removed.
 pub const MOST_REPORTS: usize = 30;
 
-/// What a report says besides the fault itself.
+/// Content of a report besides the fault itself.
 #[derive(Debug, Clone, Default)]
 pub struct Report<'a> {
-    /// What was being done, e.g. the job and its stage.
+    /// Work in progress, e.g. the job and its stage.
     pub doing: &'a str,
-    /// What was done last, the newest last.
+    /// Last steps of the user, oldest first.
     pub steps: &'a [String],
-    /// What was open: a title and its text, e.g. the scene in TOML. It is told as it is.
+    /// Open documents: a title and its text, e.g. the scene in TOML, which is written without changes.
     pub open: &'a [(String, String)],
 }
 
-/// Where the user's reports are kept: beside the catalogue, in the user's folder for data.
+/// Returns the folder of the user's reports: beside the catalogue, in the user's data folder.
 pub fn folder() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "cfs").map(|folders| folders.data_dir().join("reports"))
 }
 
-/// An argument of a command without the folders in it, which are nobody's business: `--out=/a/b.csv` is `--out=b.csv`.
+/// Returns an argument of a command without its folders, which are private: `--out=/a/b.csv` becomes `--out=b.csv`.
 pub fn without_folders(argument: &str) -> String {
     let (option, value) = match argument.split_once('=') {
         Some((option, value)) if option.starts_with('-') => (format!("{option}="), value),
@@ -36,7 +37,7 @@ pub fn without_folders(argument: &str) -> String {
     option + name
 }
 
-/// Takes the user's own folder out of a text.
+/// Replaces the user's home folder in a text by `~`.
 fn without_home(text: &str) -> String {
     let home = directories::BaseDirs::new().map(|folders| folders.home_dir().display().to_string());
     match home.filter(|home| home.len() > 1) {
@@ -45,7 +46,7 @@ fn without_home(text: &str) -> String {
     }
 }
 
-/// Says one fault.
+/// Appends one fault to a text.
 fn tell(text: &mut String, fault: &Fault) {
     let place = if fault.place.is_empty() { "not known" } else { &fault.place };
     let [at, thread, backtrace] = [&fault.at, &fault.thread, &fault.backtrace];
@@ -53,7 +54,7 @@ fn tell(text: &mut String, fault: &Fault) {
     let _ = write!(text, "message: {}\nplace: {place}\nthread: {thread}\nat: {at}\n{backtrace}", fault.message);
 }
 
-/// The report in full.
+/// Returns the full text of a report.
 fn text(fault: &Fault, before: &[Fault], report: &Report<'_>) -> String {
     let build = if cfg!(debug_assertions) { "debug" } else { "release" };
     let (system, processor) = (std::env::consts::OS, std::env::consts::ARCH);
@@ -81,28 +82,28 @@ fn text(fault: &Fault, before: &[Fault], report: &Report<'_>) -> String {
     all
 }
 
-/// Is this the name of a report?
+/// Whether `name` is the file name of a report.
 fn is_report(name: &str) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit() || b"-T".contains(&c));
     name.strip_suffix(".txt").is_some_and(|stem| stem.len() >= 19 && stem.contains('T') && digits(stem))
 }
 
-/// Takes the oldest reports away.
+/// Removes the oldest reports from a folder.
 fn tidy(folder: &Path) {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut list: Vec<String> = entries.filter_map(|entry| entry.file_name().into_string().ok()).collect();
     list.retain(|name| is_report(name));
     list.sort();
     for name in list.iter().rev().skip(MOST_REPORTS) {
-        // One that another window took away already is as good.
+        // A report that another window has removed already is as good.
         drop(std::fs::remove_file(folder.join(name)));
     }
 }
 
-/// Writes a report on a fault into a folder, e.g. `2026-11-23T10-22-05.txt` by the time in UTC; returns its path.
+/// Writes a report on a fault into a folder, e.g. `2026-11-23T10-22-05.txt` by the time in UTC, and returns its path.
 ///
 /// # Errors
-/// One sentence that names the folder or the file.
+/// Returns an error that names the folder or the file if it cannot be written.
 pub fn write(folder: &Path, fault: &Fault, report: &Report<'_>) -> Result<PathBuf, StudyError> {
     std::fs::create_dir_all(folder).map_err(|error| StudyError::File {
         path: folder.to_owned(),

@@ -1,4 +1,4 @@
-//! The scene with a product in its ranked apertures.
+//! Scene with a product in its ranked apertures.
 
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
@@ -6,11 +6,12 @@ use crate::study::error::StudyError;
 use crate::study::product_control::first_keys;
 use crate::study::scene_file::{RankControlKey, SceneFile, SystemKeys};
 
-/// Fills the ranked apertures of a scene. What moves follows its own rule where it has one and `by` lets it, else the
-/// aperture's or the scene's `[control]`; without any it stands in the state that stands for it in lists.
+/// Returns the scene with a product in its ranked apertures. A moving product follows its own control rule if it has
+/// one and `by` allows it, else the aperture's or the scene's `[control]`; without any it is fixed in its
+/// representative state.
 ///
 /// # Errors
-/// `rank.control = "scene"` without a `[control]`.
+/// Returns an error for `rank.control = "scene"` without a `[control]`.
 pub fn with_product(file: &SceneFile, product: &Product, by: RankControlKey) -> Result<SceneFile, StudyError> {
     let mut scene = SceneFile { rank: None, compare: Vec::new(), ..file.clone() };
     let (own, stands) = product.representative();

@@ -1,4 +1,4 @@
-//! Figures of a product in a list, with their errors: by data on their cells first, then with beams as they are.
+//! Figures of a product in a list, with their errors: by patch-averaged data first, then with sharp beams.
 
 use super::candidate::with_product;
 use super::parts::{Grouping, Parts};
@@ -13,51 +13,54 @@ use crate::study::system::SystemLibrary;
 use crate::study::year::{Climate, Dgp, Light, SHADE, Settings, Year, figures, metrics, year_in};
 use serde_json::Value;
 
-/// Figures of a product: valid whatever weights and anchors are.
+/// Figures of a product: independent of weights and scale limits.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
-    /// In the order of the list's figures, with nine significant digits, as tables hold them.
+    /// Figures in the order of the list's keys, with nine significant digits as in tables.
     pub figures: Vec<Estimate>,
-    /// What they are sums of.
+    /// Parts that each figure is the sum of, in the same order.
     pub parts: Vec<Parts>,
-    /// Why they are approximate beyond their errors; empty where they are not.
+    /// Reasons why the figures are approximate beyond their errors; empty if they are not.
     pub approximate: Vec<String>,
 }
 
-/// What became of a product: its figures, or why it is left out.
+/// Result of a product: its figures, or the reason why it is excluded.
 pub type Outcome = Result<Found, String>;
 
-/// How far the work on a product has come.
+/// Stage of the computation of a product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// A year by data that are constant on their cells, as `compute.interpolation = "patch"` has them. Errors hold what that
-    /// leaves open.
+    /// A year with data that are constant on their patches, as with `compute.interpolation = "patch"`. Errors include
+    /// the uncertainty by this.
     Coarse,
-    /// As the scene has it.
+    /// A year with the interpolation of the scene.
     Full,
 }
 
-/// What light behind data on cells may be off for the beams that they blur. Seen on the built-in prisms, whose fans are as wide
-/// as cells: hours above 3000 lx of two sensors, 0.289 by cells where beams make 0.267, are what 8 % more light make.
+/// Relative error of light behind patch-averaged data, because they blur beams. Found with the built-in prisms, whose
+/// fans are as wide as patches: the share of hours above 3000 lx at two sensors is 0.289 by patches and 0.267 by beams,
+/// a difference that 8 % more light makes.
 const BLURRED: f64 = 0.1;
-/// What a figure that a year does not have is told under.
+/// Key of the error about a figure that a year does not have.
 const NO_FIGURE: &str = "rank.objective";
-/// Says how well data were computed of a description. They may be waiting to be computed on one machine and be there on
-/// another; how far figures are off for it is in their errors, or the description itself was asked.
+/// Code of the finding on the accuracy of data computed from a description. It is ignored: such data may still be
+/// missing on one machine and exist on another; the figures' errors include it, or the description itself was
+/// evaluated.
 const COMPUTED: &str = "error-target-missed";
-/// Light that is known no better than so makes figures approximate.
+/// Relative error of the light above which figures count as approximate.
 const DOUBTFUL: f64 = 0.05;
 
-/// Nine significant digits: what a table holds, so that a ranking from tables is the same.
+/// Rounds to nine significant digits, as tables do, so that a ranking from tables is the same.
 pub(super) fn as_written(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }
 
-/// What all products of a list are computed with.
+/// Input that all products of a list are computed with.
 pub(super) struct Setting<'a> {
     pub group: &'a Group,
     pub climate: &'a Climate,
-    /// The same without what blurred light does not tell: glare, and blinds worked by where the sun falls.
+    /// Climate of the coarse stage: without figures that blurred light does not determine, glare and blinds that direct
+    /// sun on the sensors operates.
     pub by_cells: &'a Climate,
     pub grouping: &'a Grouping,
     pub library: &'a dyn SystemLibrary,
@@ -65,10 +68,11 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// The figures of one product.
+    /// Computes the figures of one product.
     ///
     /// # Errors
-    /// Of the product's data or control; a figure that the year does not have; cancelled.
+    /// Returns an error for wrong data or control of the product, for a figure that the year does not have, or if
+    /// cancelled.
     pub fn product(&self, product: &Product, stage: Stage, progress: &dyn Progress) -> Result<Found, StudyError> {
         let group = self.group;
         let mut file = with_product(&group.file, product, group.control)?;
@@ -84,13 +88,13 @@ impl Setting<'_> {
         }
         let all = three(&year, group.file.room.width * group.file.room.depth);
         for (key, objective) in group.figures.iter().zip(&group.objectives) {
-            // What blurred light does not tell may be anything between the anchors.
+            // Figures that blurred light does not determine may be anything between the scale limits.
             let between = || {
                 let (a, b) = (objective.worst, objective.best);
                 Estimate { value: 0.5 * (a + b), error: 0.5 * (b - a).abs() }
             };
             let figure = match figure(&year, &all, key) {
-                // Nor which states a control takes that reads the room.
+                // Nor does it determine the states of a control that reads the room.
                 Err(_) if coarse => between(),
                 Ok(_) if coarse && year.indoor.is_some() => between(),
                 found => found?,
@@ -103,11 +107,11 @@ impl Setting<'_> {
         Ok(found)
     }
 
-    /// Are the list's figures such as a year here can have? Asked before all products are computed in vain. A year of darkness
-    /// has most of them; whether it is the data that bring one, the list's first product tells.
+    /// Checks that a year of this list can have the list's figures, before all products are computed in vain. A dark
+    /// year has most of them; whether the data provide a missing one is checked with the list's first product.
     ///
     /// # Errors
-    /// The figure that there is none of, and those that there are; cancelled.
+    /// Returns an error that names the missing figure and the existing ones, or if cancelled.
     pub fn check(&self, first: &Product, progress: &dyn Progress) -> Result<(), StudyError> {
         let year = dark(self.climate);
         let all = three(&year, self.group.file.room.width * self.group.file.room.depth);
@@ -123,7 +127,7 @@ impl Setting<'_> {
     }
 }
 
-/// Adds to the errors of a year what its data on cells may have blurred.
+/// Adds the error by blurred patch-averaged data to the errors of a year.
 fn blur(year: &mut Year) {
     let add = |values: &[f64], errors: &mut [f64]| {
         errors.iter_mut().zip(values).for_each(|(error, value)| *error += BLURRED * value);
@@ -137,7 +141,7 @@ fn blur(year: &mut Year) {
     }
 }
 
-/// A year without any light in a room with a window to see the sun through.
+/// Returns a year without any light, in a room with an aperture that transmits direct sun.
 fn dark(climate: &Climate) -> Year {
     let steps = climate.steps.list.len();
     let places = climate.settings.sensors + climate.settings.eyes.len();
@@ -169,12 +173,12 @@ fn dark(climate: &Climate) -> Year {
     }
 }
 
-/// Metrics of a year, with less and with more light.
+/// Returns the metrics of a year, with less and with more light.
 fn three(year: &Year, area: f64) -> [Value; 3] {
     figures(year).map(|one| metrics::metrics(year, &one, area))
 }
 
-/// A figure of a whole year; its error is the larger distance from those with less and with more light.
+/// Returns a figure of a whole year; its error is the larger difference from those with less and with more light.
 fn figure(year: &Year, metrics: &[Value; 3], key: &str) -> Result<Estimate, StudyError> {
     if let Some(figure) = read(metrics, key) {
         return Ok(figure);
@@ -186,7 +190,7 @@ fn figure(year: &Year, metrics: &[Value; 3], key: &str) -> Result<Estimate, Stud
     Err(StudyError::key(NO_FIGURE, format!("the year has no figure \"{key}\"; it has: {keys}")))
 }
 
-/// Nothing moves, or no sun comes through unscattered: no doubt about how often.
+/// Returns exactly zero for counts of movements or sun hours if nothing moves, or no sun is transmitted unscattered.
 fn nought(year: &Year, key: &str) -> Option<Estimate> {
     let still = year.moving.is_empty();
     let nought = match key {
@@ -205,7 +209,7 @@ fn read(three: &[Value; 3], key: &str) -> Option<Estimate> {
     Some(Estimate { value: own, error: (less - own).abs().max((more - own).abs()) })
 }
 
-/// Why figures are approximate beyond their errors.
+/// Returns the reasons why figures are approximate beyond their errors.
 fn doubts(product: &Product, year: &Year) -> Vec<String> {
     let mut list = Vec::new();
     if product.provenance.origin == Origin::Measured {

@@ -1,5 +1,4 @@
-//! Figures that are kept: those of every product whose row has a key, whatever is an objective, how much it counts and which
-//! other products there are.
+//! Stored figures: those of every product whose row has a key, independent of objectives, weights and other products.
 
 use super::figures::{Found, Outcome, Stage};
 use super::list::{List, Row};
@@ -7,28 +6,28 @@ use crate::compute::rank::Objective;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What is known of a product.
+/// Stored figures of a product.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Known {
-    /// Its key in the catalogue.
+    /// Key of the product in the catalogue.
     pub product: String,
-    /// Says from what its figures were made.
+    /// Key of the row: a hash of all input of the figures.
     pub key: String,
-    /// How far they have come.
+    /// Stage of the figures.
     pub stage: Stage,
-    /// Keys of its figures.
+    /// Keys of the figures.
     pub figures: Arc<[String]>,
-    /// They, in that order; or why it is left out.
+    /// Figures in the order of their keys, or the reason why the product is excluded.
     pub outcome: Outcome,
 }
 
 impl Known {
-    /// Has it all of these, or is it left out?
+    /// Whether the product has all of these figures, or is excluded.
     pub fn has(&self, figures: &[String]) -> bool {
         self.outcome.is_err() || figures.iter().all(|figure| self.figures.contains(figure))
     }
 
-    /// As a row of a list of these figures; `None` where it lacks one.
+    /// Returns the row for a list of these figures; `None` if one is missing.
     fn row(&self, figures: &[String]) -> Option<Row> {
         let outcome = match &self.outcome {
             Ok(found) => {
@@ -47,7 +46,8 @@ impl Known {
     }
 }
 
-/// A list of what is known, sorted by products' keys, by objectives; products that lack a figure are left to be computed.
+/// Returns a list of stored figures for the given objectives, sorted by product key; products that lack a figure are
+/// left out, to be computed.
 pub fn list_of(head: &List, known: &[Arc<Known>], figures: &[String], objectives: &[Objective]) -> List {
     let mut list = List {
         figures: figures.to_vec(),
@@ -59,25 +59,25 @@ pub fn list_of(head: &List, known: &[Arc<Known>], figures: &[String], objectives
     list
 }
 
-/// Products that are not coarse any more, by what they were made from. Shared by threads.
+/// Store of full figures by row key, shared by threads.
 #[derive(Debug, Default)]
 pub struct Store(Mutex<BTreeMap<String, Arc<Known>>>);
 
-/// More are not kept: a hundred products in a hundred rooms, about a kilobyte each.
+/// Maximum number of stored products: a hundred products in a hundred rooms, about a kilobyte each.
 const MOST: usize = 10_000;
 
 impl Store {
     fn lock(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Known>>> {
-        // What is put in is whole.
+        // Stored entries are always complete.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The row of a key with all of these figures.
+    /// Returns the entry of a row key if it has all of these figures.
     pub fn find(&self, key: &str, figures: &[String]) -> Option<Arc<Known>> {
         self.lock().get(key).filter(|one| one.has(figures)).cloned()
     }
 
-    /// Keeps one, instead of one of the same key.
+    /// Stores an entry, replacing one of the same key.
     pub fn keep(&self, known: Arc<Known>) {
         let mut all = self.lock();
         if all.len() >= MOST {

@@ -1,4 +1,4 @@
-//! The products of a list with their figures, and their ranking.
+//! Products of a list with their figures, and their ranking.
 
 use super::figures::{Found, Outcome};
 use crate::compute::estimate::Estimate;
@@ -7,18 +7,18 @@ use crate::compute::rank::{Objective, Ranking};
 /// A product of a list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Its key in the catalogue.
+    /// Key of the product in the catalogue.
     pub product: String,
-    /// Says from what its figures were made.
+    /// Key of the row: a hash of all input of the figures.
     pub key: String,
-    /// Figures, or why it is left out.
+    /// Figures, or the reason why the product is excluded.
     pub outcome: Outcome,
 }
 
-/// A list: products in a scene, a climate and an azimuth.
+/// A list: products in one scene, climate and azimuth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct List {
-    /// Place among all lists.
+    /// Index of the list among all lists.
     pub number: usize,
     /// Name of the scene.
     pub scene: String,
@@ -28,24 +28,25 @@ pub struct List {
     pub azimuth: f64,
     /// Keys of the figures, one for each objective.
     pub figures: Vec<String>,
-    /// What counts.
+    /// Objectives of the ranking, in the order of the figures.
     pub objectives: Vec<Objective>,
-    /// In any order.
+    /// Rows in any order.
     pub rows: Vec<Row>,
 }
 
 impl List {
-    /// Those with figures.
+    /// Returns the rows with figures.
     pub fn ranked(&self) -> Vec<(&Row, &Found)> {
         self.rows.iter().filter_map(|row| row.outcome.as_ref().ok().map(|found| (row, found))).collect()
     }
 
-    /// Those that are left out, with the reason.
+    /// Returns the excluded rows, with the reason.
     pub fn excluded(&self) -> Vec<(&Row, &str)> {
         self.rows.iter().filter_map(|row| row.outcome.as_ref().err().map(|reason| (row, reason.as_str()))).collect()
     }
 
-    /// The ranking of [`Self::ranked`] by objectives, which may have other weights and anchors than the list's own.
+    /// Returns the ranking of [`Self::ranked`] by objectives, which may have other weights and scale limits than the
+    /// list's own.
     pub fn ranking(&self, objectives: &[Objective]) -> Ranking {
         let ranked = self.ranked();
         let figures: Vec<&[Estimate]> = ranked.iter().map(|(_, found)| found.figures.as_slice()).collect();
@@ -54,7 +55,8 @@ impl List {
         Ranking::of(objectives, &figures, &parts.iter().map(Vec::as_slice).collect::<Vec<_>>())
     }
 
-    /// Rows by their products' keys: the one order in which a list is written and ranked, wherever its rows come from.
+    /// Sorts the rows by product key: the only order in which a list is written and ranked, independent of where its
+    /// rows come from.
     pub fn sort(&mut self) {
         self.rows.sort_by(|a, b| a.product.cmp(&b.product));
     }

@@ -1,24 +1,25 @@
-//! Which system for this façade: every product of the catalogue, or of a search in it, in a scene's year, put in order by the
-//! scene's objectives.
+//! Ranking of systems for a façade: every product of the catalogue, or of a search in it, is computed in a scene's year
+//! and ranked by the scene's objectives.
 //!
 //! | file | what |
 //! | --- | --- |
-//! | `question` | `[rank]` judged: the lists to be made, each a scene in a climate with an azimuth |
+//! | `question` | checks of `[rank]`: the lists to be made, each a scene in a climate with an azimuth |
 //! | `candidate` | the scene with a product in it, under its own control |
 //! | `parts` | figures that are sums over hours, by season, sun and zone |
 //! | `figures` | figures of a product with their errors, coarse and full |
 //! | `run` | all products, side by side, with progress and cancelling |
 //! | `list` | figures of the products of a list; ranked again whenever weights change |
-//! | `known` | figures that are kept, whatever is an objective |
-//! | `offered` | figures that objectives are offered of, and usual objectives |
+//! | `known` | stored figures, independent of objectives |
+//! | `offered` | figures that objectives can use, and default objectives |
 //! | `table` | the table of a ranking |
-//! | `shortlist` | a list put in order, with all that is shown of it |
+//! | `shortlist` | a ranked list, with everything that is displayed of it |
 //! | `picture` | a ranking as a picture |
-//! | `words` | why, in words |
-//! | `shard` | a ranking in pieces: which piece computes what, and keys that say from what it was made |
+//! | `words` | reasons for a rank, in words |
+//! | `shard` | a ranking in pieces: which piece computes what, and keys that identify the input |
 //!
-//! Figures of a product do not depend on weights, anchors or other products: these make the ranking, in microseconds
-//! ([`List::ranking`]). A product that cannot be computed is left out with its reason and fails nothing.
+//! Figures of a product do not depend on weights, scale limits or other products: these only make the ranking, in
+//! microseconds ([`List::ranking`]). A product that cannot be computed is excluded with its reason; the others are not
+//! affected.
 
 mod candidate;
 mod figures;

@@ -1,5 +1,5 @@
-//! Figures that objectives are offered of, with the anchors and the direction that they begin with; and the objectives of
-//! a scene that names none.
+//! Figures that objectives can use, with their initial scale limits and direction; and the default objectives of a
+//! scene without any.
 
 use crate::study::rank_keys::{BetterKey, ObjectiveKeys};
 use crate::study::year_keys::YearKeys;
@@ -8,16 +8,16 @@ use crate::texts::{Text, choose as say};
 /// A figure that may be an objective.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offered {
-    /// The objective that it begins as, with weight 1.
+    /// Initial objective, with weight 1.
     pub keys: ObjectiveKeys,
-    /// Every year of the scene has it, and it costs next to nothing beside the others: found for every product, asked or not.
+    /// Whether every year of the scene has the figure at negligible cost: computed for every product, requested or not.
     pub always: bool,
 }
 
-/// Hours that usual lamps burn in a year at full power where there is no daylight, about. \[h\]
+/// Approximate hours per year at full power of electric lighting without daylight. \[h\]
 const FULL_HOURS: f64 = 2500.0;
 
-/// The figures that a scene with such a year is offered.
+/// Returns the figures that a scene with this year can use.
 pub fn offered(year: &YearKeys) -> Vec<Offered> {
     let one = |figure: &str, better, worst, best, always| Offered {
         keys: ObjectiveKeys { figure: figure.to_owned(), better, worst, best, weight: 1.0 },
@@ -52,18 +52,18 @@ pub fn offered(year: &YearKeys) -> Vec<Offered> {
     list
 }
 
-/// The objectives of a scene that names none: lighting energy, useful light, glare at the first eye (simplified, which every
-/// year knows at once), movements.
+/// Returns the default objectives of a scene without any: lighting energy, useful daylight, glare at the first observer
+/// (by DGPs, which every year has), state changes.
 pub fn usual_objectives(year: &YearKeys) -> Vec<ObjectiveKeys> {
     let list = offered(year);
     let glare = list.iter().find(|one| one.keys.figure.starts_with("glare.")).map(|one| one.keys.figure.as_str());
     let wanted = ["lighting.LENI_kWh_m2", "UDI_a"].into_iter().chain(glare).chain(["movements"]);
     let found = wanted.filter_map(|key| list.iter().find(|one| one.keys.figure == key)).map(|one| one.keys.clone());
-    // How often something moves disturbs, but seldom decides.
+    // State changes disturb, but seldom decide.
     found.map(|keys| if keys.figure == "movements" { ObjectiveKeys { weight: 0.5, ..keys } } else { keys }).collect()
 }
 
-/// What a figure is called, and its unit; `%` for shares of 0 … 1. One that is not known here goes by its key.
+/// Returns the label of a figure and its unit; `%` for shares of 0 … 1. An unknown figure is labelled by its key.
 pub fn figure_words(key: &str) -> (String, &'static str) {
     let known = |text: Text, unit| (text.get().to_owned(), unit);
     match key {
@@ -85,7 +85,7 @@ pub fn figure_words(key: &str) -> (String, &'static str) {
     }
 }
 
-/// Glare at an eye.
+/// Returns label and unit of glare at an observer.
 fn eye_words(key: &str) -> Option<(String, &'static str)> {
     let (eye, what) = key.strip_prefix("glare.Ev_")?.split_once('.')?;
     match what {

@@ -1,4 +1,4 @@
-//! Figures that are sums over hours and places, by season, by sun on the façade or not, and by zone of the room.
+//! Parts of figures that are sums over hours and places: by season, by sun on the façade, and by zone of the room.
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Orientation, Surface};
@@ -9,22 +9,22 @@ use crate::study::scene_file::{SceneFile, SurfaceKey, SystemKeys};
 use crate::study::scene_places::{room, sensors};
 use crate::study::year::{Climate, Year};
 
-/// Seasons by the calendar's whole months; on the southern half of the earth they are those of there.
+/// Names of the seasons, which are whole calendar months; on the southern hemisphere they are shifted by half a year.
 pub const SEASONS: [&str; 4] = ["winter", "spring", "summer", "autumn"];
-/// Is there sun on the façade that is ranked, in the middle of the step?
+/// Names of the two cases: with and without sun on the ranked façade in the middle of the step.
 pub const SUN: [&str; 2] = ["sun", "no sun"];
 
-/// Parts of a figure; with none of them it is no sum.
+/// Parts of a figure; empty if the figure is not a sum.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Parts {
     /// Names of the zones.
     pub zones: Vec<String>,
-    /// By season, in each by sun, in each by zone; they add up to the figure.
+    /// Values by season, within it by sun, within it by zone; they add up to the figure.
     pub values: Vec<f64>,
 }
 
 impl Parts {
-    /// Season, sun and zone of a part, in words.
+    /// Returns the names of season, sun and zone of a part.
     pub fn name(&self, part: usize) -> [&str; 3] {
         let zones = self.zones.len().max(1);
         let word = |list: &'static [&'static str], at: usize| list.get(at).copied().unwrap_or_default();
@@ -33,12 +33,12 @@ impl Parts {
     }
 }
 
-/// How steps and sensors are grouped: found once for a climate and an azimuth.
+/// Groups of steps and sensors, found once for a climate and an azimuth.
 #[derive(Debug, Clone)]
 pub struct Grouping {
-    /// Of every step: season and sun as one index.
+    /// Index of season and sun, by step.
     times: Vec<usize>,
-    /// Of every sensor.
+    /// Index of the zone, by sensor.
     zones: Vec<usize>,
     names: Vec<String>,
     /// Area of the floor. \[m²\]
@@ -46,10 +46,10 @@ pub struct Grouping {
 }
 
 impl Grouping {
-    /// Of a scene with ranked apertures; the sun is looked for at the first of them.
+    /// Creates the groups of a scene with ranked apertures; sun on the façade is determined for the first of them.
     ///
     /// # Errors
-    /// Keys of room, sensors or sky that are wrong.
+    /// Returns an error if a key of room, sensors or sky is wrong.
     pub fn of(file: &SceneFile, climate: &Climate) -> Result<Self, StudyError> {
         let surface = match file.aperture.iter().find(|one| one.system == SystemKeys::Ranked).map(|one| one.surface) {
             Some(SurfaceKey::Roof) => Surface::Roof,
@@ -74,7 +74,7 @@ impl Grouping {
         Ok(Self { times, zones, names, area: file.room.width * file.room.depth })
     }
 
-    /// The parts of a figure of a year; none where it is no sum over hours and sensors.
+    /// Returns the parts of a figure of a year; empty if it is not a sum over hours and sensors.
     pub fn parts(&self, year: &Year, key: &str) -> Parts {
         match (key, year.settings.lamps.as_ref()) {
             ("lighting.LENI_kWh_m2" | "lighting.kWh_m2", Some(lamps)) => self.lamps(year, lamps, 1.0),
@@ -95,7 +95,7 @@ impl Grouping {
         Parts { values: vec![0.0; SEASONS.len() * SUN.len() * zones.len()], zones }
     }
 
-    /// A mean over sensors and steps, occupied ones or all.
+    /// Returns the parts of a mean over sensors and steps. `occupied`: only occupied steps.
     fn places(&self, year: &Year, occupied: bool, of: fn(f64) -> f64) -> Parts {
         let mut parts = self.empty(self.names.clone());
         let counts = |k: usize| !occupied || year.steps.list[k].occupied;
@@ -110,7 +110,7 @@ impl Grouping {
         parts
     }
 
-    /// Energy of the lamps, by their zones. \[kWh/m² × `scale`\]
+    /// Returns the energy of the electric lighting, by lighting zone. \[kWh/m² × `scale`\]
     fn lamps(&self, year: &Year, lamps: &Lamps, scale: f64) -> Parts {
         let names = if lamps.zones.len() == 1 { vec!["whole room".to_owned()] } else { self.names.clone() };
         let mut parts = self.empty(names);
@@ -131,8 +131,8 @@ fn one_if(yes: bool) -> f64 {
     f64::from(u8::from(yes))
 }
 
-/// Zone of every sensor and names of the zones: those of the lamps where there are several, by their depth; else the half at
-/// the façade and the other. Sensors that no lamp follows are a zone of their own.
+/// Returns the zone of every sensor and the names of the zones: the lighting zones by their depth if there are several;
+/// else the half at the façade and the rear half. Sensors without a lighting zone form an extra zone.
 fn zones(depths: &[f64], depth: f64, lamps: Option<&Lamps>) -> (Vec<usize>, Vec<String>) {
     let Some(lamps) = lamps.filter(|lamps| lamps.zones.len() > 1) else {
         let zones = depths.iter().map(|y| usize::from(*y >= 0.5 * depth)).collect();

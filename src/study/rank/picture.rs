@@ -1,4 +1,4 @@
-//! A ranking as a picture: bars of what products are worth, or two objectives against each other.
+//! Picture of a ranking: bars of scores, or two objectives against each other.
 
 use super::offered::figure_words;
 use super::shortlist::{Entry, Look, Page, Shortlist};
@@ -11,12 +11,13 @@ use crate::texts::{choose as say, fixed};
 
 /// Height of a row of bars. \[points of the drawing\]
 const ROW: f64 = 19.0;
-/// Width of rank and name; of the words behind a bar.
+/// Width of rank and name. \[points of the drawing\]
 const NAME: f64 = 290.0;
+/// Width of the words behind a bar. \[points of the drawing\]
 const WORDS: f64 = 110.0;
 
 impl Shortlist {
-    /// The objectives of a plot's axes: those that are looked at, else the first two.
+    /// Returns the objectives of a plot's axes: the selected ones, else the first two.
     pub fn axes(&self, look: &Look) -> [usize; 2] {
         let place = |key: &String| self.list.figures.iter().position(|figure| figure == key);
         let last = self.list.figures.len().saturating_sub(1);
@@ -25,7 +26,7 @@ impl Shortlist {
         [x, y]
     }
 
-    /// Axes of two objectives that hold all that is looked at, errors and all; without points.
+    /// Returns the axes of two objectives that contain all displayed products with their errors; without points.
     pub fn plot(&self, look: &Look) -> Plot {
         let axes = self.axes(look);
         let shown = self.shown(look);
@@ -44,7 +45,7 @@ impl Shortlist {
         Plot { x: axis(axes[0]), y: axis(axes[1]), series: Vec::new(), guides: Vec::new() }
     }
 
-    /// Draws what is looked at; what it says in a line.
+    /// Draws the displayed products, and returns a line that describes the drawing.
     pub fn draw(&self, drawing: &mut Drawing, frame: Frame, look: &Look, inks: &Inks) -> String {
         let shown: Vec<&Entry> = self.shown(look).into_iter().filter(|entry| entry.excluded.is_none()).collect();
         let drawn = if look.page == Page::Plot {
@@ -74,7 +75,7 @@ impl Shortlist {
                 [[0.0, -size], [size, 0.0], [0.0, size], [-size, 0.0]].map(|[dx, dy]| [at[0] + dx, at[1] + dy]);
             drawing.add(Shape::area(diamond, inks.series[usize::from(front)]));
             if front {
-                // Names go to the side with room.
+                // Names are placed on the side with room.
                 let left = at[0] > panel.area.left + 0.7 * panel.area.width;
                 let (dx, align) = if left { (-8.0, Align::End) } else { (8.0, Align::Start) };
                 drawing.add(Shape::words([at[0] + dx, at[1] + 4.0], entry.name.clone(), inks.ink, TEXT, align));
@@ -83,7 +84,7 @@ impl Shortlist {
     }
 }
 
-/// As many rows as the frame has room for; how many.
+/// Draws as many rows as fit into the frame, and returns their number.
 fn bars(drawing: &mut Drawing, frame: Frame, shown: &[&Entry], inks: &Inks) -> usize {
     let count = ((frame.height / ROW).floor() as usize).min(shown.len());
     let (left, width) = (frame.left + NAME, (frame.width - NAME - WORDS).max(40.0));

@@ -1,4 +1,4 @@
-//! `[rank]` judged, and the lists that a scene asks for: one for each climate and azimuth.
+//! Checks of `[rank]`, and the lists that a scene asks for: one for each climate and azimuth.
 
 use crate::catalogue::Product;
 use crate::compute::rank::{Better, Objective};
@@ -7,7 +7,7 @@ use crate::study::scene_file::{BetterKey, ObjectiveKeys, RankControlKey, RankKey
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// One list: products in a scene, a climate and an azimuth.
+/// Input of one list: products in one scene, climate and azimuth.
 #[derive(Debug, Clone)]
 pub struct Group {
     /// Name of the scene.
@@ -16,25 +16,26 @@ pub struct Group {
     pub climate: String,
     /// Bearing of the façade's outward normal. \[°\]
     pub azimuth: f64,
-    /// The scene with that weather and azimuth, its ranked apertures still open.
+    /// Scene with the list's weather and azimuth, its ranked apertures still empty.
     pub file: Arc<SceneFile>,
-    /// Where its relative paths start.
+    /// Folder that relative paths of the scene start from.
     pub base: PathBuf,
     /// Keys of the figures, one for each objective.
     pub figures: Vec<String>,
-    /// What counts.
+    /// Objectives of the ranking, in the order of the figures.
     pub objectives: Vec<Objective>,
-    /// By whose rule products move.
+    /// Source of the control rule of moving products.
     pub control: RankControlKey,
-    /// Sorted by their keys.
+    /// Products, sorted by their keys.
     pub products: Arc<[Product]>,
 }
 
-/// The lists of a scene: climates in their order, azimuths in theirs. `find` looks products up by words; `words` stand instead
-/// of the scene's own.
+/// Returns the lists of a scene: climates in their order, azimuths in theirs. `find` searches products by words;
+/// `words` replace the scene's own.
 ///
 /// # Errors
-/// No `[rank]`, no ranked aperture, objectives that are none, words that no product has.
+/// Returns an error if there is no `[rank]` or no ranked aperture, if an objective is not valid, or if no product is
+/// found.
 pub fn groups(
     name: &str,
     file: &SceneFile,
@@ -91,7 +92,7 @@ pub fn groups(
     Ok(list)
 }
 
-/// Rows of a table must not be the same twice.
+/// Checks that no entry occurs twice, so that rows of a table are distinct.
 fn twice(key: &str, list: &[String]) -> Result<(), StudyError> {
     match list.iter().enumerate().find(|(place, one)| list[..*place].contains(one)) {
         Some((_, one)) => Err(StudyError::key(key, format!("{one} is named twice; expected each once"))),
@@ -99,10 +100,10 @@ fn twice(key: &str, list: &[String]) -> Result<(), StudyError> {
     }
 }
 
-/// What counts by `[rank]`.
+/// Returns the objectives of `[rank]`.
 ///
 /// # Errors
-/// The key that is wrong.
+/// Returns an error that names the wrong key.
 pub fn objectives(keys: &RankKeys) -> Result<Vec<Objective>, StudyError> {
     if keys.objective.is_empty() {
         return Err(StudyError::key("rank.objective", "missing: name one figure at least, as [[rank.objective]]"));

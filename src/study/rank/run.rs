@@ -1,4 +1,4 @@
-//! All products of all lists, side by side, stage by stage: by data on their cells, with beams as they are.
+//! Computation of all products of all lists in parallel, stage by stage: by patch-averaged data, then with sharp beams.
 
 use super::figures::{Outcome, Setting, Stage};
 use super::list::{List, Row};
@@ -22,36 +22,37 @@ use std::sync::{Mutex, PoisonError};
 /// One product of one list: indices of the group, and of the product in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Item {
-    /// Which list.
+    /// Index of the list.
     pub group: usize,
-    /// Which of its products.
+    /// Index of the product in the list.
     pub product: usize,
 }
 
-/// A result as soon as it is there.
+/// Result of one product, reported as soon as it is available.
 #[derive(Debug, Clone, Copy)]
 pub struct Answer<'a> {
-    /// Of what.
+    /// Product and list of the result.
     pub item: Item,
-    /// How far the work on it has come.
+    /// Stage of the result.
     pub stage: Stage,
-    /// What came out.
+    /// Figures, or the reason why the product is excluded.
     pub outcome: &'a Outcome,
 }
 
-/// What is known of a list before any product is.
+/// Data of a list that do not depend on its products.
 struct Ready {
     climate: Climate,
     by_cells: Climate,
     grouping: Grouping,
 }
 
-/// Computes items, those of few states first, and what an earlier stage found best before the rest. Results do not depend on
-/// the number of threads. All of them come through a stage before any enters the next; `told` hears of every result when it is
-/// there, from any thread.
+/// Computes items, those with few states first, and in later stages the best of the earlier stage first. Results do not
+/// depend on the number of threads. All items complete a stage before any enters the next; `told` receives every result
+/// when it is available, from any thread.
 ///
 /// # Errors
-/// A climate that cannot be read, a figure that no year has; cancelled. What is wrong with a product is its outcome.
+/// Returns an error if a climate cannot be read, if no year has a figure, or if cancelled. Errors of a product are its
+/// outcome.
 pub fn run(
     groups: &[Group],
     items: &[Item],
@@ -70,7 +71,7 @@ pub fn run(
             let group = &groups[item.group];
             progress.advance("weather", ready.len(), groups.len());
             let mut climate = climate(&group.file, &group.base)?;
-            // What no objective asks for is not computed.
+            // Figures that no objective needs are not computed.
             let asks = |word: &str| group.figures.iter().any(|figure| figure.contains(word));
             climate.settings.keys.solar = asks("solar.");
             climate.settings.keys.lm83 = asks("LM83") || asks("blinds_closed");
@@ -90,7 +91,7 @@ pub fn run(
     let one = |item: &Item, stage: Stage| {
         setting(item).product(&groups[item.group].products[item.product], stage, &Withdrawn(progress))
     };
-    // What is wrong with a scene is told once, before its products are computed in vain.
+    // Errors of a scene are reported once, before its products are computed in vain.
     let mut asked: Vec<&str> = Vec::new();
     for item in items {
         let group = &groups[item.group];
@@ -99,14 +100,14 @@ pub fn run(
             setting(item).check(&group.products[item.product], &Withdrawn(progress))?;
         }
     }
-    // Those that stand still first: they are quick, and whoever waits sees a list.
+    // Products without moving parts first: they are quick, and the user sees a list early.
     let states = |at: &usize| groups[items[*at].group].products[items[*at].product].states.len();
     let mut order: Vec<usize> = (0..items.len()).collect();
     order.sort_by_key(states);
     let mut outcomes: Vec<Option<Outcome>> = Vec::new();
     for stage in stages {
         let mut own = order.clone();
-        // Whoever waits sees first what the best come to.
+        // The user sees the results of the best products first.
         own.sort_by(|&a, &b| {
             let [a, b] = [a, b].map(|at| promise(&groups[items[at].group], outcomes.get(at).and_then(Option::as_ref)));
             b.total_cmp(&a)
@@ -119,7 +120,7 @@ pub fn run(
     Ok(outcomes.into_iter().flatten().collect())
 }
 
-/// What a product is worth by what is known of it; as little as can be where nothing is.
+/// Returns the score of a product by its known figures; negative infinity without any.
 fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
     let worth = || {
         let keys = group.file.rank.as_ref()?;
@@ -131,13 +132,14 @@ fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
     worth().unwrap_or(f64::NEG_INFINITY)
 }
 
-/// Whether data on cells come sooner than what the scene asks for.
+/// Whether patch-averaged data are quicker than the interpolation of the scene.
 fn is_quicker_by_cells(file: &SceneFile) -> bool {
     file.compute.interpolation != Interpolation::Patch
 }
 
-/// Threads of their own, each of which shares the computing of its product with all processors: work that waits for a lock
-/// must not hold up the pool whose work the lock's owner waits for. `order`: of the items' places, to be taken so.
+/// Computes items on separate threads, each of which shares the computation of its product with all processors: work
+/// that waits for a lock must not block the pool whose work the lock's owner waits for. `order`: indices of the items
+/// in the order of computation.
 fn side_by_side(
     items: &[Item],
     order: &[usize],
@@ -179,7 +181,7 @@ fn side_by_side(
     if order.iter().any(|&at| results[at].is_none()) { Err(Cancelled.into()) } else { Ok(results) }
 }
 
-/// Lists of what was computed; `keys` of the items' rows.
+/// Returns the lists of computed items. `keys`: of the items' rows.
 pub fn lists_of(groups: &[Group], items: &[Item], outcomes: Vec<Outcome>, keys: &[String]) -> Vec<List> {
     let mut lists: Vec<List> = groups
         .iter()

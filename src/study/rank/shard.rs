@@ -1,30 +1,30 @@
-//! A ranking in pieces. A piece is a number n of 0 … N − 1; what it computes follows from the scenes, the catalogue and n / N
-//! alone.
+//! A ranking in pieces. A piece is a number n of 0 … N − 1; its part of the work follows from the scenes, the catalogue
+//! and n / N alone.
 //!
-//! Lists come first, since all products of a list share the room and the year of light: as long as there are no more
-//! pieces than lists, a piece has whole lists; else a list is cut into as many as it gets.
+//! Pieces are divided by lists first, since all products of a list share the room and the year of light: with no more
+//! pieces than lists, a piece has whole lists; else a list is divided into as many pieces as it gets.
 
 use super::question::Group;
 use super::run::Item;
 use crate::study::fingerprint::{digest, of_product, of_scene};
 
-/// A piece, n of N.
+/// A piece of a ranking, n of N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
-    /// From 0.
+    /// Number n of the piece, from 0.
     pub number: usize,
-    /// How many there are.
+    /// Number N of all pieces.
     pub count: usize,
 }
 
 impl Shard {
-    /// All in one piece.
+    /// The whole ranking in one piece.
     pub const WHOLE: Self = Self { number: 0, count: 1 };
 
-    /// Reads "n/N".
+    /// Reads a piece from "n/N".
     ///
     /// # Errors
-    /// What would be right.
+    /// Returns a message that says what is expected.
     pub fn read(text: &str) -> Result<Self, String> {
         let wrong = || format!("\"{text}\" is no shard; expected n/N with n from 0 to N - 1, e.g. 0/8");
         let (number, count) = text.split_once('/').ok_or_else(wrong)?;
@@ -32,12 +32,13 @@ impl Shard {
         if number < count { Ok(Self { number, count }) } else { Err(wrong()) }
     }
 
-    /// What it computes of lists with so many products each.
+    /// Returns the items of this piece. `products`: number of products of each list.
     pub fn items(self, products: &[usize]) -> Vec<Item> {
         let lists = products.len();
         let mut items = Vec::new();
         for (group, &own) in products.iter().enumerate() {
-            // The pieces from the first one of this list to that of the next one; none: the list belongs to a piece of several.
+            // The pieces from the first one of this list to that of the next one; none: the list belongs to a piece of
+            // several.
             let first = |list: usize| (list * self.count).div_ceil(lists);
             let (from, to) = (first(group), first(group + 1));
             let (from, to) = if self.count <= lists {
@@ -56,7 +57,8 @@ impl Shard {
     }
 }
 
-/// Keys of the rows of items: hashes of all that their figures are made of – scene, files that it names, product, program.
+/// Returns the keys of the items' rows: hashes of all input of their figures – scene, files that it names, product,
+/// program.
 pub fn keys(groups: &[Group], items: &[Item]) -> Vec<String> {
     let scenes: Vec<String> = groups.iter().map(of_group).collect();
     let key = |item: &Item| {
@@ -66,7 +68,7 @@ pub fn keys(groups: &[Group], items: &[Item]) -> Vec<String> {
     items.iter().map(key).collect()
 }
 
-/// The key of a whole ranking: pieces of one belong together, those of two do not.
+/// Returns the key of a whole ranking: equal for the pieces of one ranking, different for those of two.
 pub fn run_key(groups: &[Group]) -> String {
     let all = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
     digest(&keys(groups, &all).iter().map(String::as_bytes).collect::<Vec<_>>())

@@ -1,4 +1,4 @@
-//! A list put in order, with all that a table, a plot and words show of it.
+//! Ranked list, with everything that table, plot and words display of it.
 
 use super::list::List;
 use super::table::{csv_text, ranked_table};
@@ -8,58 +8,58 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is shown of a ranking.
+/// Displayed part of a ranking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Page {
-    /// Products in rows.
+    /// Table of the products.
     #[default]
     Table,
     /// Two objectives against each other.
     Plot,
-    /// What counts, and how much.
+    /// Objectives and their weights.
     Objectives,
 }
 
-/// By what rows are ordered.
+/// Order of the rows.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Sort {
-    /// By worth, the best first.
+    /// Descending score.
     #[default]
     Worth,
-    /// By name.
+    /// Alphabetical order of names.
     Name,
-    /// By the figure of this key, the best first.
+    /// Order by the figure of this key, best first.
     Figure(String),
 }
 
-/// How a ranking is looked at. Products go by their keys, figures by theirs.
+/// View of a ranking. Products and figures are given by their keys.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Look {
-    /// What of it.
+    /// Displayed page.
     pub page: Page,
-    /// Words that names have to hold.
+    /// Words that names must contain.
     pub words: String,
-    /// Only what no other is better than in every objective.
+    /// Whether only Pareto-optimal products are displayed.
     pub front_only: bool,
-    /// Show what is left out too.
+    /// Whether excluded products are displayed too.
     pub excluded: bool,
     /// Order of the rows.
     pub sort: Sort,
-    /// The plot's figures, to the right and up; the first objectives where these are none.
+    /// Keys of the plot's figures, horizontal and vertical; the first objectives if these keys do not exist.
     pub axes: [String; 2],
-    /// The product whose reasons are told.
+    /// Product whose reasons are displayed.
     pub product: Option<String>,
-    /// The one that it is told against; `None`: the best.
+    /// Product that it is compared with; `None`: the best.
     pub against: Option<String>,
-    /// Only products that the catalogue's search finds.
+    /// Whether only products are displayed that the catalogue's search finds.
     pub in_search: bool,
-    /// The aperture that products go into, from 0; `None`: all that are filled from the catalogue.
+    /// Aperture that products are inserted in, from 0; `None`: all that are filled from the catalogue.
     pub aperture: Option<usize>,
 }
 
 impl Look {
-    /// Does a product pass words and front?
+    /// Whether a product passes the filters of words, Pareto front and excluded products.
     pub fn shows(&self, entry: &Entry) -> bool {
         let (words, name) = (self.words.to_lowercase(), entry.name.to_lowercase());
         (entry.excluded.is_none() || self.excluded)
@@ -71,66 +71,67 @@ impl Look {
 /// A product of the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    /// Its key in the catalogue.
+    /// Key of the product in the catalogue.
     pub product: String,
-    /// What it is called.
+    /// Name of the product.
     pub name: String,
-    /// In the order of the objectives; empty for what is left out.
+    /// Figures in the order of the objectives; empty for an excluded product.
     pub figures: Vec<Estimate>,
-    /// What it is worth, 0 … 1.
+    /// Score of the product, 0 … 1.
     pub worth: Estimate,
-    /// First and last rank that the errors leave it, from 1.
+    /// First and last rank within the uncertainty, from 1.
     pub ranks: (usize, usize),
-    /// Against the front; `None` for what is left out.
+    /// Position relative to the Pareto front; `None` for an excluded product.
     pub place: Option<Place>,
-    /// Why its figures are approximate beyond their errors; empty where they are not.
+    /// Reasons why the figures are approximate beyond their errors; empty if they are not.
     pub approximate: Vec<String>,
-    /// By data on their cells so far.
+    /// Whether the figures are by patch-averaged data so far.
     pub coarse: bool,
-    /// Why it is left out.
+    /// Reason why the product is excluded; `None` if it is ranked.
     pub excluded: Option<String>,
 }
 
-/// What an objective has in a difference.
+/// Share of one objective in a difference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Term {
-    /// Which objective.
+    /// Index of the objective.
     pub objective: usize,
-    /// Its part of the difference; the terms' add up to the whole.
+    /// Part of the score difference by this objective; the parts of all terms add up to the whole.
     pub worth: f64,
-    /// The figures of both.
+    /// Figures of both products.
     pub figures: [f64; 2],
-    /// The largest parts of the figures' difference, each with season, sun and zone.
+    /// Largest parts of the figures' difference, each with season, sun and zone.
     pub parts: Vec<(f64, [String; 3])>,
 }
 
-/// Why one stands where it does, against another.
+/// Reasons for the rank of a product, relative to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reason {
-    /// The other's place in [`Shortlist::entries`].
+    /// Index of the other product in [`Shortlist::entries`].
     pub other: usize,
-    /// Do the errors leave open which of them is better?
+    /// Whether the difference is within the uncertainty, so that the better one is not determined.
     pub open: bool,
-    /// Difference of what they are worth.
+    /// Difference of the scores.
     pub worth: f64,
-    /// The largest first.
+    /// Terms of the difference, the largest first.
     pub terms: Vec<Term>,
 }
 
-/// A list in order.
+/// A ranked list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shortlist {
-    /// What it is made of.
+    /// List that the entries are made from.
     pub list: List,
-    /// By falling worth, what is left out last.
+    /// Products by descending score, excluded ones last.
     pub entries: Vec<Entry>,
 }
 
-/// Parts of a figure that are told at most, and the share of the difference that each must make.
+/// Maximum number of stated parts of a figure, and minimum share of the difference that each must have.
 const PARTS: (usize, f64) = (2, 0.15);
 
 impl Shortlist {
-    /// Puts a list in order by its own objectives. `names` of products; `coarse`: those by data on their cells so far.
+    /// Creates the ranked list by the list's own objectives. `names`: of the products; `coarse`: keys of those with
+    /// figures by patch-averaged data so far.
     pub fn of(list: List, names: &BTreeMap<String, String>, coarse: &BTreeSet<String>) -> Self {
         let name = |product: &str| names.get(product).cloned().unwrap_or_else(|| product.to_owned());
         let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));
@@ -166,12 +167,12 @@ impl Shortlist {
         Self { list, entries }
     }
 
-    /// A product by its key.
+    /// Returns a product by its key.
     pub fn entry(&self, product: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.product == product)
     }
 
-    /// Rows as they are looked at, in their order.
+    /// Returns the displayed rows in their order.
     pub fn shown(&self, look: &Look) -> Vec<&Entry> {
         let mut rows: Vec<&Entry> = self.entries.iter().filter(|entry| look.shows(entry)).collect();
         match &look.sort {
@@ -191,7 +192,8 @@ impl Shortlist {
         rows
     }
 
-    /// Why a product stands where it does: against another, else against the best, the best itself against the second.
+    /// Returns the reasons for a product's rank: relative to `against`, else to the best, for the best itself to the
+    /// second.
     pub fn reason(&self, product: &str, against: Option<&str>) -> Option<Reason> {
         let place = |key: &str| self.entries.iter().position(|one| one.product == key && one.excluded.is_none());
         let own = place(product)?;
@@ -232,7 +234,7 @@ impl Shortlist {
         Some(Reason { other, open: !surely_above(x, y) && !surely_above(y, x), worth: why.utility, terms })
     }
 
-    /// The table, as `cfs rank --out` writes it.
+    /// Returns the table, as `cfs rank --out` writes it.
     pub fn csv(&self) -> String {
         csv_text(&ranked_table(std::slice::from_ref(&self.list), &self.list.figures))
     }

@@ -1,4 +1,4 @@
-//! The table of a ranking, as files hold it.
+//! Table of a ranking, as it is written to files.
 
 use super::list::{List, Row};
 use super::words::why;
@@ -7,25 +7,25 @@ use crate::texts::inert_cell;
 
 /// Columns before the figures.
 pub const WHERE: [&str; 4] = ["scene", "climate", "azimuth", "product"];
-/// Columns behind them.
+/// Columns after the figures.
 pub const RESULT: [&str; 8] =
     ["utility", "utility_error", "rank_first", "rank_last", "front", "approximate", "excluded", "why"];
-/// Between the reasons why figures are approximate.
+/// Separator of the reasons why figures are approximate.
 pub const BETWEEN: &str = "; ";
 
-/// Names of the columns.
+/// Returns the names of the columns.
 pub fn header(figures: &[String]) -> Vec<String> {
     let pairs = figures.iter().flat_map(|figure| [figure.clone(), format!("{figure}_error")]);
     WHERE.map(str::to_owned).into_iter().chain(pairs).chain(RESULT.map(str::to_owned)).collect()
 }
 
-/// All its digits: figures have nine, and come back as they went.
+/// Formats a value with all its digits: figures have nine, and are read back unchanged.
 pub fn exact(value: f64) -> String {
-    // No sign of nought.
+    // Without the sign of −0.
     format!("{}", value + 0.0)
 }
 
-/// The columns of place and figures; empty ones for figures that are not this list's.
+/// Returns the columns of place and figures; empty ones for figures that this list does not have.
 pub fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
     let mut fields = vec![list.scene.clone(), list.climate.clone(), exact(list.azimuth), row.product.clone()];
     for figure in figures {
@@ -37,13 +37,14 @@ pub fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
     fields
 }
 
-/// The row of a product that is left out, from its first columns.
+/// Returns the row of an excluded product, from its first columns.
 pub fn excluded(mut fields: Vec<String>, reason: &str) -> Vec<String> {
     fields.extend(RESULT.map(|name| if name == "excluded" { reason.to_owned() } else { String::new() }));
     fields
 }
 
-/// Whole rankings: lists in their order, best first, those that are left out last. The first row has the columns' names.
+/// Returns the table of whole rankings: lists in their order, best first, excluded products last. The first row has the
+/// column names.
 pub fn ranked_table(lists: &[List], figures: &[String]) -> Vec<Vec<String>> {
     let mut table = vec![header(figures)];
     for list in lists {
@@ -62,7 +63,7 @@ pub fn ranked_table(lists: &[List], figures: &[String]) -> Vec<Vec<String>> {
     table
 }
 
-/// A table as CSV.
+/// Returns a table as CSV.
 pub fn csv_text(rows: &[Vec<String>]) -> String {
     let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
     for row in rows {

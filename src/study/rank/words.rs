@@ -1,19 +1,19 @@
-//! Why a product stands where it stands, in words made of the numbers.
+//! Reasons for the rank of a product, in words made of the numbers.
 
 use super::figures::Found;
 use super::list::List;
 use crate::compute::rank::{Ranked, Why, surely_above};
 use crate::drawing::ticks::number;
 
-/// Less of a utility is not worth a word.
+/// Difference of scores below which an objective is not mentioned.
 const LEAST: f64 = 5e-4;
-/// Parts of a difference that are told at most.
+/// Maximum number of parts of a difference that are stated.
 const PARTS: usize = 2;
-/// Share of the difference that a part must make to be told.
+/// Minimum share of the difference that a stated part must have.
 const LARGE: f64 = 0.15;
 
-/// One sentence on one of a list: against the best (the best itself against the second) and against the mean of all.
-/// `of` is its place in `ranked`, which are all, with `rows` as [`List::ranked`] gives them.
+/// Returns one sentence on a product of a list: against the best (the best itself against the second) and against the
+/// mean of all. `of` is its index in `ranked`, which contains all, with `rows` as [`List::ranked`] returns them.
 pub fn why(list: &List, ranked: &[Ranked], rows: &[(&str, &Found)], of: usize) -> String {
     let own = &ranked[of];
     let mean = format!("{} the mean: {}", against(own.to_mean.utility), shares(list, rows[of].1, &own.to_mean, None));
@@ -35,7 +35,8 @@ fn signed(value: f64) -> String {
     format!("{}{}", if value > 0.0 { "+" } else { "" }, number(value, 3))
 }
 
-/// The objectives that a difference is made of, the largest first, with figures and the largest groups of hours.
+/// Returns the objectives that a difference consists of, the largest first, with figures and the largest groups of
+/// hours.
 fn shares(list: &List, own: &Found, why: &Why, other: Option<&Found>) -> String {
     let mut order: Vec<usize> = (0..why.shares.len()).filter(|&k| why.shares[k].utility.abs() >= LEAST).collect();
     order.sort_by(|&a, &b| why.shares[b].utility.abs().total_cmp(&why.shares[a].utility.abs()));

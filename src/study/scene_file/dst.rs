@@ -1,4 +1,4 @@
-//! `site.dst`: when the clock that the scene is read by is an hour ahead of local standard time.
+//! Key `site.dst`: rule by which local time is an hour ahead of standard time.
 
 use jiff::ToSpan;
 use jiff::civil::{Date, DateTime, Weekday, date};
@@ -11,26 +11,26 @@ pub enum DstKey {
     /// The clock shows local standard time all the year.
     #[default]
     None,
-    /// From the last Sunday of March to the last Sunday of October, changed at 01:00 UTC.
+    /// Last Sunday of March to last Sunday of October, changed at 01:00 UTC.
     Eu,
-    /// From the second Sunday of March to the first Sunday of November, changed at 02:00 by the clock.
+    /// Second Sunday of March to first Sunday of November, changed at 02:00 by the clock.
     Us,
-    /// From the first Sunday of October to the first Sunday of April, changed at 02:00 standard time: the states in the
-    /// south-east of Australia.
+    /// First Sunday of October to first Sunday of April, changed at 02:00 standard time: the states in the south-east
+    /// of Australia.
     Australia,
-    /// From the last Sunday of September to the first Sunday of April, changed at 02:00 standard time.
+    /// Last Sunday of September to first Sunday of April, changed at 02:00 standard time.
     NewZealand,
-    /// From the Sunday on or after 2 September to the Sunday on or after 2 April, changed at midnight by the clock.
+    /// Sunday on or after 2 September to Sunday on or after 2 April, changed at midnight by the clock.
     Chile,
-    /// From the first to the last day named, both as a whole: month and day of any year, in [`ANY_YEAR`]. The last may be
-    /// earlier in the year than the first.
+    /// Period from the first to the last day given, both as a whole: month and day of any year, in [`ANY_YEAR`]. The
+    /// last may be earlier in the year than the first.
     Days(Date, Date),
 }
 
-/// Year that stands for all years in [`DstKey::Days`]: it has a 29th of February.
+/// Year that represents all years in [`DstKey::Days`]: it has a 29th of February.
 pub const ANY_YEAR: i16 = 2000;
 
-/// A word, or two days.
+/// Value of `site.dst` as typed: the name of a rule, or two days.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(untagged)]
 enum DstAsTyped {
@@ -41,7 +41,7 @@ enum DstAsTyped {
 const RIGHT: &str = "\"none\", \"eu\", \"us\", \"australia\", \"new-zealand\", \"chile\", or the first and the last day, e.g. \
                      [\"03-29\", \"10-25\"]";
 
-/// Rules with a name, and their names.
+/// Rules that have a name, with their names.
 const RULES: [(DstKey, &str); 6] = [
     (DstKey::None, "none"),
     (DstKey::Eu, "eu"),
@@ -88,7 +88,7 @@ impl From<DstKey> for DstAsTyped {
     }
 }
 
-/// The Sunday on or after a day of the calendar.
+/// Returns the Sunday on or after a day of the calendar.
 fn sunday_from(year: i16, month: i8, day: i8) -> Date {
     // Months and days of the rules are of every year's calendar.
     let from = date(year, month, day);
@@ -103,12 +103,12 @@ impl DstKey {
         Self::Days(of_any_year(first), of_any_year(last))
     }
 
-    /// Nothing that the file needs to say.
+    /// Whether there is no summer time, which is not written.
     pub(super) fn is_none(&self) -> bool {
         *self == Self::None
     }
 
-    /// Is it summer time at a moment of local standard time? `utc_offset`: hours that standard time is ahead of UTC.
+    /// Whether it is summer time at a moment of local standard time. `utc_offset`: UTC offset of standard time. \[h\]
     fn is_summer(self, standard: DateTime, utc_offset: f64) -> bool {
         let year = standard.year();
         let at = |day: Date, hours: f64| day.to_datetime(jiff::civil::Time::midnight()).saturating_add(minutes(hours));
@@ -132,19 +132,20 @@ impl DstKey {
         if from < to { from <= standard && standard < to } else { from <= standard || standard < to }
     }
 
-    /// Local standard time of what the clock shows. Of the hour that a clock shows twice in autumn, the first.
+    /// Returns the local standard time of a time by the clock. If the clock shows an hour twice in autumn, the first
+    /// is meant.
     pub fn standard(self, clock: DateTime, utc_offset: f64) -> DateTime {
         let ahead = clock.saturating_sub(minutes(1.0));
         if self.is_summer(ahead, utc_offset) { ahead } else { clock }
     }
 
-    /// What the clock shows at a moment of local standard time.
+    /// Returns the time by the clock at a moment of local standard time.
     pub fn clock(self, standard: DateTime, utc_offset: f64) -> DateTime {
         if self.is_summer(standard, utc_offset) { standard.saturating_add(minutes(1.0)) } else { standard }
     }
 }
 
-/// Hours as a span, to the minute: offsets are not always whole.
+/// Returns hours as a span, to the minute: offsets are not always whole hours.
 fn minutes(hours: f64) -> jiff::Span {
     ((60.0 * hours).round() as i64).minutes()
 }
@@ -208,8 +209,8 @@ mod tests {
 
     #[test]
     fn south_of_the_equator_summer_time_runs_across_new_year() {
-        // Last and first hours of 2026: Sydney 5 April and 4 October, Auckland 5 April and 27 September, Santiago 4 April and
-        // 6 September at midnight.
+        // Last and first hours of 2026: Sydney 5 April and 4 October, Auckland 5 April and 27 September, Santiago 4
+        // April and 6 September at midnight.
         let southern = [
             ("\"australia\"", ["2026-04-05T01:59", "2026-04-05T03:00", "2026-10-04T01:59", "2026-10-04T03:00"]),
             ("\"new-zealand\"", ["2026-04-05T01:59", "2026-04-05T03:00", "2026-09-27T01:59", "2026-09-27T03:00"]),

@@ -1,47 +1,48 @@
-//! What stands outside, as typed: boxes before the façade and above the roof, a skyline, frame and dirt.
+//! Keys of the obstructions: boxes in front of the façade and above the roof, a skyline; and of frame and dirt.
 
 use serde::{Deserialize, Serialize};
 
-/// `[[outside]]`: an upright box, outside the room's own.
+/// Table `[[outside]]`: a vertical box outside the room's own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OutsideKeys {
-    /// What it is called; may be left out.
+    /// Name of the box; optional.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// Where it stands.
+    /// Position and size of the box.
     #[serde(rename = "box")]
     pub solid: BoxKeys,
-    /// Diffuse, 0 … 1: lit by sky, sun and ground. 0.3 where neither this nor a luminance is written.
+    /// Diffuse reflectance, 0 … 1, of a box lit by sky, sun and ground; 0.3 where neither this nor a luminance is
+    /// written.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reflectance: Option<f64>,
-    /// Instead: the same on all faces, whatever falls on them. \[cd/m²\]
+    /// Luminance of all faces instead of a reflectance, independent of incident light. \[cd/m²\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub luminance: Option<f64>,
 }
 
-/// `outside.box`
+/// Key `outside.box`: position and size of a box.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BoxKeys {
-    /// Least x, y and z, room axes. \[m\]
+    /// Minimum x, y and z, room axes. \[m\]
     pub from: [f64; 3],
-    /// Greatest x, y and z, before it is turned. \[m\]
+    /// Maximum x, y and z before the rotation, room axes. \[m\]
     pub to: [f64; 3],
-    /// About the vertical through its centre, counter-clockwise seen from above. \[°\]
+    /// Rotation about the vertical axis through the centre, counter-clockwise seen from above. \[°\]
     #[serde(default)]
     pub turn: f64,
 }
 
-/// `[building]`
+/// Section `[building]`: box of the building that the room is part of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BuildingKeys {
-    /// Least x, y and z, room axes. \[m\]
+    /// Minimum x, y and z, room axes. \[m\]
     pub from: [f64; 3],
-    /// Greatest x, y and z. \[m\]
+    /// Maximum x, y and z, room axes. \[m\]
     pub to: [f64; 3],
-    /// Diffuse, 0 … 1.
+    /// Diffuse reflectance, 0 … 1.
     #[serde(default = "usual_reflectance")]
     pub reflectance: f64,
 }
@@ -50,31 +51,31 @@ const fn usual_reflectance() -> f64 {
     USUAL_REFLECTANCE
 }
 
-/// Diffuse reflectance of a box or building that names none: concrete, plaster in the weather.
+/// Default diffuse reflectance of a box or building: concrete, plaster in the weather.
 pub const USUAL_REFLECTANCE: f64 = 0.3;
 
-/// `sky.skyline`
+/// Key `sky.skyline`: skyline that rises and falls with the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkylineKeys {
-    /// Compass bearing and altitude, linear between, all round. \[°\]
+    /// Compass bearing and altitude, linear between the points, all round. \[°\]
     pub altitudes: Vec<[f64; 2]>,
-    /// Of what stands below it. \[cd/m²\]
+    /// Luminance below the skyline. \[cd/m²\]
     #[serde(default)]
     pub luminance: f64,
 }
 
-/// `aperture.dirt` where nothing is written.
+/// Returns the default of `aperture.dirt`.
 pub(super) const fn clean() -> f64 {
     1.0
 }
 
-/// Nothing that the file needs to say.
+/// Whether the dirt factor is the default, which is not written.
 pub(super) fn is_clean(dirt: &f64) -> bool {
     *dirt == clean()
 }
 
-/// Nothing that the file needs to say.
+/// Whether the share is 0, which is not written.
 pub(super) fn is_none(share: &f64) -> bool {
     *share == 0.0
 }

@@ -1,52 +1,53 @@
-//! `aperture.system` as typed: a closed form, a file, a family of files, a product, luminaire files, or the word "ranked".
+//! Key `aperture.system`: an ideal system, a file, a family of files, a product, luminaire files, or the word
+//! "ranked".
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::PathBuf;
 
-/// The word for an aperture that a ranking fills with every product in turn.
+/// Value of `aperture.system` for an aperture that a ranking fills with every product in turn.
 pub const RANKED: &str = "ranked";
 
-/// `aperture.system`
+/// Key `aperture.system`: system of an aperture.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SystemKeys {
-    /// `{ ideal = "transparent", transmittance = 1.0 }`
+    /// Ideal system: `{ ideal = "transparent", transmittance = 1.0 }`
     Ideal {
-        /// Transparent or diffuse.
+        /// Kind of the ideal system: transparent or diffuse.
         kind: IdealKind,
-        /// 0 … 1
+        /// Visible transmittance, 0 … 1.
         transmittance: f64,
     },
-    /// `{ file = "system.xml" }`
+    /// Dataset file: `{ file = "system.xml" }`
     File {
-        /// Relative to the scene file.
+        /// Path of the dataset, relative to the scene file.
         path: PathBuf,
-        /// Key of the state in a file of several.
+        /// Key of the state in a file with several states.
         state: Option<String>,
     },
-    /// `{ catalogue = "product-key", state = "45" }`
+    /// Product of the catalogue: `{ catalogue = "product-key", state = "45" }`
     Catalogue {
-        /// Product key.
+        /// Key of the product.
         key: String,
         /// Key of the state, or "controlled".
         state: Option<String>,
     },
-    /// `{ states = [{ state = "0", value = 0.0, file = "a.xml" }, …], state = "controlled" }`: a family of files.
+    /// Family of files: `{ states = [{ state = "0", value = 0.0, file = "a.xml" }, …], state = "controlled" }`
     Family {
-        /// At least one.
+        /// States of the family, at least one.
         states: Vec<FamilyState>,
         /// Key of the state, or "controlled".
         state: Option<String>,
     },
-    /// `{ luminaires = "x.index.csv" }`: luminaire files as a host takes them.
+    /// Luminaire files in the form for a host program: `{ luminaires = "x.index.csv" }`
     Luminaires {
-        /// Their index, relative to the scene file.
+        /// Index of the luminaire files, relative to the scene file.
         index: PathBuf,
-        /// Member of a series.
+        /// Name of a member, where the index lists a series.
         set: Option<String>,
     },
-    /// `"ranked"`: every product of a ranking in turn.
+    /// Every product of a ranking in turn: `"ranked"`
     Ranked,
 }
 
@@ -83,19 +84,20 @@ impl<'de> Deserialize<'de> for SystemKeys {
     }
 }
 
-/// One of `aperture.system.states`
+/// State of a family, an entry of `aperture.system.states`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FamilyState {
-    /// Its key.
+    /// Key of the state.
     pub state: String,
-    /// Its number: slat angle, or any by which a control tells states apart.
+    /// Number of the state: slat angle, or any number by which a control distinguishes states.
     pub value: f64,
-    /// Relative to the scene file.
+    /// Path of the dataset, relative to the scene file.
     pub file: PathBuf,
 }
 
-/// All keys that `aperture.system` may have; which belong together is judged afterwards, so that the message can say.
+/// All keys that `aperture.system` may have; which of them belong together is checked afterwards, so that the message
+/// can say so.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct SystemAsTyped {
@@ -173,7 +175,7 @@ impl TryFrom<SystemAsTyped> for SystemKeys {
     }
 }
 
-/// Some states, each with a key of its own and a number.
+/// Checks that there is a state, and that every state has a unique key and a finite number.
 fn family(states: &[FamilyState]) -> Result<(), String> {
     if states.is_empty() {
         return Err("states: none; expected at least one".into());
@@ -190,7 +192,7 @@ fn family(states: &[FamilyState]) -> Result<(), String> {
 }
 
 impl SystemAsTyped {
-    /// Of a system that is a table.
+    /// Returns the keys of a system that is a table; `None` for the others.
     fn of(keys: &SystemKeys) -> Option<Self> {
         Some(match keys.clone() {
             SystemKeys::Ideal { kind, transmittance } => {
@@ -205,12 +207,12 @@ impl SystemAsTyped {
     }
 }
 
-/// `system.ideal`
+/// Key `system.ideal`: kind of an ideal system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum IdealKind {
-    /// Light goes straight on.
+    /// Ideal clear system: regular transmission alone.
     Transparent,
-    /// Lambertian emission, τ independent of incidence.
+    /// Ideal diffuser: Lambertian emission, τ independent of incidence.
     Diffuse,
 }

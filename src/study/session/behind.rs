@@ -1,4 +1,4 @@
-//! Apertures behind boxes and skylines: the light of their parts, straight to the sensors and on the room's surfaces.
+//! Apertures behind boxes and skylines: the light of their parts, direct at the sensors and on the room's surfaces.
 
 use super::outside_seen::OutsideSeen;
 use super::part::{Part, WHOLE, area, overlap, part_of};
@@ -27,76 +27,79 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// The light of one aperture, part by part.
+/// Light of one aperture, part by part.
 pub(super) struct Split {
-    /// Means over the aperture, everything counted but what is seen straight through in its place.
+    /// Means over the aperture of all light but regular transmission, which is seen in its place.
     pub whole: Emission,
-    /// All that leaves it into the room, per area. \[lm/m²\]
+    /// Luminous exitance of the aperture on its room side. \[lm/m²\]
     pub exitance: Estimate,
-    /// Of sky and ground straight through: the transmittance, and its flux per area. \[lm/m²\]
+    /// Regular transmission of sky and ground: the transmittance, and its flux per area. \[lm/m²\]
     regular: Option<(AngularTransmittance, Estimate)>,
-    /// Scattered light that is the same in all directions, of sky and ground.
+    /// Uniform part of the scattered light of sky and ground, by part of the aperture.
     smooth: Vec<Smooth>,
-    /// Parts of which other light of sky and ground comes.
+    /// Parts of the aperture with the other light of sky and ground.
     leaves: Vec<Leaf>,
-    /// The sun's scattered light: parts of the aperture, from the whole of it downwards.
+    /// Scattered sunlight, and parts of the aperture from the whole of it downwards.
     sun: Option<(SunTile, Emission)>,
-    /// What the room's patches get of sky and ground, and of the sun's scattered light.
+    /// Scattered light for the room's patches: of sky and ground, and of the sun.
     thrown: [Thrown; 2],
-    /// The sun's beams per area that it reaches.
+    /// Beams of the sun, per sunlit area of the aperture.
     beams: Vec<BeamLight>,
-    /// What of the aperture the sun reaches, and its share.
+    /// Sunlit pieces of the aperture, in the room frame. \[m\]
     lit: Vec<Vec<DVec3>>,
-    /// The same for points of its rim, where beams are turned.
+    /// Sunlit pieces of the aperture for points of the sun's rim; only where beams are redirected. \[m\]
     rim: Vec<Vec<Vec<DVec3>>>,
     lit_share: f64,
-    /// Luminance that the sun gives it there, the same in all directions. \[cd/m²\]
+    /// Uniform luminance of the sunlit pieces by the sun's scattered light. \[cd/m²\]
     glow: Estimate,
-    /// What was split and why.
+    /// Note on the parts into which the aperture was split, with the reason.
     pub seen: OutsideSeen,
 }
 
-/// Scattered light as the patches of the room can tell it apart.
+/// Scattered light, as finely as the patches of the room can distinguish it.
 #[derive(Default)]
 struct Thrown {
-    /// What is the same in all directions leaves pieces evenly. \[m, lm/m²\]
+    /// Pieces with uniform light: outline and luminous exitance. \[m, lm/m²\]
     even: Vec<(Vec<DVec3>, f64)>,
-    /// Other light leaves few parts of the aperture, for each direction costs weights of all patches ...
+    /// Few parts of the aperture with all other light: each direction costs weights of all patches.
     quarters: Vec<(Aperture, Emission)>,
-    /// ... and where on them, in all: pieces again. Empty where the parts say it.
+    /// Pieces with the total exitance of the light in `quarters`, which show where it leaves; empty where the parts
+    /// show that. \[m, lm/m²\]
     pieces: Vec<(Vec<DVec3>, f64)>,
 }
 
-/// The smallest part of an aperture that holds what the sun reaches, how much of it that is, and its halves where it is
-/// not all.
+/// Smallest part of an aperture that holds its sunlit area, the sunlit share of that part, and its halves where the
+/// share is below 1.
 struct SunTile {
     part: Aperture,
     lit: f64,
     halves: Vec<SunTile>,
 }
 
-/// Tiles of scattered sunlight that lie in light and shade are so small a share of a side ...
+/// Size of tiles across a shadow edge down to which they are halved, as a share of the aperture's side.
 const SUN_TILE: f64 = 1.0 / 32.0;
-/// ... or of their distance from a sensor.
+/// Maximum size of a tile across a shadow edge, relative to its distance from the sensor.
 const SUN_TILE_AWAY: f64 = 0.1;
-/// The room's patches see light on cells in so many parts of an aperture along each side ...
+/// Number of parts along each side of an aperture in which the room's patches see light by cells.
 const QUARTERS: usize = 2;
-/// ... and even light in up to so many pieces of a part along each side, unless there are many parts.
+/// Maximum number of pieces along each side of a part in which the room's patches see uniform light, for up to
+/// [`MANY_PARTS`] parts.
 const PIECES: f64 = 4.0;
-/// Many.
+/// Number of aperture parts above which a part is not subdivided for uniform light.
 const MANY_PARTS: usize = 24;
-/// Of few parts, every point has its place in the luminaire; of more, every part.
+/// Maximum number of parts of which every point is seen by itself in the luminous intensity distribution; of more, one
+/// point per part.
 const FEW_PARTS: usize = 8;
-/// What is seen straight past edges may be off by so much beyond the cubature's own error, relative.
+/// Relative error of the outside seen past edges by regular transmission, beyond the cubature's own.
 const PAST_EDGES: f64 = 1e-4;
-/// What a patch gets of what is seen straight through, relative: it is scaled to the flux that enters.
+/// Relative accuracy of the light of regular transmission on a patch: it is scaled to the flux that enters.
 const AT_PATCHES: f64 = 1e-2;
 
 impl Session {
-    /// The light of an aperture behind boxes or a skyline.
+    /// Computes the light of an aperture behind boxes or a skyline.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns an error if cancelled.
     pub(super) fn split(&self, scene: &Scene, index: usize, progress: &dyn Progress) -> Result<Split, Cancelled> {
         let one = &scene.apertures[index];
         if let Some(lamps) = &one.lamps {
@@ -114,7 +117,7 @@ impl Session {
             let own = leaf.means();
             std::array::from_fn(|k| sums[k] + own[k] * weight(leaf.part))
         });
-        // The sun alone: whatever stands outside, it is the same wherever it reaches.
+        // The sun alone: it is the same wherever it reaches, with or without obstructions.
         let dark = scene.outside.scaled(0.0);
         let facing = Facing { outside: &dark, ..scene.facing(index) };
         let sun = self.emission_under(scene, index, &facing);
@@ -142,7 +145,7 @@ impl Session {
             seen: seen(index, &leaves, same, &sun, share),
         };
         split.add_sun_tiles(&one.aperture, &sun, scene, index);
-        // What all of it comes to.
+        // The totals of the aperture.
         let mut whole = mean_of(&leaves);
         if let Some((tau, flux)) = &mut split.regular {
             *flux = through;
@@ -167,7 +170,7 @@ impl Session {
         Ok(split)
     }
 
-    /// All apertures of a scene where something stands outside; else none.
+    /// Computes the light of all apertures of a scene with obstructions or a skyline by bearing; empty without these.
     pub(super) fn splits(&self, scene: &Scene, progress: &dyn Progress) -> Result<Vec<Split>, StudyError> {
         if scene.outside.surroundings().is_none() {
             return Ok(Vec::new());
@@ -182,7 +185,7 @@ impl Session {
         Ok(all.collect::<Result<_, Cancelled>>()?)
     }
 
-    /// Straight to the sensors.
+    /// Computes the direct light at the sensors.
     pub(super) fn direct_behind(
         &self,
         scene: &Scene,
@@ -203,7 +206,8 @@ impl Session {
 }
 
 impl SunTile {
-    /// `reached`: where in a part the sun reaches at all, and its share of that: what lies in the shade is no part of a tile.
+    /// Creates the tiles of a part. `reached`: returns the bounds of the sunlit area of a part, and its sunlit share;
+    /// what lies in the shade belongs to no tile.
     fn of(part: Part, aperture: &Aperture, reached: &dyn Fn(Part) -> (Part, f64)) -> Self {
         let (part, lit) = reached(part);
         let [w, h] = part.map(|[low, high]| high - low);
@@ -220,7 +224,7 @@ impl SunTile {
         Self { part: part_of(aperture, part), lit, halves }
     }
 
-    /// Tiles that are small enough for an eye, with what the sun reaches of them.
+    /// Calls `tell` for every tile that is small enough for a sensor at `eye`, with its sunlit share.
     fn visit(&self, eye: DVec3, tell: &mut dyn FnMut(&Aperture, f64)) {
         let small = self.part.size[0].max(self.part.size[1]) <= SUN_TILE_AWAY * self.part.distance(eye);
         if self.halves.is_empty() || small {
@@ -233,14 +237,14 @@ impl SunTile {
     }
 }
 
-/// The parts of an aperture as the room's patches see it.
+/// Returns the parts in which the room's patches see an aperture.
 fn quarters(same: bool) -> Vec<Part> {
     let count = if same { 1 } else { QUARTERS };
     let limits = |at: usize| [at as f64 / count as f64, (at + 1) as f64 / count as f64];
     (0..count * count).map(|k| [limits(k % count), limits(k / count)]).collect()
 }
 
-/// What the room's patches get of sky and ground.
+/// Returns the scattered light of sky and ground for the room's patches.
 fn thrown(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same: bool) -> Thrown {
     let quarter = |part: Part| {
         let shares = tiles.iter().map(|(tile, light)| (overlap(part, *tile), light));
@@ -265,7 +269,7 @@ fn thrown(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same
     Thrown { even: of(0), quarters, pieces: if on_cells { of(1) } else { Vec::new() } }
 }
 
-/// What the plan says.
+/// Returns the note for the plan of the computation.
 fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -> OutsideSeen {
     let scatters = leaves.iter().any(|leaf| leaf.any().fluxes().iter().any(|flux| *flux > 0.0));
     let most = leaves.iter().map(|leaf| leaf.change[0].max(leaf.change[1])).fold(0.0, f64::max);
@@ -279,7 +283,7 @@ fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -
 }
 
 impl Split {
-    /// Luminaires shine as their files say, whatever stands outside.
+    /// Creates the light of luminaire files, which does not depend on obstructions.
     fn of_lamps(scene: &Scene, index: usize, whole: Emission) -> Self {
         Self {
             exitance: whole.exitance(&scene.facing(index)),
@@ -293,13 +297,13 @@ impl Split {
             rim: Vec::new(),
             lit_share: 0.0,
             glow: Estimate::default(),
-            // What came from outside is in the files: there is nothing to be said of it.
+            // The light from outside is in the files: there is nothing to note.
             seen: OutsideSeen { aperture: index, through: false, parts: None, change: 0.0, sunlit: None },
             whole,
         }
     }
 
-    /// Scattered sunlight on tiles that lie in light, and on small ones across the shadows' edges.
+    /// Adds scattered sunlight on sunlit tiles, and on small ones across the shadows' edges.
     fn add_sun_tiles(&mut self, aperture: &Aperture, sun: &Emission, scene: &Scene, index: usize) {
         if self.lit_share <= 0.0 || (sun.cells.is_empty() && sun.bands.is_empty()) {
             return;
@@ -335,7 +339,8 @@ impl Split {
         }
     }
 
-    /// As one luminaire: the mean of the parts, sky and ground seen straight through among them.
+    /// Returns the luminous intensity distribution of the whole aperture: the mean of the parts, including sky and
+    /// ground seen by regular transmission.
     pub fn lid(&self, scene: &Scene, index: usize) -> LidResult {
         let aperture = &scene.apertures[index].aperture;
         let facing = scene.facing(index);
@@ -349,7 +354,7 @@ impl Split {
         }
     }
 
-    /// What one sensor gets straight.
+    /// Returns the direct light at one sensor.
     fn at(&self, sensor: &Sensor, aperture: &Aperture, facing: &Facing<'_>, tolerance: Tolerance) -> DirectLight {
         let mut sum = DirectLight::default();
         let Some(around) = facing.outside.surroundings() else { return sum };
@@ -395,7 +400,8 @@ impl Split {
         sum
     }
 
-    /// On the surfaces of the room. `weights`: what the patches receive from a part by the cells of a basis.
+    /// Adds the light on the surfaces of the room. `weights`: what the patches receive from a part by the cells of a
+    /// basis.
     pub fn add_to(
         &self,
         first: &mut FirstLight,

@@ -1,36 +1,38 @@
-//! Lines across an aperture at which light on it has a kink or a step: where the planes of nearby boxes' faces meet it.
+//! Lines across an aperture at which light on it has a kink or a step: where the planes of nearby boxes' faces meet
+//! it.
 //!
-//! On one side of such a line a face is turned away, on the other it is seen; a box that stands on the glass ends there.
-//! No point beside a line tells of it, so an aperture is cut along them before it is asked.
+//! On one side of a crease, the face is turned away, on the other it is seen; a box that stands on the glass ends
+//! there. No point beside a crease shows it, so an aperture is cut along the creases before its points are computed.
 
 use super::part::{Part, WHOLE, halves};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::surroundings::solid::{Face, Solid};
 use std::f64::consts::PI;
 
-/// A part is cut where light would else bend by more than this, relative: its slope's jump times the part's length. A
-/// parabola over it is off by 0.02 of that in the mean.
+/// Change of slope above which a part is cut along a crease, relative: the slope's jump times the part's length. A
+/// parabola over the part is off by 0.02 of that in the mean.
 const BENDS: f64 = 0.05;
-/// A face that begins at the glass is as if it began so far from it, of the part's length: the jump would be infinite.
+/// Distance from the glass at which a face that begins nearer is taken to begin, relative to the part's length: the
+/// jump would be infinite at 0.
 const NEAREST: f64 = 0.02;
-/// Nearer to a border than this is on it, of the aperture's side.
+/// Distance from a border up to which a line is on it, relative to the aperture's side.
 const ON_BORDER: f64 = 1e-4;
 
-/// One line.
+/// Line across an aperture at which light has a kink or a step.
 pub(super) struct Crease {
-    /// The side that it cuts, and where, a share of it.
+    /// Side of the aperture that the line cuts, and the position on it as a share.
     axis: usize,
     at: f64,
-    /// From and to of the face along the line, and away from the aperture's plane. \[m\]
+    /// Extent of the face along the line, then its range of distances from the aperture's plane. \[m\]
     along: [f64; 2],
     away: [f64; 2],
-    /// The aperture's. \[m\]
+    /// Size of the aperture. \[m\]
     size: [f64; 2],
 }
 
 impl Crease {
-    /// Where the plane of a face of a box meets an aperture; `own` is the aperture as a face. Lines that run askew over a
-    /// roof are left to be found.
+    /// Creates the line where the plane of a box's face meets an aperture; `None` where it does not. `own`: the
+    /// aperture as a face. Lines that run askew over a roof are not found here.
     fn of(face: &Face, own: &Face, aperture: &Aperture) -> Option<Self> {
         let slopes = [own.u, own.v].map(|axis| face.normal.dot(axis));
         let axis = match slopes.map(|slope| slope.abs() > 1e-9) {
@@ -58,8 +60,9 @@ impl Crease {
         })
     }
 
-    /// How far light bends here over a part, where it does most: what the slope of its illuminance jumps by when the face
-    /// comes into sight before an even outside, ∫ y/(π r⁴) dA, times the part's length.
+    /// Returns the maximum change of slope of light across the line over a part: the jump of the slope of its
+    /// illuminance when the face becomes visible in front of a uniform outside, ∫ y/(π r⁴) dA, times the part's
+    /// length.
     fn bends(&self, part: Part) -> f64 {
         let [low, high] = part[self.axis];
         if self.at <= low + ON_BORDER || self.at >= high - ON_BORDER {
@@ -77,13 +80,13 @@ impl Crease {
     }
 }
 
-/// All that the planes of some boxes' faces draw over an aperture.
+/// Returns all lines that the planes of the boxes' faces draw over an aperture.
 pub(super) fn creases(aperture: &Aperture, own: &Face, solids: &[Solid]) -> Vec<Crease> {
     let faces = solids.iter().flat_map(|solid| (0..6).map(|number| solid.face(number)));
     faces.filter_map(|face| Crease::of(&face, own, aperture)).collect()
 }
 
-/// The aperture cut along its creases, the deepest first, into no more than so many parts.
+/// Cuts the aperture along its creases, deepest first, into at most `most` parts.
 pub(super) fn cut_along(creases: &[Crease], most: usize) -> Vec<Part> {
     let deepest = |part: Part| {
         let bends = creases.iter().map(|crease| (crease.bends(part), crease));
@@ -150,8 +153,8 @@ mod tests {
 
     #[test]
     fn light_bends_as_seen_between_both_sides_of_a_line() {
-        // A black face from 0.5 to 2 m before the glass, 0 to 3 m high, at x = 2: what it takes from even light on a
-        // point `aside` of its plane, by a sum over its points.
+        // A black face from 0.5 to 2 m in front of the glass, 0 to 3 m high, at x = 2: what it blocks of uniform light
+        // on a point `aside` of its plane, by a sum over its points.
         let (aperture, own) = window();
         let face = Face {
             origin: DVec3::new(2.0, 0.0, 0.0),

@@ -5,20 +5,21 @@ use crate::compute::estimate::Progress;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 
-/// Of one aperture.
+/// Data part of the uncertainty of one aperture's diffuse light, relative.
 #[derive(Debug, Clone, Default)]
 pub struct DataShare {
-    /// Of the direct component, by sensor; empty without uncertainty.
+    /// Share of the direct component, by sensor; empty without uncertainty.
     pub direct: Vec<f64>,
-    /// Of the interreflected component.
+    /// Share of the interreflected component.
     pub reflected: f64,
 }
 
 impl Session {
-    /// The shares under the scene's own sky, by aperture; `known`: for these the uncertainty on patches is known otherwise.
+    /// Computes the shares under the scene's own sky, by aperture. `known`: returns whether the uncertainty of the
+    /// light on an aperture's patches is included elsewhere.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns an error if cancelled.
     pub(crate) fn data_shares(
         &self,
         scene: &Scene,

@@ -1,4 +1,5 @@
-//! What an aperture emits: by its description for the very sun, by its data for all other light; and what of both is kept.
+//! Light that leaves an aperture on its room side: by its description for the actual sun position, by its data for all
+//! other light; results of both are kept.
 
 use super::Session;
 use crate::compute::btdf::{Btdf, CellMatrix, Dataset, Indicatrices, Scattered};
@@ -11,12 +12,12 @@ use crate::study::system::VerySystem;
 use std::sync::Arc;
 
 impl Session {
-    /// What an aperture emits under the scene's outside, frame and dirt counted.
+    /// Computes the light that leaves an aperture on its room side, for the scene's outside, frame and dirt included.
     pub(crate) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
         self.emission_under(scene, aperture, &scene.facing(aperture))
     }
 
-    /// The same under an outside of one's own.
+    /// Computes the light that leaves an aperture on its room side, for a given outside.
     pub(super) fn emission_under(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
         if let Some(lamps) = &scene.apertures[aperture].lamps {
             return Emission::lamps(Arc::clone(lamps));
@@ -38,7 +39,7 @@ impl Session {
         }
     }
 
-    /// What a described system makes of sky and ground.
+    /// Computes the light that a described system makes of sky and ground.
     fn diffuse(&self, scene: &Scene, aperture: usize, very: &VerySystem, facing: &Facing<'_>) -> Emission {
         if !facing.outside.is_lit() {
             return Emission::dark();
@@ -49,27 +50,27 @@ impl Session {
         self.sky_through(very).1.emission(facing)
     }
 
-    /// Answers of a described system for all diffuse light.
+    /// Returns the responses of a described system to all diffuse light; computed or kept.
     pub(crate) fn sky_through(&self, very: &VerySystem) -> Arc<(VerySystem, SkyThrough)> {
         let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
         self.skies.find(key, || (very.clone(), SkyThrough::new(very.0.as_ref())))
     }
 
-    /// What a described system makes of the sun.
+    /// Returns the light that a described system makes of the sun; computed or kept.
     fn sun_through(&self, very: &VerySystem, facing: &Facing<'_>) -> Arc<(VerySystem, SunThrough)> {
         let mut key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64, facing.surface as u64];
-        // Everything that decides how much of the disc shines from where.
+        // Everything that decides how much of the disc is visible, and where.
         let edges = facing.sun_edges().map(|edge| edge.normal.extend(edge.offset).to_array());
         key.extend(bits(edges.into_iter().flatten()));
         if let (Some(sun), Some(direction)) = (facing.sun, facing.sun_direction()) {
             key.extend(bits(direction.vector().to_array()));
             key.extend(bits([sun.direct_normal]));
         }
-        // The answer keeps the system alive, so that no other can have its address.
+        // The result keeps the system alive, so that no other can have its address.
         self.suns.find(key, || (very.clone(), SunThrough::new(very.0.as_ref(), facing)))
     }
 
-    /// What the data make of the outside.
+    /// Computes the light that the system's data make of the outside.
     fn by_data(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
         let one = &scene.apertures[aperture];
         let btdf = one.transmission().expect("a resolved scene has only systems with transmission data");
@@ -87,7 +88,7 @@ impl Session {
 
     fn scattered_by_data(&self, scene: &Scene, one: &SceneAperture, btdf: &Btdf, facing: &Facing<'_>) -> Emission {
         match &btdf.scattered {
-            // Taken at their word.
+            // Used as given.
             _ if scene.interpolation == Interpolation::Patch => Emission::new(btdf, facing),
             Some(Scattered::Directions(data)) => {
                 let schemes = (scene.sun_interpolation, scene.diffuse_interpolation);
@@ -113,7 +114,7 @@ impl Session {
         }
     }
 
-    /// The beams in a matrix.
+    /// Returns the beams extracted from a matrix; computed or kept.
     fn peaks(
         &self,
         one: &SceneAperture,
@@ -129,7 +130,7 @@ impl Session {
         Some(self.peaks.find(key, || (Arc::clone(dataset), Peaks::new(matrix, sun))))
     }
 
-    /// What interpolation between the directions of a dataset needs.
+    /// Returns the interpolator between the directions of a dataset; created or kept.
     pub fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         // The interpolator keeps the data alive, so that no others can have their address.
         self.interpolators.find(vec![Arc::as_ptr(data) as u64], || Interpolator::new(Arc::clone(data)))

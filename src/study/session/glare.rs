@@ -1,4 +1,4 @@
-//! Glare at an eye: what the apertures send there, and the daylight glare probability of it.
+//! Glare at an observer: light of the apertures at the eye, and the daylight glare probability (DGP).
 
 use super::Session;
 use super::seen::inside;
@@ -14,58 +14,59 @@ use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use glam::DVec3;
 
-/// What is to be said with every glare probability (report, section 5.1).
+/// Caveat to state with every glare probability (report, section 5.1).
 pub const CAVEAT: &str = "the contrast of single slats is finer than data of a whole system can show: bright edges of slats \
                           near the eye are in it as their mean alone";
 
-/// Glare at an eye of a scene.
+/// Glare at one observer of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EyeGlare {
-    /// The eye.
+    /// Position and view direction of the observer.
     pub eye: Sensor,
-    /// Illuminance at it, interreflection and all errors counted. \[lx\]
+    /// Illuminance at the eye, interreflection and all errors included. \[lx\]
     pub vertical: Estimate,
-    /// DGP, its error and its sources.
+    /// DGP with its error and the glare sources.
     pub glare: Glare,
-    /// The simplified DGP; only while neither the sun, straight or turned, nor a lobe above
+    /// Simplified DGP (DGPs); only while neither the sun, direct or redirected, nor a lobe above
     /// [`PEAK`](crate::compute::glare::PEAK) meets the eye.
     pub dgps: Option<f64>,
-    /// What the eye sees of the sun.
+    /// Images of the sun's disc that the eye sees.
     pub discs: Vec<Disc>,
-    /// Lies the value where the formula was tested with people?
+    /// Whether the value lies in the range where the formula was tested with people.
     pub proven: bool,
 }
 
-/// Light of all apertures for eyes.
+/// Light of all apertures for observers.
 pub(crate) struct Shining {
     emissions: Vec<Emission>,
-    /// Where boxes or a skyline stand before them: what of each the sun reaches, and by points of its rim.
+    /// Sunlit pieces of each aperture, and pieces for points of the sun's rim; empty without boxes and skyline by
+    /// bearing.
     lit: Vec<Lit>,
 }
 
-/// Pieces of an aperture, and the same for points of the sun's rim.
+/// Sunlit pieces of an aperture, and pieces for each of several points of the sun's rim.
 type Lit = (Vec<Vec<DVec3>>, Vec<Vec<Vec<DVec3>>>);
 
 impl Session {
-    /// Glare at an eye, in the room's axes; its normal is the line of sight. What is seen of the room's surfaces counts by
-    /// its illuminance at the eye alone: sun patches on them are no sources. Behind boxes what a system scatters is the mean
-    /// over the aperture; what goes straight through is as the eye sees it.
+    /// Computes the glare at an observer, in the room frame; the sensor's normal is the line of sight. Light of the
+    /// room's surfaces counts only by its illuminance at the eye: sun patches on them do not count as sources. Behind
+    /// boxes scattered light is the mean over the aperture; regular transmission is as the eye sees it.
     ///
     /// # Errors
-    /// As [`Self::room`]; cancelled.
+    /// Returns the errors of [`Self::room`], or an error if cancelled.
     pub fn glare(&self, scene: &Scene, eye: &Sensor, progress: &dyn Progress) -> Result<EyeGlare, StudyError> {
         let own = Scene { sensors: vec![*eye], grid: None, ..scene.clone() };
         let vertical = self.room(&own, progress)?.sensors[0].total();
         Ok(self.shining(scene, progress)?.glare(scene, &eye_field(scene, eye), eye, vertical, Threshold::default()))
     }
 
-    /// What all apertures send to eyes.
+    /// Computes the light of all apertures for observers.
     pub(crate) fn shining(&self, scene: &Scene, progress: &dyn Progress) -> Result<Shining, StudyError> {
         Ok(Shining::of(scene, self.lights(scene, progress)?.emissions))
     }
 
-    /// The same of the sun alone, before an outside that is dark but for it; past boxes what is scattered is the mean over the
-    /// aperture.
+    /// Computes the light of all apertures for observers by the sun alone, with a dark outside; past boxes scattered
+    /// light is the mean over the aperture.
     pub(crate) fn sunshine(&self, scene: &Scene) -> Shining {
         let emission = |index: usize| {
             let facing = scene.facing(index);
@@ -85,12 +86,12 @@ impl Session {
     }
 }
 
-/// The apertures of a scene as an eye sees them.
+/// Returns the apertures of a scene in an observer's field of view.
 pub(crate) fn eye_field(scene: &Scene, eye: &Sensor) -> Field {
     Field::new(&inside(scene, eye), scene.apertures.iter().map(|one| &one.aperture))
 }
 
-/// Beams through an aperture as an eye sees them: all in one, given what it sees of one alone \[lx\].
+/// Returns the beams through an aperture as an eye sees them. `seen`: illuminance at the eye by one beam. \[lx\]
 fn rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], seen: impl Fn(&BeamLight) -> f64) -> Vec<Ray> {
     let ray = |beam: &BeamLight| {
         let to = aperture.surface.room_from_facade(beam.to.vector());
@@ -101,7 +102,7 @@ fn rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], seen: impl Fn(&B
     beams.iter().map(ray).filter(|ray| ray.share > 0.0).collect()
 }
 
-/// The same where nothing stands before the aperture.
+/// Returns the beams through an aperture without obstructions as an eye sees them.
 fn open_rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> Vec<Ray> {
     rays(eye, aperture, beams, |beam| beams_through(eye, aperture, &[*beam], facing).beam)
 }
@@ -120,7 +121,7 @@ impl Shining {
         Self { emissions, lit }
     }
 
-    /// At one eye that sees the apertures as `field`.
+    /// Computes the glare at one observer that sees the apertures as `field`.
     pub fn glare(
         &self,
         scene: &Scene,
@@ -133,7 +134,7 @@ impl Shining {
         evaluated(field, eye, &luminance, discs, vertical, threshold)
     }
 
-    /// Luminances of the patches, and discs of the sun.
+    /// Returns the luminances of the patches of the field of view \[cd/m²\], and the discs of the sun.
     pub fn seen(&self, scene: &Scene, field: &Field, eye: &Sensor) -> (Vec<f64>, Vec<Disc>) {
         let mut luminance = vec![0.0; field.patches.len()];
         let mut all = Vec::new();
@@ -157,7 +158,7 @@ impl Shining {
     }
 }
 
-/// DGP of what an eye sees.
+/// Computes the DGP from the luminances and discs that an eye sees.
 pub(crate) fn evaluated(
     field: &Field,
     eye: &Sensor,
@@ -166,7 +167,7 @@ pub(crate) fn evaluated(
     vertical: Estimate,
     threshold: Threshold,
 ) -> EyeGlare {
-    // The light at the eye is that of the apertures: what is open of one is open of the other.
+    // The light at the eye is that of the apertures: both have the same relative uncertainty.
     let relative = if vertical.value > 0.0 { (vertical.error / vertical.value).min(1.0) } else { 0.0 };
     let glare = glare(&View { field, luminance, discs: &discs, vertical, relative }, threshold);
     let lobe = !discs.is_empty() || glare.sources.list.iter().any(|source| source.kind != Kind::Bright);

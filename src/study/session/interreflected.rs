@@ -1,4 +1,4 @@
-//! Light that reaches the sensors after at least one reflection.
+//! Interreflected light: what reaches the sensors after at least one reflection in the room.
 
 use super::lights::Lights;
 use super::seen::{Gathered, gathered, in_blocks, inside, keeps};
@@ -20,30 +20,32 @@ use crate::study::scene_file::ORDINARY_TARGET;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Numbers of fine patches, tried one after the other until the stated error is small enough.
+/// Numbers of fine patches, tried in this order until the stated error is small enough.
 pub(crate) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 
-/// Of the differences between the two densities, wall by wall (their sum may cancel), what the extrapolated result may
-/// be off. Chosen together with [`REST`] and [`NEAR`] so that about 99 % of the sensors of 81 rooms, 24 of them at random,
-/// are covered against meshes of ten times as many patches.
+/// Factor of the differences between the two densities, wall by wall (their sum may cancel), that gives the error of
+/// the extrapolated result. Chosen together with [`REST`] and [`NEAR`] so that about 99 % of the sensors of 81 rooms,
+/// 24 of them at random, are covered against meshes of ten times as many patches.
 const DIFFERENCE: f64 = 0.6;
 
-/// Number of fine patches times the relative error that both densities share: sampling of the first light.
+/// Product of the number of fine patches and the relative error that both densities share: sampling of the first
+/// light.
 pub(crate) const REST: f64 = 3.0;
 
-/// Of what the slopes of near patches give to a sensor, what may be wrong.
+/// Share of the light by the slopes of near patches that is taken as its error at a sensor.
 const NEAR: f64 = 0.8;
 
-/// [`DIFFERENCE`] where what the slopes give is not told apart.
+/// Value of [`DIFFERENCE`] where the light by the slopes is not known separately.
 pub(crate) const DIFFERENCE_ALONE: f64 = 1.6;
 
-/// What taking the light on an aperture as even costs of what it throws back to a sensor, relative.
+/// Relative error of the light that an aperture reflects to a sensor, where the light on the aperture is taken as
+/// uniform.
 pub(crate) const UNEVEN: f64 = 0.1;
 
 impl Session {
-    /// Interreflected light at every sensor, and the largest gap of flux before it was closed. Refines until the stated
-    /// error of the total is 0.6 of what is asked for (single sensors are off more than stated) at every sensor that
-    /// matters, or the finest mesh is reached.
+    /// Computes the interreflected light at every sensor, and the largest gap of flux before it was closed. Refines
+    /// until the stated error of the total is 0.6 of the error target (the error of single sensors exceeds the stated
+    /// one) at every sensor that matters, or until the finest mesh is reached.
     pub(super) fn interreflected(
         &self,
         scene: &Scene,
@@ -52,7 +54,8 @@ impl Session {
         progress: &dyn Progress,
     ) -> Result<(Vec<Estimate>, f64), StudyError> {
         let target = scene.error_target.unwrap_or(ORDINARY_TARGET);
-        // A scene that names no error does not wait seconds for it in an extreme room: what was reached is stated.
+        // A scene without an error target does not wait seconds for it in an extreme room: the error reached is
+        // stated.
         let turns = if scene.error_target.is_some() { PATCHES.len() } else { 2 };
         let mut result = (Vec::new(), 0.0);
         for (turn, count) in PATCHES.into_iter().take(turns).enumerate() {
@@ -71,12 +74,12 @@ impl Session {
         Ok(result)
     }
 
-    /// Is the balance of the room there already?
+    /// Whether the session holds the factored room for the coarsest mesh.
     pub(super) fn holds_room(&self, scene: &Scene) -> bool {
         self.rooms.holds(&room_key(scene, PATCHES[0]))
     }
 
-    /// The room meshed with about so many fine patches, and factored.
+    /// Returns the room meshed with about `count` fine patches, and factored; computed or kept.
     pub(super) fn radiosity(&self, scene: &Scene, count: usize) -> Result<Arc<Radiosity>, StudyError> {
         self.rooms.get(room_key(scene, count), || {
             let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
@@ -85,8 +88,8 @@ impl Session {
         })
     }
 
-    /// What every sensor receives from the patches: found once and kept, or, of more sensors than that is done for,
-    /// anew for each.
+    /// Returns what every sensor receives from the patches: computed once and kept, or, for more sensors than can be
+    /// kept, computed again for each.
     fn gathered<'a>(&self, scene: &Scene, count: usize, radiosity: &'a Radiosity) -> Result<Gathered<'a>, StudyError> {
         let patches = radiosity.nested.fine.patches.len() + radiosity.nested.coarse.patches.len();
         // Weights and slopes.
@@ -96,7 +99,7 @@ impl Session {
         Ok(Gathered::Anew([&radiosity.nested.fine, &radiosity.nested.coarse]))
     }
 
-    /// What every sensor receives from the patches, fine and coarse.
+    /// Returns what every sensor receives from the patches, fine and coarse; computed or kept.
     pub(super) fn gathering(
         &self,
         scene: &Scene,
@@ -114,7 +117,8 @@ impl Session {
         })
     }
 
-    /// What the patches receive from an aperture, or a part of one, by the cells of a basis; `key` is the mesh's.
+    /// Returns what the patches receive from an aperture, or from a part of one, by the cells of a basis; `key` is the
+    /// mesh's.
     pub(super) fn patch_weights(
         &self,
         key: &Key,
@@ -129,7 +133,7 @@ impl Session {
         self.patches.find(key, || PatchWeights::new(mesh, aperture, Arc::clone(basis)))
     }
 
-    /// What the apertures send straight to about so many fine patches.
+    /// Computes the direct light of the apertures on about `count` fine patches.
     pub(super) fn first_light(
         &self,
         scene: &Scene,
@@ -155,7 +159,7 @@ impl Session {
         Ok(first)
     }
 
-    /// With about so many fine patches.
+    /// Computes the interreflected light at every sensor with about `count` fine patches, and the gap of flux.
     fn reflected(
         &self,
         scene: &Scene,
@@ -172,8 +176,8 @@ impl Session {
         let weights = |index: usize, basis: &Arc<RingBasis>| self.patch_weights(&key, mesh, &geometry[index], basis);
         let first = self.first_light(scene, lights, count, progress)?;
         check(progress)?;
-        // What the beams light reflects as the sharp outlines that they are, to sensors and patches; the balance begins
-        // with what these receive.
+        // Areas that beams light reflect as the sharp outlines that they are, to sensors and patches; the balance
+        // begins with what these receive.
         let landing = first.landing(mesh);
         let gap = landing.as_ref().map_or(0.0, |landing| landing.gap).max(first.gap);
         let misplaced = first.misplaced;
@@ -196,7 +200,7 @@ impl Session {
                 thrown_back.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
             }
         }
-        // What is not known of the emission is not known of its reflections.
+        // The relative error of the emission is that of its reflections.
         let emitted = lights.flux(scene);
         let emitted_error = if emitted.value > 0.0 { emitted.error / emitted.value } else { 0.0 };
         let spans = [spans(mesh), spans(&radiosity.nested.coarse)];
@@ -226,7 +230,8 @@ impl Session {
     }
 }
 
-/// The apertures that reflect by direction; `weights`: what the patches receive from an aperture by the cells of a basis.
+/// Returns the apertures that reflect by direction, each with its number. `weights`: what the patches receive from an
+/// aperture by the cells of a basis.
 pub(super) fn mirrors<'a>(
     scene: &'a Scene,
     weights: impl Fn(usize, &Arc<RingBasis>) -> Arc<PatchWeights>,
@@ -238,7 +243,7 @@ pub(super) fn mirrors<'a>(
     scene.apertures.iter().enumerate().filter_map(reflecting).collect()
 }
 
-/// What the patches of a room depend on, whatever they reflect.
+/// Returns the key of a room's patches, which do not depend on the reflectances.
 pub(super) fn mesh_key(scene: &Scene, count: usize) -> Key {
     let mut key = vec![count as u64];
     key.extend(bits(scene.room.size.to_array()));
@@ -246,7 +251,7 @@ pub(super) fn mesh_key(scene: &Scene, count: usize) -> Key {
     key
 }
 
-/// What a meshed room depends on.
+/// Returns the key of a meshed room, reflectances included.
 pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
     let mut key = mesh_key(scene, count);
     key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
@@ -254,7 +259,7 @@ pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
     key
 }
 
-/// The patches of every wall.
+/// Returns the ranges of the patches of every wall.
 pub(super) fn spans(mesh: &Mesh) -> Vec<std::ops::Range<usize>> {
     mesh.walls.iter().map(Wall::patches).collect()
 }

@@ -1,37 +1,39 @@
-//! Beams by the patches that they light. Sensors see the outlines of what beams light in closed form; what comes later,
-//! by two reflections or more, is smooth enough to be told by patch: a beam costs the patches that it touches. What many
-//! systems send on in the same direction is found once, see [`super::unit_beams`].
+//! Light of beams by the patches that they light.
+//!
+//! Sensors see the outlines of what beams light in closed form; light after two reflections or more is smooth enough
+//! to be described by patch: a beam costs the patches that it touches. Beams that many systems send in the same
+//! direction are computed once, see [`super::unit_beams`].
 
 use super::weights::{Response, by_walls};
 use crate::compute::dot::{add_scaled, wide};
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 
-/// What all sensors get per illuminance of a patch by beams.
+/// Illuminance at the sensors per illuminance of a patch lit by beams.
 pub(crate) struct Landed {
     sensors: usize,
-    /// Where the columns of a sensor's walls begin, and where the last ones end.
+    /// Start of the columns of each sensor's walls, and the end of the last ones.
     walls: Vec<usize>,
-    /// Patch by patch: values of the light after two reflections or more, its differences of the two densities by wall,
-    /// and the light after one.
+    /// Values patch by patch: light after two reflections or more, its differences of the two densities by wall, and
+    /// light after one reflection.
     rows: Vec<f32>,
 }
 
-/// The light of one or more beams.
+/// Light of one or more beams at the sensors.
 pub(crate) struct LandedLight {
-    /// Twice reflected or more, sensor by sensor. \[lx\]
+    /// Illuminance after two reflections or more, sensor by sensor. \[lx\]
     pub values: Vec<f64>,
-    /// How far these hang on where in a patch the beams lie.
+    /// Uncertainty of `values` by the position of the beams within the patches. \[lx\]
     pub blur: Vec<f64>,
-    /// Once reflected, were it even over each patch.
+    /// Illuminance after one reflection, with light taken as uniform over each patch. \[lx\]
     pub seen: Vec<f64>,
-    /// What the two densities differ by, sensor by sensor, wall by wall.
+    /// Differences of the two densities, sensor by sensor, wall by wall.
     pub(super) columns: Vec<f32>,
     walls: Vec<usize>,
 }
 
 impl LandedLight {
-    /// What the two densities differ by at a sensor, wall by wall.
+    /// Returns the differences of the two densities at a sensor, wall by wall.
     pub fn walls(&self, sensor: usize) -> impl Iterator<Item = f64> {
         let [from, to] = [sensor, sensor + 1].map(|s| self.walls[s] - self.walls[0]);
         self.columns[from..to].iter().map(|&e| f64::from(e))
@@ -39,7 +41,8 @@ impl LandedLight {
 }
 
 impl Landed {
-    /// `gather`: what the sensors see of the patches of both densities; `sensors`: their weights.
+    /// Creates the responses to beams. `gather`: what the sensors receive from the patches of both densities;
+    /// `sensors`: their weights.
     pub fn new(radiosity: &Radiosity, gather: &[[Reconstruction; 2]], sensors: &[Response]) -> Self {
         let count = sensors.len();
         let mut walls = vec![count];
@@ -69,14 +72,15 @@ impl Landed {
         Self { sensors: count, walls, rows }
     }
 
-    /// No light yet.
+    /// Returns light of no beams.
     pub fn dark(&self) -> LandedLight {
         let (count, walls) = (self.sensors, self.walls.clone());
         let dark = || vec![0.0; count];
         LandedLight { values: dark(), blur: dark(), seen: dark(), columns: vec![0.0; walls[count] - count], walls }
     }
 
-    /// What the sensors see of the first reflection alone, were it even over each patch. \[lx\]
+    /// Returns the illuminance at the sensors after one reflection, with light taken as uniform over each patch.
+    /// \[lx\]
     pub fn seen(&self, direct: &[f64]) -> Vec<f64> {
         let (count, last) = (self.sensors, self.walls[self.sensors]);
         let mut seen = vec![0.0; count];
@@ -85,12 +89,12 @@ impl Landed {
         seen
     }
 
-    /// Of illuminances of the patches by beams.
+    /// Computes the light at the sensors from illuminances of the patches by beams.
     pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> LandedLight {
         let (count, last) = (self.sensors, self.walls[self.sensors]);
         let rows = |light| self.rows.chunks_exact(last + count).zip(light).filter(|(_, e): &(_, &f64)| **e != 0.0);
         let (mut fine, mut seen) = (vec![0.0; count], vec![0.0; count]);
-        // Only what is in doubt hangs on these: half the digits are enough.
+        // Only the uncertainty depends on these: single precision is enough.
         let mut columns = vec![0.0_f32; last - count];
         for (row, &e) in rows(direct) {
             add_scaled(&mut fine, row, e);

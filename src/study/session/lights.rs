@@ -1,4 +1,4 @@
-//! What all apertures of a scene send into the room.
+//! Light that all apertures of a scene send into the room.
 
 use super::Session;
 use super::behind::Split;
@@ -7,16 +7,16 @@ use crate::compute::lid::Emission;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 
-/// The light of all apertures.
+/// Light of all apertures of a scene.
 pub(super) struct Lights {
-    /// Of every aperture as a whole.
+    /// Light of every aperture as a whole.
     pub emissions: Vec<Emission>,
-    /// The same part by part; empty where nothing stands outside.
+    /// Light of every aperture part by part; empty without obstructions.
     pub splits: Vec<Split>,
 }
 
 impl Session {
-    /// The light of all apertures.
+    /// Computes the light of all apertures.
     pub(super) fn lights(&self, scene: &Scene, progress: &dyn Progress) -> Result<Lights, StudyError> {
         let splits = self.splits(scene, progress)?;
         let emissions = if splits.is_empty() {
@@ -29,7 +29,7 @@ impl Session {
 }
 
 impl Lights {
-    /// Flux that enters through one aperture. \[lm\]
+    /// Returns the flux that enters through one aperture. \[lm\]
     pub fn flux_through(&self, scene: &Scene, index: usize) -> Estimate {
         let exitance = match self.splits.get(index) {
             Some(split) => split.exitance,
@@ -38,7 +38,7 @@ impl Lights {
         exitance * scene.apertures[index].aperture.area()
     }
 
-    /// Flux that enters through all apertures. \[lm\]
+    /// Returns the flux that enters through all apertures. \[lm\]
     pub fn flux(&self, scene: &Scene) -> Estimate {
         (0..self.emissions.len()).map(|index| self.flux_through(scene, index)).sum()
     }

@@ -1,25 +1,25 @@
-//! How an aperture sees what stands outside, in words: what was split, and why.
+//! Notes on how the obstructions in front of an aperture were treated: what was split, and why.
 
 use crate::texts::{fixed, words as texts};
 
-/// How an aperture that something stands before was taken.
+/// Treatment of an aperture with obstructions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideSeen {
-    /// Which one, from 0.
+    /// Number of the aperture, from 0.
     pub aperture: usize,
-    /// Every sensor looks straight through it and past what stands outside.
+    /// Whether every sensor sees the outside past the obstructions through the aperture's regular transmission.
     pub through: bool,
-    /// Into how many parts it was split for the light that it scatters; 0 where its points see the outside alike; `None`
+    /// Number of parts into which it was split for scattered light; 0 where its points see the outside alike; `None`
     /// where it scatters none.
     pub parts: Option<usize>,
-    /// How much that light changes over a part, or over the whole of it. \[relative\]
+    /// Change of that light over a part, or over the whole aperture. \[relative\]
     pub change: f64,
-    /// Share of it that the sun reaches; `None` without a sun before it.
+    /// Sunlit share of the aperture; `None` without a sun in front of it.
     pub sunlit: Option<f64>,
 }
 
 impl OutsideSeen {
-    /// A sentence for each thing that there is to be said.
+    /// Returns a sentence for each note.
     pub fn sentences(&self) -> Vec<String> {
         let number = self.aperture + 1;
         let mut said = Vec::new();

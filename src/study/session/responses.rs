@@ -1,6 +1,8 @@
-//! What every sensor's interreflected light hangs on: weights of the first illuminance of every patch, from the room's
-//! balance read backwards. One set serves every sky, sun and system of a room; what apertures throw back by direction
-//! comes in by cells, see [`super::thrown_back`].
+//! Responses of the sensors to the first illuminance of every patch, from the room's balance solved backwards
+//! (adjoint).
+//!
+//! One set serves every sky, sun and system of a room; light that apertures reflect by direction is added by cells,
+//! see [`super::thrown_back`].
 
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};
 use super::landed::{Landed, LandedLight};
@@ -26,46 +28,46 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Weights of all sensors.
+/// Responses of all sensors of a room.
 pub(crate) struct Responses {
-    /// The balance.
+    /// Factored balance of the room.
     pub radiosity: Arc<Radiosity>,
     room: ThroughRoom,
-    /// What apertures throw back that reflect by direction.
+    /// Light of apertures that reflect by direction.
     mirrors: Option<ThrownBack>,
-    /// The number of patches that was asked for.
+    /// Requested number of fine patches.
     count: usize,
 }
 
 /// Interreflected light at a sensor, or weights that make it.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Reflected {
-    /// All of it.
+    /// All interreflected light.
     pub value: f64,
-    /// What the two densities differ by.
+    /// Difference of the two densities.
     pub difference: f64,
-    /// The part that comes straight from apertures that reflect by direction.
+    /// Part that comes directly from apertures that reflect by direction.
     pub thrown_back: f64,
 }
 
 impl Reflected {
-    /// How far it may be off.
+    /// Returns the estimated absolute error.
     pub fn doubt(&self) -> f64 {
         DIFFERENCE_ALONE * self.difference + UNEVEN * self.thrown_back
     }
 }
 
 impl Session {
-    /// For a room of about so many fine patches.
+    /// Computes the responses for a room of about `count` fine patches.
     pub(crate) fn responses(
         &self,
         scene: &Scene,
         count: usize,
         progress: &dyn Progress,
     ) -> Result<Responses, StudyError> {
-        // Where products follow each other, apertures that reflect without direction are followed like those that reflect by
-        // cells, as one cell that is evenly bright: the room is black to all of them, and the same whatever the product. Not
-        // where light may fall straight from one on another.
+        // Where products follow each other, apertures that reflect without direction are followed like those that
+        // reflect by cells, as one cell of uniform luminance: the room is black to all of them, and the same whatever
+        // the product. Not where light may fall directly from one on another.
         let surface = |one: &SceneAperture| one.aperture.surface;
         let black = self.evenly && scene.apertures.windows(2).all(|pair| surface(&pair[0]) == surface(&pair[1]));
         let lambertian: Vec<f64> =
@@ -81,7 +83,7 @@ impl Session {
             |patch: &Patch| patch.aperture.map_or(patch.reflectance, |index| patch.reflectance.max(lambertian[index]));
         enough_is_absorbed(&radiosity.nested.fine, reflectance)?;
         check(progress)?;
-        // A value and what it may be off, by walls, for every patch and sensor.
+        // A value and its uncertainty, by walls, for every patch and sensor.
         let each = (1 + radiosity.nested.fine.walls.len()) * radiosity.nested.fine.patches.len() * size_of::<f64>();
         within_budget(scene, each)?;
         let key = room_key(scene, count);
@@ -98,7 +100,7 @@ impl Session {
         Ok(Responses { radiosity, room, mirrors, count })
     }
 
-    /// What the sensors of [`Self::responses`] get of beams.
+    /// Returns the responses of the sensors of [`Self::responses`] to beams; computed or kept.
     pub(crate) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
         let key = [&room.room.key[..], &room.room.sensor_key].concat();
         self.landed.get(key, || {
@@ -108,7 +110,7 @@ impl Session {
     }
 }
 
-/// Of all sensors, from what they see of the patches of both densities.
+/// Computes the responses of all sensors from what they receive from the patches of both densities.
 fn weights_of(
     radiosity: &Radiosity,
     gather: &[[Reconstruction; 2]],
@@ -143,13 +145,13 @@ fn weights_of(
 }
 
 impl Responses {
-    /// What the patches receive from an aperture by the cells of a basis.
+    /// Returns what the patches receive from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
         self.room.weights(session, index, basis)
     }
 
-    /// Sensor by sensor, cell by cell, what light of luminance 1 from an aperture's cells gives after reflection; with nodes,
-    /// node by node the same of light that is 1 at one of them and 0 at the others.
+    /// Returns the interreflected light per luminance of an aperture's cells, sensor by sensor and cell by cell; with
+    /// `nodes` also node by node, for light that is 1 at one of them and 0 at the others.
     pub fn of_cells(
         &self,
         session: &Session,
@@ -176,12 +178,12 @@ impl Responses {
             (0..self.room.sensors.len()).into_par_iter().map(|s| sensor(room, share, s)).collect()
         };
         let Some(nodes) = nodes else { return all(&self.room.through_room(session, index, basis, doubts), 1.0) };
-        // What apertures throw back hardly hangs on where in one of them the light came through.
+        // Light that apertures reflect hardly depends on where in one of them it entered.
         let by_node = self.room.through_room_by_node(session, index, basis, doubts, nodes);
         by_node.iter().zip(nodes.parts()).flat_map(|(room, part)| all(room, part)).collect()
     }
 
-    /// What every sensor gets of a first illuminance of the patches.
+    /// Returns the interreflected light at every sensor for first illuminances of the patches.
     pub fn of(&self, first: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(first));
         let one = |(s, sensor): (usize, &Response)| {
@@ -194,8 +196,8 @@ impl Responses {
         self.room.sensors.iter().enumerate().map(one).collect()
     }
 
-    /// What every sensor gets of the light of beams after they were reflected twice or by a mirror. `direct`: by themselves on
-    /// the patches. \[lx\]
+    /// Returns the light of beams at every sensor after two reflections or one by an aperture. `direct`: illuminance
+    /// of the patches by the beams. \[lx\]
     pub fn of_landed(&self, sums: &LandedLight, direct: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(direct));
         let one = |s: usize| {

@@ -1,4 +1,4 @@
-//! What a session answers: a room, a sensor, an aperture's light.
+//! Results of a session: a room, a sensor, an aperture's light.
 
 use super::outside_seen::OutsideSeen;
 use crate::compute::estimate::{Estimate, largest_relative_error};
@@ -7,85 +7,93 @@ use crate::compute::room::direct::Sensor;
 use crate::study::error::StudyError;
 use crate::study::plan::Plan;
 
-/// What one sensor gets.
+/// Illuminance at one sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorResult {
-    /// Where.
+    /// Position and normal of the sensor.
     pub sensor: Sensor,
-    /// Straight from the apertures, sun included. \[lx\]
+    /// Direct component: from the apertures without reflection in the room, direct sun included. \[lx\]
     pub direct: Estimate,
-    /// After at least one reflection. \[lx\]
+    /// Interreflected component: after at least one reflection in the room. \[lx\]
     pub interreflected: Estimate,
-    /// The part of `direct` that is the sun's light come through as beams: straight on, deflected, mirrored. \[lx\]
+    /// Part of `direct` that is the sun's light as beams: undeviated, deflected or mirrored. \[lx\]
     pub beam: f64,
-    /// How far all may be off for what the data do not tell apart, beside what the computation may be. \[lx\]
+    /// Data part of the uncertainty of the total: from details that the data do not distinguish. The numerical part is
+    /// in the errors of `direct` and `interreflected`. \[lx\]
     pub data_error: f64,
 }
 
 impl SensorResult {
-    /// Direct and interreflected light together, with both kinds of error. \[lx\]
+    /// Returns direct and interreflected light together, with both parts of the uncertainty. \[lx\]
     pub fn total(&self) -> Estimate {
         self.direct + self.interreflected + Estimate::new(0.0, self.data_error)
     }
 
-    /// Error of the computation alone, were the data exact. \[lx\]
+    /// Returns the numerical part of the uncertainty, with the data taken as exact. \[lx\]
     pub fn numerical_error(&self) -> f64 {
         (self.direct + self.interreflected).error
     }
 }
 
-/// Illuminances of a scene.
+/// Illuminances of a scene at all sensors.
 #[derive(Debug, Clone)]
 pub struct RoomResult {
-    /// In the order of the scene.
+    /// Results of the sensors, in the order of the scene.
     pub sensors: Vec<SensorResult>,
     /// Flux that enters through all apertures. \[lm\]
     pub flux: Estimate,
     /// Largest relative gap between the flux that leaves an aperture and the flux found on the surfaces, before it
     /// was closed; 0 without interreflection.
     pub flux_gap: f64,
-    /// How the sun's beams were found, aperture by aperture, and what is to be said of it.
+    /// Source of the sun's beams with a note on it, aperture by aperture.
     pub beams: Vec<(BeamSource, String)>,
-    /// How the apertures saw what stands outside; empty where nothing does.
+    /// Treatment of the apertures with obstructions; empty without any.
     pub outside: Vec<OutsideSeen>,
-    /// What ran, what was left out, and how long it took.
+    /// Plan of the computation: stages that ran, stages that were skipped, and their times.
     pub plan: Plan,
 }
 
 impl RoomResult {
-    /// Share of all light at the sensors that the data leave open.
+    /// Returns the data part of the uncertainty as a share of all light at the sensors.
     pub fn data_share(&self) -> f64 {
         let all: f64 = self.sensors.iter().map(|s| s.total().value).sum();
         let open: f64 = self.sensors.iter().map(|s| s.data_error).sum();
         if all > 0.0 { open / all } else { 0.0 }
     }
 
-    /// The largest relative error stated among the sensors that are not in the dark (1 % of the mean); 0 without light.
+    /// Returns the largest relative error stated among the sensors that are not dark (1 % of the mean); 0 without
+    /// light.
     pub fn reached(&self) -> f64 {
         largest_relative_error(self.sensors.iter().map(SensorResult::total))
     }
 }
 
-/// The light of one aperture.
+/// Light of one aperture into the room.
 #[derive(Debug, Clone)]
 pub struct LidResult {
-    /// Its luminous-intensity distribution.
+    /// Luminous intensity distribution of the aperture.
     pub lid: Lid,
     /// Luminous flux into the room. \[lm\]
     pub flux: Estimate,
-    /// Illuminance of the outside face: diffuse, and by the sun. \[lx\]
+    /// Illuminance of the outside face: diffuse, then by the sun. \[lx\]
     pub incident: (Estimate, f64),
 }
 
 impl LidResult {
-    /// The same if its light is numbers.
+    /// Returns the result if its flux is a finite number.
+    ///
+    /// # Errors
+    /// Returns an error if the flux is not a finite number.
     pub(super) fn checked(self) -> Result<Self, StudyError> {
         all_numbers(&[], self.flux)?;
         Ok(self)
     }
 }
 
-/// Nothing leaves that is no number.
+/// Checks that all results are finite numbers.
+///
+/// # Errors
+/// Returns an error that names the apertures or the first sensor with a value that is not a finite number.
 pub(super) fn all_numbers(sensors: &[SensorResult], flux: Estimate) -> Result<(), StudyError> {
     let number = |one: Estimate| one.value.is_finite() && one.error.is_finite();
     if !number(flux) {

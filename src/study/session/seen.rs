@@ -1,5 +1,6 @@
-//! What sensors see of apertures and surfaces: kept from one answer to the next for as many sensors as a study looks at
-//! again and again, made anew sensor by sensor for more, so that memory does not grow with what each of them sees.
+//! Views of apertures and surfaces from the sensors: kept between computations for as many sensors as a study uses
+//! again and again, computed again sensor by sensor for more, so that memory does not grow with what each of them
+//! sees.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
@@ -15,23 +16,23 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Stops what is no longer wanted.
+/// Returns an error if the computation was cancelled.
 pub(crate) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
     if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
 }
 
-/// So many sensors are worked on before progress is told.
+/// Number of sensors that are computed between two reports of progress.
 const BLOCK: usize = 4096;
 
-/// Is a table of so many numbers a sensor small enough to be kept?
+/// Whether a table of `numbers` numbers per sensor is small enough to be kept.
 pub(crate) fn keeps(scene: &Scene, numbers: usize) -> bool {
     scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
 }
 
-/// Tables that a year needs whole: so many bytes a sensor.
+/// Checks that tables of `each` bytes per sensor, which a year needs as a whole, fit into memory.
 ///
 /// # Errors
-/// More sensors than they are made for.
+/// Returns an error if the scene has more sensors than fit.
 pub(crate) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError> {
     let (count, most) = (scene.sensors.len(), limits::RESPONSE_BYTES / each.max(1));
     if count > most {
@@ -41,17 +42,17 @@ pub(crate) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError
     Ok(())
 }
 
-/// A sensor where light is to be found for it: one in an opening just inside of it.
+/// Returns a sensor at the position where its light is computed: one in an aperture is moved just inside of it.
 pub(crate) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
     let enter = |position, one: &SceneAperture| one.aperture.entered(position, sensor.normal);
     Sensor { position: scene.apertures.iter().fold(sensor.position, enter), ..*sensor }
 }
 
-/// A number of every sensor, by all threads, in the order of the scene; `work` is given the sensor's place, and the
-/// sensor as it is [`inside`].
+/// Computes a value for every sensor, by all threads, in the order of the scene; `work` is given the sensor's index,
+/// and the sensor as returned by [`inside`].
 ///
 /// # Errors
-/// The first that `work` gives, or withdrawn.
+/// Returns the first error of `work`, or an error if cancelled.
 pub(super) fn in_blocks<T: Send>(
     scene: &Scene,
     stage: &'static str,
@@ -74,14 +75,14 @@ pub(super) fn in_blocks<T: Send>(
     Ok(all)
 }
 
-/// What every sensor receives from one aperture per luminance.
+/// Light that every sensor receives from one aperture per luminance, by cells.
 pub(super) enum Seen<'a> {
     Kept(Arc<Vec<Reception>>),
     Anew(&'a Aperture, Option<&'a RingBasis>),
 }
 
 impl Seen<'_> {
-    /// Of a sensor at its place in the scene.
+    /// Returns the values of a sensor; `s`: its index in the scene.
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, Reception> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
@@ -90,15 +91,15 @@ impl Seen<'_> {
     }
 }
 
-/// The same by bands of the profile angle.
+/// Light that every sensor receives from one aperture per luminance, by bands of the profile angle.
 pub(super) enum SeenBands<'a> {
     Kept(Arc<Vec<BandWeights>>),
-    /// With the bands' side, and how many they are.
+    /// Aperture, whether the profile angle is in the horizontal plane, and number of bands.
     Anew(&'a Aperture, bool, usize),
 }
 
 impl SeenBands<'_> {
-    /// Of a sensor at its place in the scene.
+    /// Returns the values of a sensor; `s`: its index in the scene.
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, BandWeights> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
@@ -107,20 +108,20 @@ impl SeenBands<'_> {
     }
 }
 
-/// Of one sensor.
+/// Computes the weights of bands of the profile angle at one sensor.
 pub(crate) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
     let view = aperture.view(sensor.position, sensor.normal);
     view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count))
 }
 
-/// What every sensor receives from the patches, fine and coarse.
+/// Light that every sensor receives from the patches, fine and coarse.
 pub(super) enum Gathered<'a> {
     Kept(Arc<Vec<[Reconstruction; 2]>>),
     Anew([&'a Mesh; 2]),
 }
 
 impl Gathered<'_> {
-    /// Of a sensor at its place in the scene.
+    /// Returns the values of a sensor; `s`: its index in the scene.
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, [Reconstruction; 2]> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
@@ -129,15 +130,15 @@ impl Gathered<'_> {
     }
 }
 
-/// Of one sensor.
+/// Computes what one sensor receives from the patches of both meshes.
 pub(super) fn gathered(meshes: &[&Mesh; 2], sensor: &Sensor) -> [Reconstruction; 2] {
     meshes.map(|mesh| reconstruct(mesh, sensor.position, sensor.normal))
 }
 
-/// Are receptions of these cells kept?
+/// Whether receptions by the cells of a basis are kept for all sensors of a scene.
 pub(super) fn keeps_receptions(scene: &Scene, basis: Option<&RingBasis>) -> bool {
     keeps(scene, RECEPTION + basis.map_or(0, RingBasis::len))
 }
 
-/// A reception without its cells, in numbers.
+/// Size of a reception without its cells. \[numbers\]
 const RECEPTION: usize = size_of::<Reception>() / size_of::<f64>();

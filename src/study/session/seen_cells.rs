@@ -1,18 +1,19 @@
-//! What sensors see straight of an aperture's cells: the same for all systems, and nothing of most cells.
+//! Direct light of an aperture's cells at the sensors: the same for all systems, and zero for most cells.
 
 use crate::compute::dot::add_scaled;
 
-/// Rows of the cells of which any sensor sees anything.
+/// Direct light at the sensors by cell, with rows only for cells that any sensor sees.
 pub(crate) struct SeenCells {
     sensors: usize,
-    /// Where the row of a cell begins; `None` where no sensor sees it.
+    /// Start of the row of each cell; `None` where no sensor sees the cell.
     first: Vec<Option<u32>>,
-    /// Sensor by sensor what it sees per luminance of a cell. \[sr\]
+    /// Illuminance per luminance of a cell, sensor by sensor. \[sr\]
     rows: Vec<f32>,
 }
 
 impl SeenCells {
-    /// Of so many cells; `weights`: of every sensor the cells that it sees.
+    /// Creates the rows of `cells` cells; `weights`: for every sensor the cells that it sees, with their weights
+    /// \[sr\].
     pub fn new<I>(cells: usize, weights: impl ExactSizeIterator<Item = I> + Clone) -> Self
     where
         I: Iterator<Item = (usize, f64)>,
@@ -39,7 +40,7 @@ impl SeenCells {
         Self { sensors, first, rows }
     }
 
-    /// Adds what the sensors see of a cell of some luminance.
+    /// Adds the direct light of a cell of the given luminance at the sensors.
     #[inline]
     pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
         if let Some(first) = self.first[cell] {

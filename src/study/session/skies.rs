@@ -1,5 +1,5 @@
-//! Skies before an aperture: the hours of a year, found once for all systems that ask for the same directions; and single
-//! skies that many systems are tried under.
+//! Skies in front of an aperture: the hours of a year, computed once for all systems that need the same directions;
+//! and single skies that many systems are tried under.
 
 use super::far;
 use super::seen::keeps;
@@ -20,20 +20,21 @@ use std::f64::consts::TAU;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// What a sensor takes for a cell that it sees through points of an aperture. \[numbers\]
+/// Memory per sensor for a cell that it sees through points of an aperture. \[numbers\]
 const CELL_AT_POINTS: usize = 16;
-/// Most numbers of a year that are kept: 12,000 in each of 8,784 hours. Half of these are dark, which leaves 210 MB.
+/// Maximum count of numbers of a year that are kept: 12,000 in each of 8,784 hours. Half of these are dark, which
+/// leaves 210 MB.
 const MOST_NUMBERS: usize = 12_000 * 8784;
 
-/// The hours of a year that has a number of its own, for a list of some fingerprint that gives so many numbers; `None` for
-/// more than are worth keeping.
+/// Returns the stored hours of a year, for a list of directions with this fingerprint that gives `numbers` values per
+/// hour; `None` for more than can be kept. `year`: number of the year, and count of its hours.
 fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
     let worth = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
     worth.then(|| cache.find(vec![year.0, year.1 as u64, fingerprint], || SkyYear::nothing(year.1)))
 }
 
 impl Session {
-    /// Patches before an aperture, found anew or kept; `spacing` of the directions \[rad\].
+    /// Returns the patches in front of an aperture, computed or kept; `spacing` of the directions \[rad\].
     pub(crate) fn sky_patches(&self, scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Arc<SkyPatches> {
         // A skyline that rises and falls has too much of a shape for a key.
         if far::shape(&scene.outside).is_some() {
@@ -45,11 +46,11 @@ impl Session {
         self.sky_patches.find(key, || SkyPatches::new(scene, index, patches, spacing))
     }
 
-    /// Returns the obstructions of a scene, prepared for many skies behind the skyline of `outside`, computed or kept; `None`
-    /// without any.
+    /// Returns the obstructions of a scene, prepared for many skies behind the skyline of `outside`, computed or kept;
+    /// `None` without any.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns an error if cancelled.
     pub(crate) fn standing(
         &self,
         before: &Before,
@@ -80,7 +81,7 @@ impl Session {
         self.seen_patches.find(key, find)
     }
 
-    /// Returns for every sensor of a scene the points of an aperture's grid through which it sees cells, or bands of the
+    /// Returns the points of an aperture's grid through which every sensor of a scene sees cells, or bands of the
     /// profile angle (whether in the horizontal plane, and their number), computed by `find` or kept. \[sr\]
     pub(crate) fn cells_at_points(
         &self,
@@ -100,12 +101,13 @@ impl Session {
         self.cells_at_points.find(key, find)
     }
 
-    /// The hours of a year on so many patches.
+    /// Returns the stored illuminances of `patches` patches in the hours of a year; `None` for more than can be kept.
     pub(crate) fn sky_year(&self, year: (u64, usize), fingerprint: u64, patches: usize) -> Option<Arc<SkyYear>> {
         year_of(&self.sky_years, year, fingerprint, patches)
     }
 
-    /// The hours of a year by so many moments of what sensors see.
+    /// Returns the stored moments of what sensors see in the hours of a year, `moments` in each; `None` for more than
+    /// can be kept.
     pub(crate) fn seen_year(&self, year: (u64, usize), fingerprint: u64, moments: usize) -> Option<Arc<SkyYear>> {
         year_of(&self.seen_years, year, fingerprint, moments)
     }
@@ -122,13 +124,13 @@ impl Session {
         self.sunlit_years.find(key, || (0..hours).map(|_| OnceLock::new()).collect())
     }
 
-    /// Skies that the directions of a façade's patches are tried under.
+    /// Returns the skies that the directions of a façade's patches are tried under, computed by `find` or kept.
     pub(crate) fn trial_skies(&self, facade: Bearing, find: impl FnOnce() -> Vec<Outside>) -> Arc<Vec<Outside>> {
         let key = vec![facade.radians().to_bits()];
         self.trial_skies.find(key, find)
     }
 
-    /// What a sky gives on patches of some fingerprint, found anew or kept.
+    /// Returns the illuminances of a sky on patches of this fingerprint, computed by `find` or kept.
     pub(crate) fn exact_sky(
         &self,
         outside: &Outside,
@@ -141,7 +143,7 @@ impl Session {
     }
 }
 
-/// Luminances that no other sky of those that are tried has.
+/// Returns the key of a sky: luminances that differ between all skies that are tried.
 fn told_apart(outside: &Outside) -> Key {
     let spiral = (0..24).map(|k| {
         let z = (f64::from(k) + 0.5) / 24.0;

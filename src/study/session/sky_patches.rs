@@ -1,31 +1,32 @@
-//! The patches of the outside before an aperture, and what hangs on nothing but them: found once for all systems and states.
+//! Patches of the outside in front of an aperture, and the values that depend on nothing else: computed once for all
+//! systems and states.
 
 use super::far::{self, Constants};
 use crate::compute::basis::RingBasis;
 use crate::compute::sky::{Frame, Outside, SkySamples, incident_illuminances_within};
 use crate::study::scene::Scene;
 
-/// Accuracy of what is even, whatever the sky.
+/// Relative accuracy of the illuminances by ground and skyline, which do not depend on the sky.
 const RELATIVE: f64 = 1e-7;
 
-/// Patches and what is even in them.
+/// Patches of the outside with the directions and constant illuminances in them.
 pub(crate) struct SkyPatches {
-    /// They.
+    /// Patches of the incident hemisphere.
     pub patches: RingBasis,
-    /// Where they are.
+    /// Orientation of the patches in the world frame.
     pub frame: Frame,
-    /// Directions in those that reach above horizon and skyline.
+    /// Directions in the patches that reach above horizon and skyline.
     pub samples: SkySamples,
-    /// Of the samples.
+    /// Fingerprint of the samples.
     pub fingerprint: u64,
-    /// Illuminance through every patch by a ground of luminance 1.
+    /// Illuminance through every patch by a ground of luminance 1. \[lx per cd/m²\]
     pub ground: Vec<f64>,
-    /// The same by a skyline of luminance 1.
+    /// Illuminance through every patch by a skyline of luminance 1. \[lx per cd/m²\]
     pub skyline: Vec<f64>,
 }
 
 impl SkyPatches {
-    /// Before an aperture of a scene; `spacing` of the directions \[rad\].
+    /// Creates the patches in front of an aperture of a scene; `spacing` of the directions \[rad\].
     pub fn new(scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Self {
         let frame = Frame::of_aperture(scene.orientation, scene.facing(index).surface);
         let mut samples = SkySamples::new(&patches, &frame, scene.outside.skyline_altitude(), spacing);
@@ -42,7 +43,7 @@ impl SkyPatches {
     }
 }
 
-/// Of every patch. \[lx\]
+/// Returns the illuminance through every patch. \[lx\]
 pub(crate) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
 }

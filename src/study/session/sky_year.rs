@@ -1,26 +1,27 @@
-//! What a sky is in the hours of a year: illuminances of an aperture's patches \[lx\], moments of what sensors see.
+//! Stored values of a sky in the hours of a year: illuminances of an aperture's patches \[lx\], moments of what
+//! sensors see.
 
 use crate::compute::room::sunlit_part::SunlitPart;
 use std::sync::OnceLock;
 
-/// Sunlit part of an aperture by hour, each found when it is first asked for.
+/// Sunlit part of an aperture by hour, each computed at its first use.
 pub(crate) type SunlitYear = Vec<OnceLock<SunlitPart>>;
 
-/// By hour, each found when it is first asked for; in half the digits, 6 · 10⁻⁸ of each.
+/// Values of a sky by hour, each computed at its first use; in single precision, 6 · 10⁻⁸ of each value.
 pub(crate) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
 
 impl SkyYear {
-    /// Nothing known of so many hours.
+    /// Creates an empty store for `hours` hours.
     pub fn nothing(hours: usize) -> Self {
         Self((0..hours).map(|_| OnceLock::new()).collect())
     }
 
-    /// Is an hour known?
+    /// Whether the values of an hour are stored.
     pub fn holds(&self, hour: usize) -> bool {
         self.0[hour].get().is_some()
     }
 
-    /// Of an hour.
+    /// Returns the values of an hour, computed by `find` or stored.
     pub fn hour(&self, hour: usize, find: impl FnOnce() -> Vec<f64>) -> impl Iterator<Item = f64> {
         let kept = self.0[hour].get_or_init(|| find().into_iter().map(|e| e as f32).collect());
         kept.iter().map(|&e| f64::from(e))

@@ -1,11 +1,12 @@
-//! An aperture whose points see the outside differently, in parts: each with its own outside and what the system makes
-//! of it.
+//! Apertures whose points see the outside differently, divided into parts, each with its own outside and its own
+//! light.
 //!
-//! The outside is asked for at 3 × 3 points of a part (Gauss's), light is a parabola between them; two more points near
-//! opposite corners tell whether it is. An aperture is first cut where planes of near faces meet it (see
-//! [`super::creases`]). Then the part whose light is known least is halved across what is bent most until what parabolas
-//! leave over is small against the error asked for; where light hardly changes over the whole aperture, as before things
-//! that are far, nothing is split. What goes straight through every sensor looks for itself; its flux is the parts'.
+//! The outside is evaluated at 3 × 3 points of a part (Gauss's), and light is a parabola between them; two more points
+//! near opposite corners test whether it is. An aperture is first cut where planes of near faces meet it (see
+//! [`super::creases`]). Then the part with the largest remaining error is halved across the side with the largest
+//! curvature, until the error of the parabolas is small against the error target; where light hardly changes over the
+//! whole aperture, as with distant obstructions only, nothing is split. Regular transmission is evaluated for every
+//! sensor by itself; its flux is that of the parts.
 
 use super::creases::{creases, cut_along};
 use super::part::{Part, WHOLE, area, halves, middle, part_of};
@@ -21,16 +22,15 @@ use crate::study::scene_file::ORDINARY_TARGET;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Gauss's points of −1 … 1 besides 0 ...
+/// Outer points of Gauss's rule with three points on −1 … 1; the third is 0.
 const POINT: f64 = 0.774_596_669_241_483_4;
-/// ... and the weights of all three.
+/// Weights of the three points of Gauss's rule; their sum is 1.
 const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
-/// Points near two corners of a part, −1 … 1, that are asked whether the parabola holds: what steep changes there are,
-/// lie along borders.
+/// Points near two corners of a part, −1 … 1, at which the parabola is tested: steep changes lie along borders.
 const TRIED: [[f64; 2]; 2] = [[-0.9, -0.9], [0.9, 0.9]];
-/// Of what it is off at these, what counts: between the points it is off less, and to both sides.
+/// Share of the deviation at the test points that counts as error: between the nodes it is smaller, and of both signs.
 const TRIED_SHARE: f64 = 0.2;
-/// Weights of the nine.
+/// Weights of the nine nodes of a part; their sum is 1.
 const NODES: [f64; 9] = {
     let mut all = [0.0; 9];
     let mut k = 0;
@@ -40,60 +40,60 @@ const NODES: [f64; 9] = {
     }
     all
 };
-/// Light that changes by so much over a piece throws on the room's patches as if it were even.
+/// Relative change of light over a piece up to which the room's patches take it as uniform.
 const EVEN: f64 = 0.15;
-/// Most parts, where the system's answer costs little ...
+/// Maximum number of parts where the response of the system costs little.
 const MOST_PARTS: usize = 100;
-/// ... and where it has to be interpolated anew for every point.
+/// Maximum number of parts where the response of the system has to be interpolated again for every point.
 const MOST_DEAR_PARTS: usize = 4;
-/// ... and where nothing is scattered.
+/// Maximum number of parts where nothing is scattered.
 const MOST_STRAIGHT_PARTS: usize = 20;
-/// What parabolas over parts may leave, of the error asked for.
+/// Share of the error target that the parabolas over the parts may use.
 const SHARE: f64 = 0.05;
-/// Light that changes less than this over the aperture is the same all over.
+/// Relative change over the aperture up to which its light is taken as the same all over.
 const SAME: f64 = 4e-3;
-/// What the light at the points may be off beyond its own error, relative: references differ by up to 4e-4.
+/// Relative error of the light at the points beyond its own error; references differ by up to 4e-4.
 const AT_POINTS: f64 = 2e-4;
-/// Tiles of a part are so small that light changes by no more than this from one to the next ...
+/// Maximum relative change of light from one tile of a part to the next.
 const STEP: f64 = 0.015;
-/// ... but a part has no more than so many along a side.
+/// Maximum number of tiles of a part along one side.
 const MOST_TILES: f64 = 12.0;
 
-/// The outside as it is from one point, and what the system makes of it; frame and dirt counted.
+/// Outside as seen from one point, and the light that the system makes of it, frame and dirt included.
 struct Node {
     emission: Emission,
-    /// What is scattered by where it goes, then what goes straight through, per area. \[lm/m²\]
+    /// Scattered light by emergent direction, then regular transmission, per area. \[lm/m²\]
     fluxes: Vec<f64>,
-    /// All of it. \[lm/m²\]
+    /// Luminous exitance on the room side. \[lm/m²\]
     exitance: Estimate,
-    /// Where, in the world's frame. \[m\]
+    /// Position of the point in the world frame. \[m\]
     eye: DVec3,
 }
 
-/// One part.
+/// Part of an aperture with the light at its nodes.
 pub(super) struct Leaf {
     pub part: Part,
-    /// Row by row.
+    /// The nine nodes, row by row.
     nodes: Vec<Node>,
-    /// Relative change of its light from border to border along both sides.
+    /// Relative change of the part's light from border to border along both sides.
     pub change: [f64; 2],
-    /// What of it is bent: how far the parabola's middle lies beside the straight line, relative.
+    /// Curvature of the part's light along both sides: distance of the parabola's middle from the straight line,
+    /// relative.
     bend: [f64; 2],
-    /// How far the parabola is off at the points that were tried, means: all light per area, and its uniform part.
-    /// \[lm/m², cd/m²\]
+    /// Mean deviation of the parabola at the test points: all light per area, and its uniform part. \[lm/m², cd/m²\]
     off: [f64; 2],
 }
 
-/// Weights of the three points at a place of −1 … 1.
+/// Returns the weights of the three points of Gauss's rule at the place `x`, −1 … 1.
 fn parabola(x: f64) -> [f64; 3] {
     let t = x / POINT;
     [0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)]
 }
 
 impl Leaf {
-    /// `nodes`: the nine, then those that were tried.
+    /// Creates a part from `nodes`: the nine of Gauss's rule, then the test points.
     fn new(part: Part, mut nodes: Vec<Node>) -> Self {
-        // Where nothing comes in, as under a box on the glass, nothing is told by where it goes.
+        // Where no light enters, as under a box on the glass, the light has no emergent directions.
         let count = nodes.iter().map(|node| node.fluxes.len()).max().unwrap_or(0);
         nodes.iter_mut().for_each(|node| node.fluxes.resize(count, 0.0));
         let tried = nodes.split_off(9);
@@ -122,7 +122,7 @@ impl Leaf {
         leaf
     }
 
-    /// What the nodes count for at a place, −1 … 1 along both sides.
+    /// Returns the weights of the nine nodes at a place, −1 … 1 along both sides.
     fn weights(&self, x: f64, y: f64) -> [f64; 9] {
         let (a, b) = (parabola(x), parabola(y));
         std::array::from_fn(|k| a[k % 3] * b[k / 3])
@@ -133,40 +133,41 @@ impl Leaf {
         own.sum::<f64>() * area(self.part)
     }
 
-    /// How far light rises and falls along both sides, relative: by the straight line, and by what is bent on it. A
-    /// symmetric part does not change from border to border and is not even.
+    /// Returns how much light rises and falls along both sides, relative: along the straight line, and by the
+    /// curvature on it. A symmetric part does not change from border to border and is not uniform.
     fn uneven(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.change[axis] + 2.0 * self.bend[axis])
     }
 
-    /// What a parabola leaves over along both sides, relative: the next term of a series whose terms fall as those of an
-    /// exponential function do, and half as much again.
+    /// Returns the error of the parabola along both sides, relative: the next term of a series whose terms fall as
+    /// those of an exponential function do, and half as much again.
     fn rest(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.bend[axis] * (0.5 * self.change[axis] + self.bend[axis]) / 2.0)
     }
 
-    /// The same as flux; and what the points tell that were tried.
+    /// Returns the error of the parabola as flux per area of the aperture, and the error found at the test points.
+    /// \[lm/m²\]
     fn left_over(&self) -> [f64; 2] {
         let flux = self.flux();
-        // Errors of the points themselves, three times as large where the parabola goes on beyond them.
+        // Errors of the points themselves, three times as large where the parabola extends beyond them.
         let off = (self.off[0] * area(self.part) - 3.0 * AT_POINTS * flux).max(0.0);
         [self.rest().iter().sum::<f64>() * flux, TRIED_SHARE * off]
     }
 
-    /// All that is left over, relative.
+    /// Returns all errors of the parabola relative to the flux.
     fn rough(&self) -> f64 {
         let flux = self.flux();
         if flux > 0.0 { self.left_over().iter().sum::<f64>() / flux } else { 0.0 }
     }
 
-    /// The light at a place, −1 … 1 along both sides.
+    /// Returns the light at a place, −1 … 1 along both sides.
     fn at(&self, x: f64, y: f64) -> Emission {
         let parts: Vec<(f64, &Emission)> =
             self.weights(x, y).into_iter().zip(self.nodes.iter().map(|node| &node.emission)).collect();
         Emission::mixed(&parts)
     }
 
-    /// Its light that is the same in all directions.
+    /// Returns the part's uniform light, which is the same in all directions.
     pub fn smooth(&self, aperture: &Aperture) -> Smooth {
         let values = std::array::from_fn(|k| self.nodes[k].emission.uniform.value);
         let own = self.nodes.iter().zip(NODES).map(|(node, weight)| weight * node.emission.uniform.error);
@@ -179,14 +180,15 @@ impl Leaf {
         }
     }
 
-    /// Its tiles: light as it is in their middles.
+    /// Returns the tiles of the part, each with the light at its middle.
     pub fn tiles(&self) -> Vec<(Part, Emission)> {
         let uneven = self.uneven();
         let count = uneven.map(|change| (change / STEP).ceil().clamp(1.0, MOST_TILES));
         self.cut(count, uneven.iter().zip(count).map(|(change, count)| change / count / 8.0).sum())
     }
 
-    /// Its light that is not the same in all directions, in tiles for one sensor; nothing where there is none.
+    /// Returns the part's light that is not the same in all directions, as tiles for one sensor; empty where there is
+    /// none.
     pub fn tiles_for(&self, aperture: &Aperture, sensor: &Sensor) -> Vec<(Part, Emission)> {
         if self.any().cells.is_empty() && self.any().bands.is_empty() {
             return Vec::new();
@@ -198,7 +200,7 @@ impl Leaf {
         tiles
     }
 
-    /// So many tiles along both sides, whose steps may cost `steps` at a sensor, relative.
+    /// Cuts the part into `count` tiles along both sides, whose steps add the relative error `steps` at a sensor.
     fn cut(&self, count: [f64; 2], steps: f64) -> Vec<(Part, Emission)> {
         let [columns, rows] = count.map(|count| count as usize);
         let place = |axis: usize, at: usize| {
@@ -215,7 +217,7 @@ impl Leaf {
         (0..columns).flat_map(|i| (0..rows).map(move |k| (i, k))).map(tile).collect()
     }
 
-    /// Mean of what goes straight through the part, per area; and of what falls on it.
+    /// Returns means over the part: regular transmission per area \[lm/m²\], and incident illuminance \[lx\].
     pub fn means(&self) -> [Estimate; 2] {
         let mean = |of: &dyn Fn(&Node) -> Estimate| {
             self.nodes.iter().zip(NODES).map(|(node, weight)| of(node) * weight).sum::<Estimate>()
@@ -229,18 +231,18 @@ impl Leaf {
         ]
     }
 
-    /// Is nothing scattered evenly?
+    /// Whether no light is scattered uniformly.
     fn is_straight(&self) -> bool {
         self.nodes.iter().all(|node| node.emission.uniform.value <= 0.0)
     }
 
-    /// What goes straight through at a node, per area.
+    /// Returns the flux of regular transmission at a node, per area. \[lm/m²\]
     fn through(&self, node: &Node) -> f64 {
         node.fluxes.last().copied().filter(|_| self.any().regular.is_some()).unwrap_or(0.0)
     }
 
-    /// Points from which the outside is seen that the part lets straight through, with their shares of the aperture: all,
-    /// or the middle for all of them.
+    /// Returns points from which the outside is seen through the part by regular transmission, with their shares of
+    /// the aperture: all nine, or the middle with the share of all of them.
     pub fn eyes(&self, all: bool) -> Vec<(f64, DVec3)> {
         let through = |k: usize| self.through(&self.nodes[k]);
         let mean: f64 = (0..9).map(|k| NODES[k] * through(k)).sum();
@@ -251,7 +253,7 @@ impl Leaf {
         }
     }
 
-    /// Pieces over each of which its light is nearly even, and no more than so many along a side.
+    /// Returns pieces over each of which the light is nearly uniform, at most `most` along one side.
     pub fn pieces(&self, most: f64) -> Vec<Part> {
         let count = self.uneven().map(|change| (change / EVEN).ceil().clamp(1.0, most));
         let place = |axis: usize, at: usize| -> [f64; 2] {
@@ -262,24 +264,24 @@ impl Leaf {
         (0..columns).flat_map(|i| (0..rows).map(move |k| [place(0, i), place(1, k)])).collect()
     }
 
-    /// Light of the kinds that its points have in common; of those in the dark it may lack some.
+    /// Returns the light with all kinds that the nodes have in common; dark nodes may lack some.
     pub fn any(&self) -> &Emission {
         fullest(self.nodes.iter().map(|node| &node.emission)).unwrap_or(&self.nodes[0].emission)
     }
 }
 
-/// The same of all parts; there is one at least.
+/// Returns the light with all kinds that the parts have in common; `leaves` holds at least one part.
 pub(super) fn any_of(leaves: &[Leaf]) -> &Emission {
     fullest(leaves.iter().map(Leaf::any)).unwrap_or(leaves[0].any())
 }
 
-/// The first of those with most kinds of light.
+/// Returns the first light of the list that has the largest number of kinds.
 fn fullest<'a>(list: impl Iterator<Item = &'a Emission>) -> Option<&'a Emission> {
     let kinds = |light: &Emission| light.cells.len() + light.bands.len() + usize::from(light.regular.is_some());
     list.reduce(|best, one| if kinds(one) > kinds(best) { one } else { best })
 }
 
-/// Adds what parabolas and the steps from tile to tile may be off, relative.
+/// Adds a relative error, of parabolas and of steps from tile to tile, to all kinds of light.
 fn doubt(light: &mut Emission, relative: f64) {
     light.uniform.error += relative * light.uniform.value;
     light.cells.iter_mut().for_each(|cells| cells.relative_error += relative);
@@ -288,7 +290,7 @@ fn doubt(light: &mut Emission, relative: f64) {
     }
 }
 
-/// Scattered light of all parts, means over the aperture.
+/// Returns the scattered light of all parts as means over the aperture.
 pub(super) fn mean_of(leaves: &[Leaf]) -> Emission {
     let points = leaves
         .iter()
@@ -301,29 +303,31 @@ pub(super) fn mean_of(leaves: &[Leaf]) -> Emission {
     mean
 }
 
-/// Light of a part that is the same in all directions, as a parabola over it.
+/// Uniform light of a part, the same in all directions, as a parabola over the part.
 pub(super) struct Smooth {
     part: Aperture,
-    /// Luminance at the points, row by row. \[cd/m²\]
+    /// Luminance at the nine nodes, row by row. \[cd/m²\]
     values: [f64; 9],
-    /// How far it rises and falls along both sides, relative.
+    /// Relative rise and fall of the luminance along both sides.
     uneven: [f64; 2],
-    /// Relative error of the parabola ...
+    /// Relative error of the parabola.
     relative: f64,
-    /// ... and what the points are off besides. \[cd/m²\]
+    /// Error of the luminance at the nodes, besides that of the parabola. \[cd/m²\]
     error: f64,
 }
 
-/// How finely light that changes over a part is cut for a sensor: the finer the nearer it is. Where a tile looks the same
-/// from end to end its change does not count; of the rest, a part of tile over distance is left.
+/// Rule by which light that changes over a part is cut into tiles for a sensor: the finer the nearer the part is. A
+/// change over a tile that looks the same from end to end does not count; the error is a part of the rest, in
+/// proportion to tile size over distance.
 struct Cut {
-    /// What of it: more of light on cells, of which a sensor sees this one here and that one beside it.
+    /// Factor of change times tile size over distance that gives the error: larger for cells, of which a sensor sees
+    /// one here and another beside it.
     part: f64,
-    /// A tile that is larger from there does not cost more: for cells, a cell's width. \[rad\]
+    /// Angular size of a tile above which its error does not grow: for cells, the width of a cell. \[rad\]
     near: f64,
-    /// What it may cost, relative ...
+    /// Maximum relative error of the tiles at a sensor.
     allowed: f64,
-    /// ... if no more tiles than so many along a side are needed for it.
+    /// Maximum number of tiles along one side, which takes precedence over `allowed`.
     most: f64,
 }
 
@@ -331,7 +335,7 @@ const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 1e-4, m
 const TILES_OF_CELLS: Cut = Cut { part: 1.25, near: 0.2, allowed: 1.5e-3, most: 8.0 };
 
 impl Cut {
-    /// Tiles along both sides, and what their steps still cost.
+    /// Returns the numbers of tiles along both sides, and the relative error that their steps leave.
     fn of(&self, change: [f64; 2], size: [f64; 2], distance: f64) -> ([f64; 2], f64) {
         let cost = |axis: usize, count: f64| {
             let tile = size[axis] / count / distance.max(1e-6);
@@ -343,12 +347,12 @@ impl Cut {
 }
 
 impl Smooth {
-    /// Is there any?
+    /// Whether the part has uniform light.
     pub fn is_lit(&self) -> bool {
         self.values.iter().any(|value| *value > 0.0)
     }
 
-    /// Illuminance at a sensor. \[lx\]
+    /// Returns the illuminance at a sensor. \[lx\]
     pub fn at(&self, sensor: &Sensor) -> Estimate {
         let distance = self.part.distance(sensor.position);
         let (count, steps) = TILES_OF_UNIFORM.of(self.uneven, self.part.size, distance);
@@ -374,7 +378,7 @@ impl Smooth {
 }
 
 impl Session {
-    /// Sky and ground at one point of an aperture.
+    /// Computes the light of sky and ground at one point of an aperture.
     fn node(&self, scene: &Scene, index: usize, at: [f64; 2]) -> Node {
         let one = &scene.apertures[index];
         let eye = scene.orientation.to_world(part_of(&one.aperture, [[at[0], 1.0], [at[1], 1.0]]).corner);
@@ -389,7 +393,7 @@ impl Session {
         Node { emission, fluxes, exitance, eye }
     }
 
-    /// All points of some parts at once.
+    /// Computes all points of several parts at once.
     fn asked(
         &self,
         scene: &Scene,
@@ -413,10 +417,10 @@ impl Session {
         Ok(leaves)
     }
 
-    /// The parts of an aperture.
+    /// Computes the parts of an aperture.
     ///
     /// # Errors
-    /// Cancelled.
+    /// Returns an error if cancelled.
     pub(super) fn leaves(&self, scene: &Scene, index: usize, progress: &dyn Progress) -> Result<Vec<Leaf>, Cancelled> {
         let aperture = &scene.apertures[index].aperture;
         let target = SHARE * scene.error_target.unwrap_or(ORDINARY_TARGET);
@@ -431,7 +435,7 @@ impl Session {
         };
         let mut leaves = self.asked(scene, index, parts, progress)?;
         let any = any_of(&leaves);
-        // Of what goes straight through only the flux is asked for: it scales what the room's patches see themselves.
+        // Of regular transmission only the flux is needed: it scales what the room's patches see themselves.
         let straight = any.cells.is_empty() && any.bands.is_empty() && leaves.iter().all(Leaf::is_straight);
         let (most, target) = if straight { (MOST_STRAIGHT_PARTS, 10.0 * target) } else { (most_of(any), target) };
         loop {
@@ -448,7 +452,7 @@ impl Session {
             let Some(worst) = worst else { return Ok(leaves) };
             let leaf = leaves.swap_remove(worst);
             let [bent, off] = leaf.left_over();
-            // The points that were tried do not tell across which side.
+            // The test points do not show across which side to cut.
             let sides = if off > bent {
                 [0, 1].map(|axis| (leaf.part[axis][1] - leaf.part[axis][0]) * aperture.size[axis])
             } else {
@@ -460,7 +464,7 @@ impl Session {
         }
     }
 
-    /// Is the light the same all over the aperture?
+    /// Whether the light is the same all over the aperture.
     pub(super) fn same_all_over(leaves: &[Leaf]) -> bool {
         leaves.len() == 1 && leaves[0].change.iter().chain(&leaves[0].bend).all(|change| *change <= SAME)
     }

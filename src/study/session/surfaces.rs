@@ -1,5 +1,5 @@
-//! What falls on the surfaces of the room: means over the patches between which light is balanced, and the outlines of
-//! what the sun's beams light.
+//! Light on the surfaces of the room: means over the patches between which light is balanced, and the outlines of the
+//! areas that the sun's beams light.
 
 use super::interreflected::{DIFFERENCE_ALONE, PATCHES, REST, mesh_key, mirrors};
 use super::{Session, check};
@@ -14,45 +14,45 @@ use crate::study::plan::Plan;
 use crate::study::scene::Scene;
 use std::sync::Arc;
 
-/// Steps that are reported.
+/// Number of steps that progress reports.
 const STEPS: usize = 3;
 
-/// What falls on one patch, as a mean over it.
+/// Illuminance of one patch, as a mean over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PatchLight {
-    /// Where it is, and what it reflects.
+    /// Position and reflectance of the patch.
     pub patch: Patch,
-    /// All light but the sun's beams that reach it straight. \[lx\]
+    /// Illuminance by all light but the sun's beams that reach the patch without reflection. \[lx\]
     pub diffuse: Estimate,
-    /// The sun's beams that reach it straight. \[lx\]
+    /// Illuminance by the sun's beams that reach the patch without reflection. \[lx\]
     pub beam: f64,
 }
 
 impl PatchLight {
-    /// All that falls on it. \[lx\]
+    /// Returns the illuminance of the patch. \[lx\]
     pub fn total(&self) -> Estimate {
         self.diffuse + Estimate::exact(self.beam)
     }
 }
 
-/// What falls on all surfaces.
+/// Illuminances of all surfaces of the room.
 #[derive(Debug, Clone)]
 pub struct SurfaceLight {
-    /// Floor, ceiling, x = 0, x = width, façade, back wall.
+    /// Walls of the room: floor, ceiling, x = 0, x = width, façade, back wall.
     pub walls: Vec<Wall>,
-    /// Wall by wall, first axis slowest; the room sides of apertures are among them.
+    /// Patches wall by wall, first axis slowest; the room sides of apertures are among them.
     pub patches: Vec<PatchLight>,
-    /// What the sun's beams light straight; pieces on each other add up.
+    /// Areas that the sun's beams light without reflection; illuminances of overlapping pieces add up.
     pub lit: Vec<Lit>,
     /// Flux that enters through all apertures. \[lm\]
     pub flux: Estimate,
 }
 
 impl Session {
-    /// Illuminance of every surface of the room.
+    /// Computes the illuminance of every surface of the room.
     ///
     /// # Errors
-    /// What makes the scene impossible to compute, in words; or that it was withdrawn.
+    /// Returns an error if the scene cannot be computed, with the reason, or if cancelled.
     pub fn surfaces(&self, scene: &Scene, progress: &dyn Progress) -> Result<SurfaceLight, StudyError> {
         progress.advance("surfaces", 0, STEPS);
         let lights = self.lights(scene, progress)?;
@@ -97,7 +97,7 @@ impl Session {
         } else {
             first.diffuse.into_iter().map(|e| (e, 0.0)).collect()
         };
-        // What is not known of the flux that comes in is not known of what it becomes.
+        // The relative error of the flux that enters is that of the light it becomes.
         let open = if flux.value > 0.0 { (flux.error + doubted) / flux.value } else { 0.0 };
         let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced);
         let patches = mesh

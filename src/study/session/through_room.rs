@@ -1,4 +1,4 @@
-//! What sensors get by way of the room alone: apertures that reflect by direction are black to it.
+//! Interreflected light at the sensors by the room alone: apertures that reflect by direction are black here.
 
 use super::weights::{ByCells, Response, TOGETHER};
 use super::{Session, basis_key};
@@ -11,41 +11,42 @@ use crate::study::cache::Key;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Weights of all sensors, and the room that they belong to.
+/// Responses of all sensors, and the room that they belong to.
 pub(super) struct ThroughRoom {
-    /// The balance.
+    /// Factored balance of the room.
     pub radiosity: Arc<Radiosity>,
-    /// In the order of the scene.
+    /// Responses of the sensors, in the order of the scene.
     pub sensors: Arc<Vec<Response>>,
-    /// The room's key.
+    /// Key of the room in caches.
     pub key: Key,
-    /// That of its patches.
+    /// Key of the room's patches in caches.
     pub mesh_key: Key,
-    /// The apertures.
+    /// Geometry of the apertures.
     pub geometry: Vec<Aperture>,
-    /// The sensors' key.
+    /// Key of the sensors in caches.
     pub sensor_key: Key,
 }
 
-/// Weights of a sensor: its value, then where there are doubts its walls.
+/// Returns the weights of a sensor: its value, then with `doubts` those of its walls.
 fn lists(sensor: &Response, doubts: bool) -> impl Iterator<Item = &[f64]> {
     std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| doubts)).map(Vec::as_slice)
 }
 
 impl ThroughRoom {
-    /// What the patches receive from an aperture by the cells of a basis.
+    /// Returns what the patches receive from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
         session.patch_weights(&self.mesh_key, &self.radiosity.nested.fine, &self.geometry[index], basis)
     }
 
-    /// The sensors' weights of the luminance of an aperture's cells, by way of the room alone; without `doubts` values
-    /// only.
+    /// Returns the sensors' weights of the luminance of an aperture's cells, by way of the room alone, computed or
+    /// kept; without `doubts` values only.
     pub fn through_room(&self, session: &Session, index: usize, basis: &Arc<RingBasis>, doubts: bool) -> Arc<ByCells> {
         let find = || self.by_cells(&self.weights(session, index, basis), doubts);
         session.by_cells.find(self.cells_key(index, basis, doubts), find)
     }
 
-    /// The same of light that is 1 at one of the aperture's nodes and 0 at the others, node by node.
+    /// Returns the sensors' weights by node, for light that is 1 at one of the aperture's nodes and 0 at the others;
+    /// computed or kept.
     pub fn through_room_by_node(
         &self,
         session: &Session,

@@ -1,6 +1,7 @@
-//! What apertures that reflect by direction add to the sensors' light, V = V₀ + V₀b (1 − R G)⁻¹ R Gₜ: all but the
-//! system's own reflection R belongs to the room and is kept, so that another system or state costs one small matrix. Those
-//! that reflect without direction are a single cell.
+//! Light that apertures reflecting by direction add at the sensors.
+//!
+//! V = V₀ + V₀b (1 − R G)⁻¹ R Gₜ: all but the system's own reflection R belongs to the room and is kept, so that
+//! another system or state costs one small matrix. Apertures that reflect without direction are a single cell.
 
 use super::through_room::ThroughRoom;
 use super::weights::ByCells;
@@ -17,41 +18,42 @@ use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// All mirroring apertures of a scene.
+/// Room-side reflection of all apertures of a scene.
 pub(crate) struct ThrownBack {
     sides: Vec<Side>,
-    /// Luminances of all mirroring cells, once they have settled, by what falls in through each: (1 − R G)⁻¹ R.
+    /// Luminances of all reflecting cells by incident illuminance of each cell, after all reflections: (1 − R G)⁻¹ R.
     settled: Mat<f32>,
-    /// Rows of all mirroring cells' weights: every sensor's, see [`Rows`]. Half the digits are 10⁻⁷ of them.
+    /// Weights of all reflecting cells, with the rows of every sensor, see [`Rows`]. Single precision is 10⁻⁷ of them.
     seen: Mat<f32>,
     rows: Rows,
 }
 
-/// One of them.
+/// Room side of one reflecting aperture.
 struct Side {
     index: usize,
     basis: Arc<RingBasis>,
     room: Arc<RoomSide>,
 }
 
-/// Where the rows of a sensor stand: value, what is straight, then the walls.
+/// Positions of the rows of a sensor: value, direct part, then the walls.
 struct Rows {
     first: Vec<usize>,
     walls: Vec<usize>,
 }
 
-/// What is added at a sensor, by cell or for one light.
+/// Light that is added at a sensor, by cell or for one light.
 pub(super) struct Added<T> {
-    /// All that is thrown back.
+    /// All light that the apertures reflect.
     pub value: T,
-    /// What of it comes straight.
+    /// Part of `value` that comes directly from the apertures.
     pub straight: T,
-    /// What the two densities differ by, wall by wall.
+    /// Differences of the two densities, wall by wall.
     pub walls: Vec<T>,
 }
 
 impl ThrownBack {
-    /// `lambertian`: what every aperture reflects without direction. `None` where none throws anything back.
+    /// Creates the room-side reflection of a scene's apertures; `None` where none reflects. `lambertian`: reflectance
+    /// of every aperture for reflection without direction.
     pub fn new(
         session: &Session,
         scene: &Scene,
@@ -87,7 +89,7 @@ impl ThrownBack {
             .map(|to| sides.iter().map(|from| session.falling_in(responses, to, from.index, &from.basis)).collect())
             .collect();
         let settled = half(&settled(&mirrors, &again));
-        // What the sensors see of the mirrors, by way of the room and straight.
+        // Light of the reflecting apertures at the sensors, by way of the room and direct.
         let by_room: Vec<Arc<ByCells>> =
             sides.iter().map(|side| responses.through_room(session, side.index, &side.basis, true)).collect();
         let straight: Vec<Arc<Vec<Reception>>> = sides
@@ -116,7 +118,7 @@ impl ThrownBack {
         Ok(Some(Self { sides, settled, seen, rows }))
     }
 
-    /// Of light of luminance 1 from each of an aperture's cells, sensor by sensor.
+    /// Returns the added light per luminance of each of an aperture's cells, sensor by sensor.
     pub fn of_cells(
         &self,
         session: &Session,
@@ -130,14 +132,14 @@ impl ThrownBack {
         self.added(|row| (0..basis.len()).map(|cell| f64::from(all[(row, cell)])).collect())
     }
 
-    /// Of what the patches receive before they reflect, sensor by sensor.
+    /// Returns the added light for first illuminances of the patches, `first`, sensor by sensor.
     pub fn of(&self, first: &[f64]) -> Vec<Added<f64>> {
         let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(first)).collect();
         let all = self.thrown(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32));
         self.added(|row| f64::from(all[(row, 0)]))
     }
 
-    /// From what falls in.
+    /// Computes the rows of all sensors from the illuminances of the reflecting cells.
     fn thrown(&self, incident: &Mat<f32>) -> Mat<f32> {
         // One thread: the result must not depend on their number.
         faer::set_global_parallelism(faer::Par::Seq);
@@ -154,7 +156,7 @@ impl ThrownBack {
     }
 }
 
-/// In half the digits.
+/// Returns a matrix in single precision.
 fn half(matrix: &Mat<f64>) -> Mat<f32> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] as f32)
 }
@@ -168,7 +170,8 @@ impl Session {
         self.sides.find(cells_key(&responses.key, index, basis), compute)
     }
 
-    /// What falls on a mirroring aperture, by cell, of light from the cells of another or the same.
+    /// Returns the illuminance of a reflecting aperture, by cell, per light from the cells of another aperture or the
+    /// same.
     fn falling_in(
         &self,
         responses: &ThroughRoom,

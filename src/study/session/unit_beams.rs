@@ -1,6 +1,8 @@
-//! What the room makes of beams whose direction is that of the sun or its mirror image by planes along the aperture's axes:
-//! panes, holes and what passes between slats send it straight on, cut panels turn it up. Every system meets the same suns,
-//! so that such a beam is found once for all of them.
+//! Interreflected light of beams whose direction is that of the sun or its mirror image by planes along the aperture's
+//! axes.
+//!
+//! Panes, holes and what passes between slats transmit it undeviated, cut panels redirect it upwards. Every system
+//! meets the same suns, so that such a beam is computed once for all of them.
 
 use super::landed::{Landed, LandedLight};
 use crate::compute::direction::{Dir, Facade};
@@ -13,44 +15,45 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Beams as near to such a direction as this are taken as it: a millimetre on the floor of a room. Where the disc itself is
-/// seen, their own direction counts. \[rad\]
+/// Maximum distance between a beam's direction and one of these at which the latter is used: a millimetre on the floor
+/// of a room. Where the disc itself is seen, the beam's direction counts. \[rad\]
 const SAME: f64 = 3e-4;
-/// Numbers that are kept at most: of 3,400 suns at 96 sensors all are.
+/// Maximum count of numbers that are kept: enough for 3,400 suns at 96 sensors.
 const MOST_NUMBERS: usize = 4_000_000;
-/// Mirror images by the planes along the axes.
+/// Factors of the mirror images of a direction by the planes along the aperture's axes.
 const IMAGES: [DVec3; 4] =
     [DVec3::ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(-1.0, -1.0, 1.0)];
 
-/// The aperture that a beam comes through, and its direction.
+/// Number of the aperture that a beam comes through, and the beam's direction.
 type Key = (usize, [u64; 3]);
 
-/// What the room makes of beams, and that of such as many systems send, as far as it was asked for.
+/// Responses of a room to beams, with those beams of 1 lm that were computed so far.
 pub(crate) struct UnitBeams {
     landed: Landed,
     known: Mutex<HashMap<Key, Arc<UnitBeam>>>,
 }
 
-/// A beam of 1 lm.
+/// Interreflected light of a beam of 1 lm.
 pub(crate) struct UnitBeam {
-    /// Sensor by sensor: twice reflected or more, how far that hangs on where in a patch the beam lies, once reflected as
-    /// sharp as it is; then what the two densities differ by. \[lx/lm\]
+    /// Values sensor by sensor: light after two reflections or more, its uncertainty by the position of the beam
+    /// within a patch, light after one reflection with the beam's sharp outline; then the differences of the two
+    /// densities. \[lx/lm\]
     numbers: Vec<f32>,
-    /// Patches that it lights, and their illuminance. \[lx/lm\]
+    /// Patches that the beam lights, and their illuminance. \[lx/lm\]
     patches: Vec<(u32, f32)>,
 }
 
-/// Beams together, once the room has reflected them.
+/// Sum of the reflected light of beams.
 pub(crate) struct Together {
-    /// Twice or more.
+    /// Light after two reflections or more.
     pub light: LandedLight,
-    /// Once, as sharp as they are, sensor by sensor. \[lx\]
+    /// Illuminance after one reflection with sharp outlines, sensor by sensor. \[lx\]
     pub sharp: Vec<f64>,
-    /// Illuminance of the patches. \[lx\]
+    /// Direct illuminance of the patches by the beams. \[lx\]
     pub direct: Vec<f64>,
 }
 
-/// The direction that stands for a beam's, and its name; `None` where it is a direction of its own.
+/// Returns the direction that represents a beam's; `None` where no image of the sun is near enough.
 fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
     let to = beam.entering(facing)?.vector();
     let sun = if beam.straight { facing.sun_entering()? } else { facing.sun_direction()? }.vector();
@@ -59,17 +62,18 @@ fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
 }
 
 impl UnitBeams {
-    /// None of them yet.
+    /// Creates the store without any beam of 1 lm.
     pub fn new(landed: Landed) -> Self {
         Self { landed, known: Mutex::default() }
     }
 
-    /// For beams of any direction.
+    /// Returns the responses to beams of any direction.
     pub fn landed(&self) -> &Landed {
         &self.landed
     }
 
-    /// What a beam through an aperture of the scene makes, times its flux; `None` where it has to be found by itself.
+    /// Returns the light of a beam of 1 lm through an aperture of the scene; `None` where the beam has to be computed
+    /// by itself.
     pub fn of(
         &self,
         scene: &Scene,
@@ -114,14 +118,14 @@ impl UnitBeam {
 }
 
 impl Together {
-    /// Nothing yet.
+    /// Returns the sum of no beams.
     pub fn dark(radiosity: &Radiosity, landed: &Landed) -> Self {
         let light = landed.dark();
         let sharp = vec![0.0; light.values.len()];
         Self { light, sharp, direct: vec![0.0; radiosity.nested.fine.patches.len()] }
     }
 
-    /// Adds a beam of some flux. \[lm\]
+    /// Adds a beam of the given flux. \[lm\]
     pub fn add(&mut self, unit: &UnitBeam, flux: f64) {
         let add = |sums: &mut [f64], numbers: &[f32]| {
             wide(|| sums.iter_mut().zip(numbers).for_each(|(sum, e)| *sum += flux * f64::from(*e)));
@@ -137,7 +141,7 @@ impl Together {
         }
     }
 
-    /// Adds beams that were found by themselves: their light and what it lights directly.
+    /// Adds beams that were computed by themselves: their light and the direct illuminance of the patches.
     pub fn add_others(&mut self, light: &LandedLight, direct: &[f64]) {
         let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, e)| *sum += e);
         add(&mut self.light.values, &light.values);

@@ -1,28 +1,28 @@
-//! Weights that a session keeps.
+//! Weights of light at the sensors, as a session keeps them.
 
 use crate::compute::room::mesh::{Mesh, Wall};
 use crate::compute::room::radiosity::Radiosity;
 use std::ops::Range;
 
-/// Sensors whose weights are found at once, by one product of matrices.
+/// Number of sensors whose weights are computed together, by one product of matrices.
 pub(super) const TOGETHER: usize = 32;
 
-/// Weights of one sensor, by fine patch.
+/// Response of one sensor: weights by fine patch.
 pub(crate) struct Response {
-    /// Of all first illuminance. \[lx per lx\]
+    /// Interreflected light per first illuminance of each patch. \[lx per lx\]
     pub value: Vec<f64>,
-    /// The difference of the two densities, wall by wall.
+    /// Differences of the two densities, wall by wall. \[lx per lx\]
     pub walls: Vec<Vec<f64>>,
 }
 
-/// Sensor by sensor weights of the luminance of cells.
+/// Weights of the luminance of cells, sensor by sensor.
 pub(crate) struct ByCells {
     pub value: Vec<Vec<f64>>,
-    /// Wall by wall; empty where not asked for.
+    /// Differences of the two densities, wall by wall; empty where not requested.
     pub walls: Vec<Vec<Vec<f64>>>,
 }
 
-/// The weights of the walls that a sensor sees, one by one.
+/// Returns the weights of the patches of each wall that a sensor sees, fine and coarse.
 pub(super) fn by_walls(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Vec<[Vec<f64>; 2]> {
     let only = |weights: &[f64], range: Range<usize>| -> Vec<f64> {
         let mut own = vec![0.0; weights.len()];

@@ -1,4 +1,4 @@
-//! The hour of a weather file as sky and sun of a scene.
+//! Hour of a weather file as sky and sun of a scene.
 
 use super::keys::{SkyKeyError, wrong};
 use crate::compute::sky::{Distribution, Outside, SkyError};
@@ -9,30 +9,31 @@ use crate::study::weather::kept;
 use crate::study::weather_keys::reading;
 use std::path::Path;
 
-/// Furthest that a scene may lie from its weather without being told. \[°\]
+/// Maximum distance of a scene from its weather station, in latitude and in longitude, without a warning. \[°\]
 const SAME_PLACE: f64 = 0.5;
-/// Furthest that its clock may be off from that of its weather without being told. \[h\]
+/// Maximum difference between the UTC offsets of a scene and of its weather without a warning. \[h\]
 const SAME_CLOCK: f64 = 0.5;
 
-/// What `sky.weather` and `sky.time` name.
+/// Hour of a weather file that `sky.weather` and `sky.time` name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HourOfWeather {
-    /// Sun and light.
+    /// Sun and light of the hour.
     pub hour: Hour,
-    /// The row's own day and the interval: `1958-03-21 12:00–13:00`.
+    /// Day of the row and the interval: `1958-03-21 12:00–13:00`.
     pub interval: String,
-    /// The weather's name as the scene has it.
+    /// Name of the weather as the scene has it.
     pub name: String,
-    /// Where the weather is from, which is the place that counts.
+    /// Station of the weather, whose place is used.
     pub station: Station,
-    /// Minutes by which the interval was moved.
+    /// Time by which the interval was moved. \[min\]
     pub offset: f64,
-    /// What a person should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 impl HourOfWeather {
-    /// In one line: which hour, its irradiances, where its sun stands, its light and how that was found.
+    /// Returns one line with the hour, its irradiances, the position of its sun, its light and the method by which
+    /// that was found.
     pub fn note(&self) -> String {
         let hour = &self.hour;
         let light = match hour.light {
@@ -55,10 +56,10 @@ impl HourOfWeather {
     }
 }
 
-/// The hour that a scene's sky is; `None` for skies of a model. `base`: what relative paths start from.
+/// Returns the weather hour of a scene's sky; `None` for skies of a model. `base`: folder that paths are relative to.
 ///
 /// # Errors
-/// Keys that do not go with `sky.weather`; a file that cannot be read; an hour that it does not hold.
+/// Returns an error if keys do not go with `sky.weather`, a file cannot be read, or it does not hold the hour.
 pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Option<HourOfWeather>, SkyKeyError> {
     check_keys(sky)?;
     let Some(name) = &sky.weather else { return Ok(None) };
@@ -101,7 +102,7 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     }))
 }
 
-/// `sky.weather` stands instead of a model and its values.
+/// Checks that no key of a model is given beside `sky.weather`, and none of the weather without it.
 fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     let by_weather = sky.model == SkyModelKey::Weather;
     if sky.weather.is_none() {
@@ -133,7 +134,8 @@ fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     not_beside("sky.sun", sun.altitude.is_some() || sun.azimuth.is_some() || sun.direct_normal.is_some())
 }
 
-/// A clock that disagrees with the file's own irradiances, where nothing moves it; `key` moves it.
+/// Returns a warning if the clock of a file disagrees with its own irradiances and nothing shifts it; `key`: the key
+/// that shifts it.
 pub fn clock_warning(
     weather: &Weather,
     name: &Path,
@@ -153,12 +155,13 @@ pub fn clock_warning(
     })
 }
 
-/// Does a scene state another place or clock than its weather has, which are those that count?
+/// Whether a scene states another place or clock than its weather, whose place and clock are used.
 pub fn is_elsewhere(station: &Station, site: &SiteKeys) -> bool {
     !places_apart(station, site).is_empty()
 }
 
-/// The weather's own place and clock count; a scene that states others is told.
+/// Returns a warning for every key by which a scene states another place or clock than its weather, whose place and
+/// clock are used.
 pub fn places_apart(station: &Station, site: &SiteKeys) -> Vec<String> {
     [
         ("site.latitude", site.latitude, station.latitude, SAME_PLACE, "°"),
@@ -173,7 +176,7 @@ pub fn places_apart(station: &Station, site: &SiteKeys) -> Vec<String> {
     .collect()
 }
 
-/// The hour's sky, scaled to its illuminance, over black ground. `by`: how it is scaled.
+/// Creates the hour's sky, scaled to its illuminance, over black ground. `by`: function that scales it.
 pub(super) fn sky_of(
     hour: &Hour,
     by: fn(Distribution, f64) -> Result<Outside, SkyError>,

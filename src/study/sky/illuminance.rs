@@ -1,4 +1,4 @@
-//! The illuminances that a sky and its sun are scaled to: as written, or by the sun's altitude.
+//! Illuminances to which a sky and its sun are scaled: as written, or by the sun's altitude.
 
 use super::keys::{SkyKeyError, check_ranges, day_of_year, sun_direction, wrong};
 use crate::compute::direction::{Dir, World};
@@ -6,46 +6,46 @@ use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
 use crate::study::scene_file::{IlluminanceKey, SiteKeys, SkyKeys, SkyModelKey};
 
-/// Altitude of the sun at which civil twilight ends: below it no CIE sky is meant, and what lights the ground is not the
-/// sun. \[rad\]
+/// Altitude of the sun at which civil twilight ends: below it no CIE sky applies, and light on the ground is not of
+/// the sun. \[rad\]
 pub const TWILIGHT: f64 = -6.0 * std::f64::consts::PI / 180.0;
 
-/// Where illuminances come from.
+/// Source of illuminances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Source {
-    /// Written in the scene.
+    /// Values written in the scene.
     Stated,
-    /// A clear sky's, by Linke turbidity and elevation \[m\]; Ineichen and Perez 2002.
+    /// Clear sky by Linke turbidity and elevation \[m\]; Ineichen and Perez 2002.
     ClearSky {
-        /// Linke turbidity.
+        /// Linke turbidity of the air.
         turbidity: f64,
-        /// Above the sea. \[m\]
+        /// Elevation above sea level. \[m\]
         elevation: f64,
     },
-    /// Those of a cover; RP-21, 1984.
+    /// Typical values of a cloud cover; RP-21, 1984.
     Cover(Cover),
 }
 
-/// What a sky and its sun are scaled to.
+/// Illuminances to which a sky and its sun are scaled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Illuminances {
-    /// On a horizontal plane, from the sky. \[lx\]
+    /// Illuminance of a horizontal plane by the sky. \[lx\]
     pub diffuse_horizontal: f64,
-    /// On a plane facing the sun, from its disc. \[lx\]
+    /// Illuminance of a plane facing the sun by its disc. \[lx\]
     pub direct_normal: f64,
-    /// Where they come from.
+    /// Source of the values.
     pub source: Source,
     /// Altitude of the sun, where there is one. \[rad\]
     pub altitude: Option<f64>,
 }
 
 impl Illuminances {
-    /// Do they follow the sun, and has it set?
+    /// Whether the illuminances follow the sun and it has set.
     pub fn is_night(&self) -> bool {
         self.source != Source::Stated && self.altitude.is_some_and(|altitude| altitude <= 0.0)
     }
 
-    /// In words where they come from: `clear sky, Linke turbidity 3, 245 m above the sea`.
+    /// Returns the source as text: `clear sky, Linke turbidity 3, 245 m above the sea`.
     pub fn origin(&self) -> String {
         match self.source {
             Source::Stated => "as written in the scene".to_owned(),
@@ -56,7 +56,7 @@ impl Illuminances {
         }
     }
 
-    /// One sentence for those who wrote no figures: what is computed with, or that it is dark; `None` where they did.
+    /// Returns a sentence with the illuminances that are used, or that it is dark; `None` where the scene states them.
     pub fn note(&self) -> Option<String> {
         let altitude = self.altitude.filter(|_| self.source != Source::Stated)?.to_degrees();
         Some(if self.is_night() {
@@ -72,10 +72,10 @@ impl Illuminances {
     }
 }
 
-/// Of a scene's sky; `None` for models that bring their own (Perez's, a measured one).
+/// Returns the illuminances of a scene's sky; `None` for models that bring their own (Perez's, a measured one).
 ///
 /// # Errors
-/// The key that is wrong or missing.
+/// Returns an error that names the key that is wrong or missing.
 pub fn illuminances(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Illuminances>, SkyKeyError> {
     check_ranges(sky, site)?;
     if !sky.model.takes_illuminances() {
@@ -84,7 +84,7 @@ pub fn illuminances(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Illuminance
     of_sun(sky, site, sun_direction(sky, site)?).map(Some)
 }
 
-/// The same for a known sun and keys in their ranges, of a model that takes illuminances.
+/// Returns the illuminances for a known sun and keys in their ranges, of a model that takes illuminances.
 pub(super) fn of_sun(sky: &SkyKeys, site: &SiteKeys, sun: Option<Dir<World>>) -> Result<Illuminances, SkyKeyError> {
     let altitude = sun.map(Dir::altitude);
     if sky.illuminance == IlluminanceKey::Stated {
@@ -109,7 +109,7 @@ pub(super) fn of_sun(sky: &SkyKeys, site: &SiteKeys, sun: Option<Dir<World>>) ->
     Ok(Illuminances { diffuse_horizontal, direct_normal, source, altitude })
 }
 
-/// As written.
+/// Returns the illuminances as written in the scene.
 fn stated(sky: &SkyKeys, altitude: Option<f64>) -> Result<Illuminances, SkyKeyError> {
     let diffuse_horizontal = sky.diffuse_horizontal.ok_or_else(|| {
         let message = "missing: this model needs it, in lx; or illuminance = \"clear-sky\" or \"rp-21\"";

@@ -1,4 +1,4 @@
-//! Keys of `[sky]` and `[site]` judged alone and together, and where the sun is.
+//! Checks of the keys of `[sky]` and `[site]`, alone and together, and the position of the sun.
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
@@ -7,22 +7,22 @@ use crate::compute::weather::Day;
 use crate::study::scene_file::{SiteKeys, SkyKeys, SkyModelKey};
 use crate::study::sun_position::{Place, parse_local_time, sun_position};
 
-/// Where people live, with some room. \[m\]
+/// Minimum elevation of a site above sea level: the lowest inhabited places with some margin. \[m\]
 pub const LOWEST: f64 = -500.0;
-/// The same upwards. \[m\]
+/// Maximum elevation of a site above sea level: the highest inhabited places with some margin. \[m\]
 pub const HIGHEST: f64 = 9000.0;
-/// Linke turbidity of clean dry air; less there is not.
+/// Minimum Linke turbidity: that of clean dry air.
 pub const CLEANEST: f64 = 1.0;
-/// Linke turbidity beyond which the sky is no clear one.
+/// Maximum Linke turbidity: beyond it the sky is not a clear one.
 pub const HAZIEST: f64 = 12.0;
 
-/// A key of the scene that is wrong, and what would be right.
+/// Error of a key of the scene, with what was expected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{key}: {message}")]
 pub struct SkyKeyError {
     /// Full name of the key, e.g. `sky.type`.
     pub key: &'static str,
-    /// What is wrong and what would be right.
+    /// Message that says what is wrong and what was expected.
     pub message: String,
 }
 
@@ -30,11 +30,14 @@ pub(super) fn wrong(key: &'static str, message: impl Into<String>) -> SkyKeyErro
     SkyKeyError { key, message: message.into() }
 }
 
-/// Ranges that hold whatever the model.
+/// Checks the ranges that hold for all models.
+///
+/// # Errors
+/// Returns an error that names the first key out of range.
 pub(super) fn check_ranges(sky: &SkyKeys, site: &SiteKeys) -> Result<(), SkyKeyError> {
     let within = |key, value: Option<f64>, min: f64, max: f64, unit: &str| match value {
         Some(value) if !(min..=max).contains(&value) => {
-            // Numbers beyond all measure are told without hundreds of digits.
+            // Very large numbers are written without hundreds of digits.
             let short = |x: f64| if x.abs() < 1e7 { format!("{x}") } else { format!("{x:e}") };
             let (value, min, max) = (short(value), short(min), short(max));
             let allowed = format!("{min} to {max}");
@@ -60,7 +63,7 @@ pub(super) fn check_ranges(sky: &SkyKeys, site: &SiteKeys) -> Result<(), SkyKeyE
     Ok(())
 }
 
-/// Keys that only one model takes, and the other way round.
+/// Checks that keys of one model are not given for another.
 pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     let only = |key, given: bool, model: SkyModelKey, name: &str| {
         if given && sky.model != model {
@@ -76,7 +79,7 @@ pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     only("sky.diffuse_horizontal_irradiance", diffuse.is_some(), SkyModelKey::Perez, "perez")
 }
 
-/// Day of the year by the date of `sky.time`, 1 to 365; `None` without a date.
+/// Returns the day of the year by the date of `sky.time`, 1 to 365; `None` without a date.
 pub(super) fn day_of_year(sky: &SkyKeys) -> Result<Option<u16>, SkyKeyError> {
     let Some(time) = &sky.time else { return Ok(None) };
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
@@ -84,7 +87,7 @@ pub(super) fn day_of_year(sky: &SkyKeys) -> Result<Option<u16>, SkyKeyError> {
     Ok(day.map(Day::of_common_year))
 }
 
-/// From angles, else from time; `None` with neither.
+/// Returns the direction of the sun from angles, or else from time; `None` with neither.
 pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir<World>>, SkyKeyError> {
     let angles = sky.sun.altitude.is_some() || sky.sun.azimuth.is_some();
     let Some(time) = sky.time.as_ref().filter(|_| !angles) else {

@@ -1,7 +1,8 @@
-//! Daylight glare probability of every lit occupied step at every eye, from the illuminances that are there already.
+//! Daylight glare probability of every lit occupied step at every observer, from the illuminances of the year.
 //!
-//! What does not change between steps is found once for each set of states: the patches that an eye sees, and what each
-//! emergent cell makes of the outside. With data that are interpolated by another scheme every step asks the systems anew.
+//! Parts that do not change between steps are computed once for each set of states: the patches that an observer sees,
+//! and the luminance of each emergent cell by the outside. With data that are interpolated by another scheme the
+//! systems are evaluated again in every step.
 
 use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
@@ -19,29 +20,29 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// DGP of the chosen steps: rows of steps, columns of eyes; `None` where nobody is there, or in the dark.
+/// DGP of the chosen steps: rows of steps, columns of observers; `None` in unoccupied and in dark steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dgp {
-    /// Eyes.
+    /// Number of observers.
     pub eyes: usize,
-    /// Step by step.
+    /// Values, step by step.
     pub values: Vec<Option<Estimate>>,
-    /// Values outside of what the formula was tested for with people.
+    /// Number of values outside the range that the formula was tested for with people.
     pub unproven: usize,
 }
 
 impl Dgp {
-    /// Of one step.
+    /// Returns the values of one step, one per observer.
     pub fn row(&self, step: usize) -> &[Option<Estimate>] {
         &self.values[step * self.eyes..][..self.eyes]
     }
 }
 
-/// Of the chosen steps, with the states of all steps and the light of the chosen; `None` where there are no eyes, or where
-/// it is not asked for.
+/// Computes the DGP of the chosen steps, given the states of all steps and the light of the chosen ones. Returns `None`
+/// if there are no observers, or if it is not requested.
 ///
 /// # Errors
-/// Of the scene; cancelled.
+/// Returns an error if the scene is wrong, or if cancelled.
 pub(super) fn dgp(
     question: &Question<'_>,
     states: &[Vec<usize>],
@@ -97,16 +98,16 @@ pub(super) fn dgp(
     Ok(Some(found))
 }
 
-/// Ready for any sky and sun in one set of states.
+/// Glare for any sky and sun in one set of states.
 struct Engine {
     scene: Scene,
-    /// Behind boxes.
+    /// Outside with boxes; `None` without any.
     prepared: Option<Arc<Prepared>>,
-    /// Of every eye.
+    /// Fields of view, one per observer.
     fields: Vec<Field>,
-    /// Of every aperture; empty where they are asked step by step.
+    /// Tables of diffuse light, one per aperture; empty if the systems are evaluated step by step.
     tables: Vec<EyeLight>,
-    /// The outside without light; with its skyline and boxes.
+    /// Outside without light, but with its skyline and boxes.
     dark: Option<Outside>,
 }
 
@@ -135,7 +136,7 @@ impl Engine {
         Ok(Self { scene, prepared, fields, tables, dark })
     }
 
-    /// At every eye in an hour of the year, given the illuminance there.
+    /// Computes the glare at every observer in one hour of the year, given the vertical illuminance at the eyes.
     fn at(&self, question: &Question<'_>, hour: usize, vertical: &[Estimate]) -> Result<Vec<EyeGlare>, StudyError> {
         let (outside, sun) = question.steps.outside(hour)?;
         if !self.tables.is_empty() {
@@ -152,7 +153,7 @@ impl Engine {
         Ok(eyes.iter().zip(&self.fields).zip(vertical.iter().copied()).map(of).collect())
     }
 
-    /// The outside's light from tables, the sun's asked anew.
+    /// Computes the glare with the light of the outside from tables and direct sun evaluated for the hour.
     fn by_tables(
         &self,
         question: &Question<'_>,

@@ -1,5 +1,5 @@
-//! The sun straight at the sensors: what comes through the apertures without being scattered, past skyline and boxes. No
-//! sky, no ground, no reflection.
+//! Direct sun alone at the sensors: what the apertures transmit without scattering, past skyline and boxes. Sky, ground
+//! and reflections are left out.
 
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing, SunThrough};
@@ -14,18 +14,18 @@ use crate::study::scene::Scene;
 use crate::study::scene_file::SceneFile;
 use std::sync::Arc;
 
-/// A scene whose states are fixed, ready for any sun.
+/// Scene with fixed states, for any sun position.
 pub(super) struct DirectSun {
     scene: Arc<Scene>,
-    /// Boxes that hide the sun; `None` where there are none.
+    /// Boxes that obstruct the sun; `None` if there are none.
     around: Option<Surroundings>,
 }
 
 impl DirectSun {
-    /// Of a scene, and of the boxes before it.
+    /// Creates the direct sun of a scene with the boxes outside it.
     ///
     /// # Errors
-    /// Boxes that cannot be.
+    /// Returns an error if a box is not valid.
     pub fn new(scene: Arc<Scene>, file: &SceneFile) -> Result<Self, StudyError> {
         let turn = scene.orientation.turn();
         let solids: Vec<Solid> = boxes(file, &scene.room)?.iter().map(|(solid, _)| solid.turned(turn)).collect();
@@ -33,12 +33,12 @@ impl DirectSun {
         Ok(Self { scene, around })
     }
 
-    /// Number of sensors.
+    /// Returns the number of sensors.
     pub fn places(&self) -> usize {
         self.scene.sensors.len()
     }
 
-    /// May an aperture let the sun through unscattered? What is known by cells alone lets none.
+    /// Whether any aperture can transmit the sun unscattered. Systems with patch-averaged data alone do not.
     pub fn passes(&self) -> bool {
         let scene = &*self.scene;
         let described = |index: usize| scene.beams && scene.apertures[index].system.very.is_some();
@@ -46,7 +46,7 @@ impl DirectSun {
         (0..scene.apertures.len()).any(|index| described(index) || regular(index))
     }
 
-    /// Of every aperture at every sensor, frame and dirt counted. \[lx\]
+    /// Computes the illuminance by direct sun through every aperture at every sensor, including frame and dirt. \[lx\]
     pub fn by_aperture(&self, sun: &Sun) -> Vec<Vec<Estimate>> {
         let scene = &*self.scene;
         let of = |index: usize| {
@@ -65,7 +65,7 @@ impl DirectSun {
         (0..scene.apertures.len()).map(of).collect()
     }
 
-    /// Of all apertures at every sensor. \[lx\]
+    /// Computes the illuminance by direct sun through all apertures at every sensor. \[lx\]
     pub fn at(&self, sun: &Sun) -> Vec<f64> {
         let mut sums = vec![0.0; self.scene.sensors.len()];
         for aperture in self.by_aperture(sun) {
@@ -74,7 +74,7 @@ impl DirectSun {
         sums
     }
 
-    /// What goes on unscattered and undeviated behind an aperture.
+    /// Returns the unscattered and undeviated beams behind an aperture.
     fn beams(&self, index: usize, facing: &Facing<'_>) -> Vec<BeamLight> {
         let one = &self.scene.apertures[index];
         let beams = match one.system.very.as_ref().filter(|_| self.scene.beams) {

@@ -1,8 +1,9 @@
-//! The diffuse light of an aperture for eyes, hour by hour at the cost of a small product: luminance of the emergent cells
-//! that an eye sees by what comes through each incident cell; and the outside straight through by fixed directions.
+//! Diffuse light of an aperture as observers see it, hour by hour at the cost of a small matrix product: luminances of
+//! the visible emergent cells by the light on each incident cell, and the outside seen through regular transmission in
+//! fixed directions.
 //!
-//! For systems by their description, and those whose data are a pane's, even light, cells, single directions or a tree. Behind
-//! boxes what a system scatters is the mean over the aperture.
+//! For described systems, and for data of panes, ideal diffusers, patches, single directions or tensor trees. Behind
+//! boxes the scattered light is the mean over the aperture.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
@@ -26,35 +27,35 @@ use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// One aperture, for some eyes.
+/// Diffuse light of one aperture for several observers.
 pub(super) struct EyeLight {
     sky: Sky,
-    /// What it is in the hours of the year, where that is kept.
+    /// Stored light of the outside in the hours of the year; `None` if it is not stored.
     year: Option<Arc<SkyYear>>,
-    /// A row for each emergent cell that any eye sees: open incident cells, then ground, then skyline; behind boxes the
-    /// luminances of a moment.
+    /// Matrix with a row for each emergent cell that any observer sees. Columns: unobstructed incident cells, then
+    /// ground, then skyline; behind boxes the luminances of a moment.
     rows: Vec<f64>,
     width: usize,
     eyes: Vec<OfEye>,
     clear: f64,
 }
 
-/// What the outside is known by.
+/// Representation of the outside.
 enum Sky {
     Patches(Arc<SkyPatches>),
     Behind(Arc<Prepared>),
 }
 
-/// What one eye sees.
+/// Part of an aperture that one observer sees.
 struct OfEye {
-    /// For every patch of the aperture, in the field's order, its rows.
+    /// Indices of up to two rows for every patch of the aperture, in the field's order.
     row: Vec<[Option<usize>; 2]>,
-    /// The same for what is seen straight through: transmittance, direction, and behind boxes the luminances that are seen
-    /// there; empty where nothing is.
+    /// Transmittance, direction and, behind boxes, the luminances seen there, for every patch seen through regular
+    /// transmission; empty if there is none.
     through: Vec<(f64, Dir<World>, Counts)>,
 }
 
-/// Can an aperture's diffuse light be had this way?
+/// Whether an aperture's diffuse light can be computed by [`EyeLight`].
 pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
     let one = &scene.apertures[index];
     let Some(btdf) = one.transmission() else { return false };
@@ -64,15 +65,16 @@ pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
     one.lamps.is_none() && (by_data || described(scene, index).is_some())
 }
 
-/// The description of an aperture's system, where it answers for the sky: it says more than its data.
+/// Returns the optical model of an aperture's system if it also computes light from the sky: it is more exact than the
+/// data.
 fn described(scene: &Scene, index: usize) -> Option<&VerySystem> {
     let very = scene.apertures[index].system.very.as_ref();
     very.filter(|very| scene.beams && very.answers_for_the_sky())
 }
 
 impl EyeLight {
-    /// `eyes`: of each what it sees of all apertures; `prepared`: what stands outside; `year`: its number, and how many hours
-    /// it has.
+    /// Creates the tables of one aperture. `eyes`: the observers, and what each sees of all apertures; `prepared`: the
+    /// obstructions outside; `year`: number of the year and its number of hours.
     pub fn new(
         session: &Session,
         (scene, index): (&Scene, usize),
@@ -91,7 +93,7 @@ impl EyeLight {
             None => Sent::of_data(session, btdf, scene.interpolation, &patches),
         };
         let regular = btdf.regular.as_ref().filter(|_| own.is_none());
-        // The emergent cells that eyes see, each once.
+        // Emergent cells that observers see, each once.
         let mut number = vec![None; sent.as_ref().map_or(0, Sent::count)];
         let mut seen = Vec::new();
         let eyes = eyes
@@ -164,7 +166,7 @@ impl EyeLight {
         Self { sky: Sky::Patches(sky), year, rows, width, eyes, clear }
     }
 
-    /// What an hour of the year, whose outside and sun these are, is on the columns of the rows.
+    /// Returns the light of the outside in one hour of the year, on the columns of the rows.
     pub fn light(&self, hour: usize, outside: &Outside, sun: Option<&Sun>) -> Vec<f64> {
         let find = || match &self.sky {
             Sky::Behind(prepared) => {
@@ -179,7 +181,7 @@ impl EyeLight {
         if self.rows.is_empty() && matches!(self.sky, Sky::Patches(_)) {
             return Vec::new();
         }
-        // Found before the hour is held: threads that do parts of it may be asked for the same hour meanwhile.
+        // Computed before the hour is locked: threads that do parts of it may need the same hour meanwhile.
         let mut light: Vec<f64> = match &self.year {
             Some(year) if year.holds(hour) => year.hour(hour, Vec::new).collect(),
             Some(year) => {
@@ -194,12 +196,13 @@ impl EyeLight {
         light
     }
 
-    /// Luminances of the emergent cells, given [`Self::light`]. \[cd/m²\]
+    /// Returns the luminances of the emergent cells, given [`Self::light`]. \[cd/m²\]
     pub fn cells(&self, light: &[f64]) -> Vec<f64> {
         self.rows.chunks_exact(self.width.max(1)).map(|row| self.clear * dot(row, light)).collect()
     }
 
-    /// Adds what an eye sees to its patches of this aperture, given [`Self::light`] and [`Self::cells`].
+    /// Adds the luminances that an observer sees to its patches of this aperture, given [`Self::light`] and
+    /// [`Self::cells`].
     pub fn add(&self, eye: usize, light: &[f64], cells: &[f64], outside: &Outside, luminance: &mut [f64]) {
         let own = &self.eyes[eye];
         for (sum, row) in luminance.iter_mut().zip(&own.row) {

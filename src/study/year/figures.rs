@@ -1,4 +1,4 @@
-//! What a year comes to: autonomy, provision, glare, lighting, each with the error that the hours' own errors leave it.
+//! Annual figures: autonomy, provision, glare, lighting, each with the error that follows from the errors of the hours.
 
 use super::Year;
 use crate::compute::year::autonomy::{Autonomy, Exposure};
@@ -10,44 +10,44 @@ use crate::compute::year::provision::Provision;
 use crate::compute::year::solar::{Transmitted, When};
 use crate::compute::year::{Light, Step};
 
-/// Figures of the steps that were asked for.
+/// Figures of the requested steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
-    /// Steps.
+    /// Number of steps.
     pub steps: usize,
-    /// Occupied ones.
+    /// Number of occupied steps.
     pub occupied: usize,
-    /// With light from the sky.
+    /// Number of steps with light from the sky.
     pub lit: usize,
-    /// Of the sensors.
+    /// Daylight autonomy of the sensors.
     pub autonomy: Autonomy,
-    /// With blinds by IES LM-83-12's own rule, where they are asked for.
+    /// Autonomy with blinds operated by the rule of IES LM-83-12; `None` if not requested.
     pub blinds: Option<Blinds>,
-    /// Sun on the sensors; `None` where nothing lets it through unscattered, or for less than a year.
+    /// Direct sun on the sensors; `None` if nothing transmits it unscattered, or for less than a year.
     pub exposure: Option<Exposure>,
-    /// EN 17037; `None` for less than a year, or for its occupied hours alone.
+    /// Daylight provision of EN 17037; `None` for less than a year, or for its occupied hours alone.
     pub provision: Option<Provision>,
-    /// By eye.
+    /// Annual glare figures by DGPs, one entry per observer.
     pub glare: Vec<Glare>,
-    /// The same by daylight glare probability; empty where that was not asked for.
+    /// Annual glare figures by daylight glare probability, one entry per observer; empty if not requested.
     pub probability: Vec<Probability>,
-    /// With lamps.
+    /// Energy of the electric lighting; `None` without lighting in the scene.
     pub lighting: Option<Energy>,
-    /// Where it is asked for.
+    /// Solar energy transmitted; `None` if not requested.
     pub solar: Option<SolarFigures>,
 }
 
-/// Solar energy straight through apertures. \[kWh\]
+/// Solar energy transmitted through the apertures. \[kWh\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolarFigures {
-    /// All of them together.
+    /// Energy through all apertures together.
     pub energy: Transmitted,
-    /// One by one, in the scene's order.
+    /// Energy through each aperture, in the scene's order.
     pub apertures: Vec<f64>,
 }
 
-/// The figures of a year, and of the same year with all illuminances less and more by their errors: between these lies what
-/// the errors leave open.
+/// Returns the figures of a year, of the same year with all illuminances lower, and with all illuminances higher by
+/// their errors. The differences are the uncertainty of the figures.
 pub fn figures(year: &Year) -> [Figures; 3] {
     let light = &year.light;
     let shifted = |sign: f64| -> Vec<f64> {
@@ -56,7 +56,7 @@ pub fn figures(year: &Year) -> [Figures; 3] {
     [of(year, &light.values, 0.0), of(year, &shifted(-1.0), -1.0), of(year, &shifted(1.0), 1.0)]
 }
 
-/// Solar energy, with `sign` times the errors of its steps.
+/// Returns the solar energy, with `sign` times the errors of its steps added.
 fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
     let solar = year.solar.as_ref()?;
     let steps: Vec<When> = year
@@ -75,7 +75,8 @@ fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
     })
 }
 
-/// Of illuminances; `sign`: times their errors are added to solar power and glare.
+/// Returns the figures of the illuminances `values`. `sign`: factor of the errors that are added to solar power and
+/// glare.
 fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let steps: Vec<Step> = year
@@ -87,7 +88,7 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         })
         .collect();
     let whole = year.steps.whole && year.chosen.len() == year.steps.list.len();
-    // EN 17037 counts the hours of daylight, whoever is in.
+    // EN 17037 counts the hours of daylight, whether occupied or not.
     let daylit = whole && year.settings.unoccupied;
     let desks = |values| Light::of_columns(places, 0..sensors, values);
     let eyes = |values| Light::of_columns(places, sensors..places, values);
@@ -109,7 +110,8 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     }
 }
 
-/// What lets the sun through in no state in use, or retracted, lets none through.
+/// Returns the direct sun on the sensors. Systems that transmit none in the states in use, or in the open states, count
+/// as zero.
 fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let in_use = year.light.sun.as_deref();
@@ -121,7 +123,8 @@ fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
     Some(Exposure::of(steps, in_use?, retracted?, year.steps.length))
 }
 
-/// With `sign` times the errors of the light, and of the sun that works the blinds.
+/// Returns the figures with blinds of LM-83, with `sign` times the errors of the light and of the direct sun that
+/// operates them.
 fn blinds(year: &Year, steps: &[Step], sign: f64) -> Option<Blinds> {
     let lm83 = year.lm83.as_ref()?;
     let own = lm83.values.iter().zip(&lm83.errors);
@@ -130,7 +133,7 @@ fn blinds(year: &Year, steps: &[Step], sign: f64) -> Option<Blinds> {
     Some(Blinds::of(steps, light, &lm83.worked, year.steps.length, sign))
 }
 
-/// Of every eye; dark steps have no glare.
+/// Returns the glare probabilities, one entry per observer; dark steps have no glare.
 fn probability(year: &Year, sign: f64) -> Vec<Probability> {
     let Some(dgp) = &year.dgp else { return Vec::new() };
     let occupied = |row: &usize| year.steps.list[year.chosen[*row]].occupied;

@@ -1,11 +1,11 @@
-//! The scene of a step: states fixed, sky and sun of the hour.
+//! Scene of one step: fixed states, sky and sun of the hour.
 
 use super::steps::Steps;
 use crate::study::control::year::Moving;
 use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, SunKeys, SystemKeys, TimeKey};
 use crate::study::year_keys::YearKeys;
 
-/// The scene with the states of its moving apertures fixed, and no year.
+/// Returns the scene with the states of its moving apertures fixed, and without a year.
 pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
     let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
     for (one, &state) in moving.iter().zip(states) {
@@ -14,7 +14,7 @@ pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> Sce
     scene
 }
 
-/// Names the state of a system that has states.
+/// Sets the state of a system that has states.
 pub fn put_state(system: &mut SystemKeys, key: &str) {
     match system {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
@@ -24,12 +24,12 @@ pub fn put_state(system: &mut SystemKeys, key: &str) {
     }
 }
 
-/// A sky that only says that there is light: what it is prepared for sees the hours later.
+/// Sets a placeholder sky with light: scenes prepared with it are evaluated under the sky of each hour later.
 pub fn put_ordinary(scene: &mut SceneFile) {
     scene.sky = SkyKeys { cie_type: Some(16), diffuse_horizontal: Some(1e4), ..bare(scene, SkyModelKey::Cie) };
 }
 
-/// What stands before the sky stays, all else goes.
+/// Returns the sky keys with skyline and obstruction alone; all others are reset.
 fn bare(scene: &SceneFile, model: SkyModelKey) -> SkyKeys {
     SkyKeys {
         model,
@@ -48,8 +48,8 @@ fn bare(scene: &SceneFile, model: SkyModelKey) -> SkyKeys {
     }
 }
 
-/// Sky and ground of a step: where the step is a whole interval of the weather, as that hour of the weather; else as
-/// [`put_at`] has them.
+/// Sets sky and ground of a step: as an hour of the weather if the step is a whole interval of it, else as [`put_at`]
+/// does.
 pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys) {
     let index = |k: usize| steps.list.get(k).map(|step| step.hour.index);
     let parted = index(at + 1) == index(at) || at > 0 && index(at - 1) == index(at);
@@ -67,13 +67,14 @@ pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys
         };
         scene.site.ground_reflectance = steps.ground(at);
     }
-    // The scene's own holds where no months are given: it may have been typed since.
+    // Without monthly values the scene's reflectance holds: it may have been edited since.
     if keys.ground.is_empty() {
         scene.site.ground_reflectance = ground;
     }
 }
 
-/// Sky, sun and ground of a step as keys of a plain scene: model, irradiances and the illuminances that they are scaled to.
+/// Sets sky, sun and ground of a step as keys of a scene without a year: model, irradiances and the illuminances that
+/// they are scaled to.
 pub fn put_at(scene: &mut SceneFile, steps: &Steps, at: usize) {
     let step = &steps.list[at];
     let hour = &step.hour;

@@ -1,10 +1,10 @@
-//! Readings of the room's sensors for controls that ask how bright the room is (`open_below`): the room of the step, with the
-//! states that the control would take.
+//! Readings of the room's sensors for controls that depend on the illuminance in the room (`open_below`): the room of
+//! the step, with the states that the control would take.
 //!
-//! A sensor is read for two states alone: what the rule asks for while the room is bright enough, and what it asks for when it is
-//! not. Where both are the same nothing is read, and what the control remembers of the reading lapses. The reading in the
-//! first decides; where it asks for the second, that one is read as well. If the room is bright enough then, the control would
-//! go back and forth: the step is hunting, and keeps the second.
+//! A sensor is read for two states only: the one that the rule requires if the room is bright enough, and the one that
+//! it requires if not. If both are the same nothing is read, and the control's memory of the reading is reset. The
+//! reading in the first state decides; if it requires the second, that one is read as well. If the room is then bright
+//! enough, the control would oscillate: the step is hunting, and keeps the second state.
 
 use super::light::{self, Engine, prepared};
 use crate::compute::control::controller::{Controller, Decision, Inputs};
@@ -13,21 +13,21 @@ use crate::study::control::year::Moving;
 use crate::study::error::StudyError;
 use std::collections::BTreeMap;
 
-/// How a year's controls came by their readings. Steps by index.
+/// Summary of the sensor readings by a year's controls. Steps are given by index.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Indoor {
-    /// Steps at which sensors were read.
+    /// Number of steps at which sensors were read.
     pub read: usize,
-    /// Steps at which the control would go back and forth.
+    /// Steps at which the control would oscillate.
     pub hunting: Vec<usize>,
-    /// Steps at which another state lies within the reading's error.
+    /// Steps at which the reading's error extends to another state.
     pub unsure: Vec<usize>,
 }
 
-/// The sensors of every moving aperture that asks for its room; `None` for those that do not.
+/// Returns the sensors of every moving aperture whose control reads the room; `None` for the others.
 ///
 /// # Errors
-/// A sensor that the scene does not have, or none at all.
+/// Returns an error if a sensor does not exist in the scene.
 pub(super) fn sensors(moving: &[Moving], count: usize) -> Result<Vec<Option<Vec<usize>>>, StudyError> {
     moving
         .iter()
@@ -46,19 +46,19 @@ pub(super) fn sensors(moving: &[Moving], count: usize) -> Result<Vec<Option<Vec<
         .collect()
 }
 
-/// Reads sensors in the states of moving apertures.
+/// Reader of sensors in given states of the moving apertures.
 pub(super) struct Reader<'a> {
     question: light::Question<'a>,
     sensors: Vec<Option<Vec<usize>>>,
-    /// Sensors that any aperture asks, rising.
+    /// Indices of the sensors that any control reads, ascending.
     asked: Vec<usize>,
     engines: BTreeMap<Vec<usize>, Engine>,
-    /// What came of it.
+    /// Summary of the readings so far.
     pub found: Indoor,
 }
 
 impl<'a> Reader<'a> {
-    /// `None` where no control asks. The question has no eyes.
+    /// Creates a reader; `None` if no control reads the room. `question` must be without observers.
     pub fn new(question: light::Question<'a>, sensors: Vec<Option<Vec<usize>>>) -> Option<Self> {
         let mut asked: Vec<usize> = sensors.iter().flatten().flatten().copied().collect();
         asked.sort_unstable();
@@ -70,7 +70,7 @@ impl<'a> Reader<'a> {
     /// Steps the controllers through step `k`, which has light, at `time` \[s\].
     ///
     /// # Errors
-    /// Of the room with the states; cancelled.
+    /// Returns an error if the room with the states is wrong, or if cancelled.
     pub fn step(
         &mut self,
         k: usize,
@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
         Ok(taken.1)
     }
 
-    /// Of every moving aperture the mean of its sensors; 0 for those that ask for none. \[lx\]
+    /// Returns the mean reading of every moving aperture's sensors; 0 for those that read none. \[lx\]
     fn read(&mut self, set: &[usize], k: usize, progress: &dyn Progress) -> Result<Vec<Estimate>, StudyError> {
         if progress.cancelled() {
             return Err(Cancelled.into());

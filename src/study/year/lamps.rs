@@ -1,27 +1,27 @@
-//! The lamps over a sunny day, and by month. Lighting power of a day: IEA SHC Task 31 report (2005), figure 18.
+//! Electric lighting over a sunny day, and by month. Lighting power of a day: IEA SHC Task 31 report (2005), figure 18.
 
 use super::{Annual, Year};
 use crate::drawing::plot::{Axis, Form, Guide, Plot, Series, Unit};
 use crate::texts::{fixed, words::MONTHS, year as say};
 use jiff::civil::Date;
 
-/// Power of the lamps over a day.
+/// Power of the electric lighting over a day.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Day {
-    /// Which, in the row's own year.
+    /// Date of the day, in the row's own year.
     pub date: Date,
-    /// Direct normal irradiation of it. \[Wh/m²\]
+    /// Direct normal irradiation of the day. \[Wh/m²\]
     pub direct: f64,
-    /// Begin and end of every step, in hours of local standard time.
+    /// Begin and end of every step, in hours of local standard time. \[h\]
     pub spans: Vec<[f64; 2]>,
-    /// Power in it. \[W/m²\]
+    /// Power in every step. \[W/m²\]
     pub watts: Vec<f64>,
-    /// The same with all light more, and less, by its error: least and most power. \[W/m²\]
+    /// Minimum and maximum power in every step, with all light higher and lower by its error. \[W/m²\]
     pub between: Vec<[f64; 2]>,
 }
 
-/// The day of a month (1 … 12) with most direct normal irradiation, of those that were computed and on which somebody is
-/// there; `None` where there is none.
+/// Returns the occupied day of a month (1 … 12) with the highest direct normal irradiation, of those that were
+/// computed; `None` if there is none.
 pub fn sunniest(year: &Year, month: u8) -> Option<Date> {
     let mut best: Option<(f64, Date)> = None;
     let (mut sum, mut occupied) = (0.0, false);
@@ -40,7 +40,7 @@ pub fn sunniest(year: &Year, month: u8) -> Option<Date> {
     best.map(|(_, date)| date)
 }
 
-/// The lamps over a day; `None` without lamps, or where the day was not computed.
+/// Returns the electric lighting over a day; `None` without lighting, or if the day was not computed.
 pub fn day(year: &Year, date: Date) -> Option<Day> {
     let lamps = year.settings.lamps.as_ref()?;
     let (sensors, places) = (year.settings.sensors, year.light.places);
@@ -70,20 +70,21 @@ pub fn day(year: &Year, date: Date) -> Option<Day> {
     (!day.spans.is_empty()).then_some(day)
 }
 
-/// Energy by month and how far it may be off \[kWh/m²\]; `None` without lamps.
+/// Returns the energy by month and its estimated absolute error \[kWh/m²\]; `None` without lighting.
 pub fn months(annual: &Annual) -> Option<[(f64, f64); 12]> {
     let [own, less, more] = annual.figures.each_ref().map(|one| one.lighting.as_ref().map(|energy| energy.months));
     let (own, less, more) = (own?, less?, more?);
     Some(std::array::from_fn(|k| (own[k], (less[k] - own[k]).abs().max((more[k] - own[k]).abs()))))
 }
 
-/// `17 Mar, 7.3 kWh/m² direct normal`.
+/// Formats date and direct normal irradiation of a day: `17 Mar, 7.3 kWh/m² direct normal`.
 pub fn day_words(day: &Day) -> String {
     let month = MONTHS[usize::from(day.date.month().unsigned_abs()) - 1];
     say::sunny_day(day.date.day(), month, fixed(day.direct / 1000.0, 1))
 }
 
-/// Power over the hours of a day, a level for each step, with what the errors leave open.
+/// Returns the plot of the power over the hours of a day, one level for each step, with its uncertainty. `installed`:
+/// installed power. \[W/m²\]
 pub fn day_plot(day: &Day, installed: f64) -> Plot {
     let (mut points, mut band) = (Vec::new(), Vec::new());
     for ((span, watts), between) in day.spans.iter().zip(&day.watts).zip(&day.between) {

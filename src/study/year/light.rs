@@ -1,7 +1,7 @@
 //! Illuminances of the steps of a year.
 //!
-//! Steps are grouped by the states of the moving apertures, and what the room makes of light is found once for each group:
-//! coefficients for sky and sun.
+//! Steps are grouped by the states of the moving apertures, and the response of the room to light is computed once for
+//! each group: coefficients for sky and sun.
 
 use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, with_states};
@@ -24,24 +24,25 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Illuminances of the chosen steps: rows of steps, columns of places, sensors first, then eyes. \[lx\]
+/// Illuminances of the chosen steps: rows of steps, columns of places, sensors first, then observers. \[lx\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
-    /// Sensors and eyes.
+    /// Number of sensors and observers.
     pub places: usize,
-    /// All light.
+    /// Illuminances by all light. \[lx\]
     pub values: Vec<f64>,
-    /// How far that may be off.
+    /// Estimated absolute errors of `values`. \[lx\]
     pub errors: Vec<f64>,
-    /// Of it the sun that comes through unscattered and unreflected; `None` where nothing lets it, or nobody asks.
+    /// Illuminances by sun that comes through unscattered and unreflected, a part of `values`; `None` if nothing
+    /// transmits it, or it is not requested. \[lx\]
     pub sun: Option<Vec<f64>>,
-    /// Sets of states that occur with light.
+    /// Number of different sets of states that occur with light.
     pub sets: usize,
-    /// Steps without light, or without people where nobody asks for these: not computed.
+    /// Number of steps that are not computed: without light, or unoccupied if only occupied steps are requested.
     pub dark: usize,
 }
 
-/// What is asked.
+/// Input of the illuminances of a year.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -52,13 +53,13 @@ pub(super) struct Question<'a> {
     pub moving: &'a [Moving],
 }
 
-/// Few steps are shared among threads in so many pieces.
+/// Number of blocks into which few steps are divided among threads.
 const PIECES: usize = 16;
 
-/// Of the chosen steps, with the states of all steps.
+/// Computes the illuminances of the chosen steps, given the states of all steps.
 ///
 /// # Errors
-/// Of the scene; cancelled.
+/// Returns an error if the scene is wrong, or if cancelled.
 pub(super) fn light(
     question: &Question<'_>,
     states: &[Vec<usize>],
@@ -112,11 +113,12 @@ pub(super) fn light(
     Ok(light)
 }
 
-/// The sun alone straight at the places in all steps, with every moving aperture in the open state of its control: rows of
-/// steps, columns of places. `None` where nothing moves, nothing lets it through, or nobody asks. \[lx\]
+/// Computes the illuminance by direct sun alone at the places in all steps, with every moving aperture in the open
+/// state of its control: rows of steps, columns of places. Returns `None` if nothing moves, nothing transmits direct
+/// sun, or it is not requested. \[lx\]
 ///
 /// # Errors
-/// Of the scene; cancelled.
+/// Returns an error if the scene is wrong, or if cancelled.
 pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) -> Result<Option<Vec<f64>>, StudyError> {
     if question.moving.is_empty() || !question.settings.direct_sun {
         return Ok(None);
@@ -139,7 +141,7 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
     Ok(Some(rows.concat()))
 }
 
-/// The scene with the states of a set, eyes behind its sensors, under a sky that only says that there is light.
+/// Returns the scene with a set of states, observers appended to its sensors, under a placeholder sky with light.
 pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError> {
     let mut file = with_states(question.file, question.moving, set);
     put_ordinary(&mut file);
@@ -150,25 +152,25 @@ pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, 
     Ok(scene)
 }
 
-/// What a step comes to.
+/// Illuminances of one step.
 pub(super) struct Found {
-    /// At the places.
+    /// Illuminance by all light at the places. \[lx\]
     pub light: Vec<Estimate>,
     sun: Option<Vec<f64>>,
 }
 
-/// An hour of the year, and what is outside in it.
+/// Index of a step of the year, with its outside and sun.
 type Hour = (usize, (Outside, Option<Sun>));
 
-/// Ready for any sky and sun.
+/// Illuminances for any sky and sun, with one set of states.
 pub(super) struct Engine {
     coefficients: Coefficients,
-    /// Beside it the sun alone, where that is asked for and comes through.
+    /// Direct sun alone, if it is requested and transmitted.
     sun: Option<DirectSun>,
 }
 
 impl Engine {
-    /// `steps`: how many will be asked for, as far as is known.
+    /// Creates the engine of a scene with fixed states. `steps`: expected number of steps, 0 if not known.
     pub fn new(
         question: &Question<'_>,
         scene: Scene,
@@ -198,12 +200,12 @@ impl Engine {
         Ok(Self { coefficients, sun })
     }
 
-    /// Of one hour of the year.
+    /// Computes one step of the year.
     pub fn at(&self, hour: usize, outside: (Outside, Option<Sun>)) -> Found {
         self.all(&[(hour, outside)]).swap_remove(0)
     }
 
-    /// Of many.
+    /// Computes several steps of the year.
     fn all(&self, hours: &[Hour]) -> Vec<Found> {
         let direct = |sun: Option<&Sun>| {
             self.sun.as_ref().map(|all| sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(sun)))

@@ -1,12 +1,13 @@
-//! The room with its blinds worked by IES LM-83-12's own rule instead of by the scene's controls, for `sDA300_50_LM83_12`.
+//! Illuminances with blinds operated by the rule of IES LM-83-12 instead of the scene's controls, for
+//! `sDA300_50_LM83_12`.
 //!
-//! Groups are apertures of the same surface with the same product under the same control. Open is the state that the control
-//! takes by day without direct sun, which is the most open unless `open_state` names another; closed is the one for DIN 5034,
-//! the most closed or `closed_state`. Where nothing moves, an even shade with a transmittance of 5 % stands in the system's place
-//! while it is closed: what tools take by § 2.2.7 for blinds that nobody has described. It throws back what `reflectance` says,
-//! and nothing where that is the dataset's.
+//! Groups are apertures of the same surface with the same product under the same control. Open is the state that the
+//! control takes by day without direct sun, which is the most open unless `open_state` names another; closed is the one
+//! for DIN 5034, the most closed or `closed_state`. Where nothing moves, an ideally diffusing shade with a
+//! transmittance of 5 % replaces the system while it is closed: what tools assume by § 2.2.7 for blinds that are not
+//! described. Its reflectance is `reflectance`, and zero if that is to come from the dataset.
 //!
-//! Only the occupied lit steps that the year does not hold in the very same states are computed.
+//! Only those occupied lit steps are computed that the year does not contain in exactly the same states.
 
 use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, put_state};
@@ -29,34 +30,34 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Transmittance of the shade where nothing moves.
+/// Transmittance of the shade that replaces a system without movable parts. \[–\]
 pub const SHADE: f64 = 0.05;
 
 /// Apertures that are closed together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// Their numbers, from 1.
+    /// Numbers of the apertures, from 1.
     pub apertures: Vec<usize>,
-    /// Open and closed; `None` where nothing moves and the shade stands in.
+    /// Keys of the open and the closed state; `None` if nothing moves and the shade is used.
     pub states: Option<[String; 2]>,
-    /// The same for what a control moves, if only in name: states with their indices.
+    /// Indices and keys of the open and the closed state of a controlled aperture, even if both are the same.
     controlled: Option<[(usize, String); 2]>,
 }
 
-/// The chosen steps under the rule.
+/// The chosen steps with blinds operated by the rule.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lm83 {
-    /// What closes together.
+    /// Groups of apertures that close together.
     pub groups: Vec<Group>,
-    /// By chosen step; groups stay open while nobody is there, and in the dark.
+    /// States of the groups, by chosen step; groups stay open in unoccupied and in dark steps.
     pub worked: Vec<Worked>,
-    /// Illuminances of the chosen steps at the sensors, without eyes; 0 while nobody is there. \[lx\]
+    /// Illuminances of the chosen steps at the sensors, without observers; 0 in unoccupied steps. \[lx\]
     pub values: Vec<f64>,
-    /// How far these may be off. \[lx\]
+    /// Estimated absolute errors of `values`. \[lx\]
     pub errors: Vec<f64>,
 }
 
-/// What is asked.
+/// Input of the LM-83 blinds.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -67,14 +68,14 @@ pub(super) struct Question<'a> {
     pub moving: &'a [Moving],
     pub states: &'a [Vec<usize>],
     pub chosen: &'a [usize],
-    /// As the controls have it.
+    /// Light of the chosen steps with the states of the scene's controls.
     pub light: &'a Light,
 }
 
-/// Works the blinds through the chosen steps.
+/// Operates the blinds through the chosen steps, and computes the illuminances.
 ///
 /// # Errors
-/// Of the scene; cancelled.
+/// Returns an error if the scene is wrong, or if cancelled.
 pub(super) fn lm83(
     question: &Question<'_>,
     notes: &mut Vec<String>,
@@ -109,7 +110,7 @@ pub(super) fn lm83(
         values[row * sensors..][..sensors].copy_from_slice(&light.values[from * light.places..][..sensors]);
         errors[row * sensors..][..sensors].copy_from_slice(&light.errors[from * light.places..][..sensors]);
     };
-    // Eyes are of no use here.
+    // Observers are not needed here.
     let without_eyes = Settings { eyes: Vec::new(), ..settings.clone() };
     for (closed, rows) in sets {
         let (own, rest): (Vec<usize>, Vec<usize>) =
@@ -130,14 +131,14 @@ pub(super) fn lm83(
         };
         let chosen: Vec<usize> = rest.iter().map(|&row| question.chosen[row]).collect();
         let nothing = vec![Vec::new(); steps.list.len()];
-        // How the light is found has been told of the year.
+        // Notes on how the light is computed are already in the year's.
         let light = light::light(&asked, &nothing, &chosen, progress)?;
         rest.iter().enumerate().for_each(|(from, &row)| put(row, &light, from));
     }
     Ok(Lm83 { groups, worked: all, values, errors })
 }
 
-/// What of the standard's assumptions the scene does not share.
+/// Adds notes on assumptions of the standard that the scene does not share.
 fn tell(file: &SceneFile, settings: &Settings, groups: &[Group], notes: &mut Vec<String>) {
     if settings.keys.hours != (HoursKeys { from: 8.0, to: 18.0, days: DaysKey::All }) {
         notes.push("LM-83-12 counts 8 to 18 h of all days: here the hours of year.hours are counted".to_owned());
@@ -153,7 +154,7 @@ fn tell(file: &SceneFile, settings: &Settings, groups: &[Group], notes: &mut Vec
     }
 }
 
-/// "1, 2"
+/// Formats numbers as a list: "1, 2".
 fn numbers(list: &[usize]) -> String {
     list.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
@@ -183,7 +184,7 @@ fn groups(question: &Question<'_>) -> Result<Vec<Group>, StudyError> {
     Ok(list)
 }
 
-/// The scene with its groups open or closed, as a plain one without a year.
+/// Returns the scene with its groups open or closed, as a scene without a year.
 fn with_groups(file: &SceneFile, groups: &[Group], closed: &[bool]) -> SceneFile {
     let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
     for (group, &closed) in groups.iter().zip(closed) {
@@ -199,7 +200,7 @@ fn with_groups(file: &SceneFile, groups: &[Group], closed: &[bool]) -> SceneFile
     scene
 }
 
-/// Does the year hold this step in the very same states?
+/// Whether the year contains this step in exactly the same states.
 fn is_held(question: &Question<'_>, groups: &[Group], closed: &[bool], step: usize) -> bool {
     groups.iter().zip(closed).all(|(group, &closed)| {
         if closed && group.states.is_none() {
@@ -213,7 +214,7 @@ fn is_held(question: &Question<'_>, groups: &[Group], closed: &[bool], step: usi
     })
 }
 
-/// The scene with all open, and with all closed: for the sun straight at the sensors.
+/// Scenes with all groups open and with all closed, for direct sun at the sensors.
 struct Suns<'a> {
     groups: &'a [Group],
     scenes: [DirectSun; 2],
@@ -230,7 +231,7 @@ impl<'a> Suns<'a> {
         Ok(Self { groups, scenes: [scene(false)?, scene(true)?] })
     }
 
-    /// Through every group at all sensors.
+    /// Returns the direct sun through every group at all sensors. \[lx\]
     fn at(&self, sun: &Sun) -> Vec<GroupSun> {
         let [open, closed] = self.scenes.each_ref().map(|scene| scene.by_aperture(sun));
         let sum = |apertures: &[usize], list: &[Vec<Estimate>]| {

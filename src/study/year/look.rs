@@ -1,8 +1,8 @@
-//! How a year is looked at: which of its quantities as a map of hours.
+//! View of a year: page and quantity that a map of hours displays.
 
 use serde::{Deserialize, Serialize};
 
-/// What a map of hours shows. Sensors, eyes and moving apertures are counted from 0.
+/// Quantity of a map of hours. Sensors, observers and moving apertures are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shows {
@@ -13,9 +13,9 @@ pub enum Shows {
     Sensor(usize),
     /// State of a moving aperture.
     State(usize),
-    /// Simplified daylight glare probability of an eye.
+    /// Simplified daylight glare probability (DGPs) of an observer.
     Dgps(usize),
-    /// Power of the lamps.
+    /// Power of the electric lighting.
     Lighting,
     /// Direct normal illuminance outside.
     DirectNormal,
@@ -23,7 +23,7 @@ pub enum Shows {
     DiffuseHorizontal,
 }
 
-/// What of a year is in sight.
+/// Displayed part of a year.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Page {
@@ -32,20 +32,20 @@ pub enum Page {
     Map,
     /// Figures with their errors.
     Figures,
-    /// Power of the lamps over a day and by month.
+    /// Power of the electric lighting over a day and by month.
     Lighting,
 }
 
-/// How a year is looked at.
+/// View of a year.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Look {
-    /// Which page.
+    /// Displayed page.
     pub page: Page,
-    /// What the map shows.
+    /// Quantity of the map.
     pub shows: Shows,
-    /// Illuminances on a logarithmic scale.
+    /// Whether illuminances have a logarithmic scale.
     pub log: bool,
-    /// The month whose sunniest day is looked at, 1 … 12; `None`: the scene's.
+    /// Month whose sunniest day is displayed, 1 … 12; `None`: the scene's month.
     pub month: Option<u8>,
 }

@@ -12,12 +12,12 @@ use crate::study::weather::moment;
 use crate::texts::year as say;
 use jiff::civil::DateTime;
 
-/// Lowest and highest DGPs of the scale: no light, and what nobody bears.
+/// Minimum and maximum DGPs of the scale: no light, and intolerable glare.
 const DGPS: [f64; 2] = [0.184, 0.6];
-/// Decades of a logarithmic scale.
+/// Number of decades of a logarithmic scale.
 const DECADES: i32 = 3;
 
-/// What a map of a year can show.
+/// Returns the quantities that a map of a year can display.
 pub fn choices(year: &Year) -> Vec<Shows> {
     let mut list = vec![Shows::Mean];
     list.extend((0..year.moving.len()).map(Shows::State));
@@ -28,7 +28,7 @@ pub fn choices(year: &Year) -> Vec<Shows> {
     list
 }
 
-/// What a map shows, in words.
+/// Returns the title of a map.
 pub fn title(shows: Shows) -> String {
     match shows {
         Shows::Mean => say::MEAN.into(),
@@ -41,7 +41,8 @@ pub fn title(shows: Shows) -> String {
     }
 }
 
-/// Places of a device's states by rising number, and their keys in that order; as they come where they have none.
+/// Returns the places of a device's states in ascending order of their values, and their keys in that order; in the
+/// device's order if the states have no values.
 pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
     let mut order: Vec<usize> = (0..device.keys.len()).collect();
     if let Some(values) = &device.values {
@@ -54,7 +55,8 @@ pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
     (ranks, order.iter().map(|state| device.keys[*state].clone()).collect())
 }
 
-/// Value of a step that was computed: `row` among the chosen ones; `ranks`: of the states that are shown.
+/// Returns the displayed value of a computed step. `row`: its index among the chosen ones; `ranks`: places of the
+/// displayed states.
 fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f64 {
     let Light { places, values, .. } = &year.light;
     let own = &values[row * places..(row + 1) * places];
@@ -75,14 +77,15 @@ fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f6
     }
 }
 
-/// How far a value of a map may be off; `None` for what has no error of its own. `step`: of the year.
+/// Returns the estimated absolute error of a map's value; `None` if the value has no stated error. `step`: index in the
+/// year.
 pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     let row = year.chosen.binary_search(&step).ok()?;
     let Light { places, errors, .. } = &year.light;
     let own = &errors[row * places..(row + 1) * places];
     let sensors = year.settings.sensors;
     match shows {
-        // Errors of neighbours are much the same: they are taken to add up.
+        // Errors of neighbouring sensors are correlated: they are assumed to add up.
         Shows::Mean => Some(own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64),
         Shows::Sensor(place) => own.get(place).copied(),
         Shows::Dgps(eye) => own.get(sensors + eye).map(|error| dgps(*error) - dgps(0.0)),
@@ -90,20 +93,20 @@ pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     }
 }
 
-/// Of a nominal middle: whole minutes but for intervals of a minute.
+/// Returns an interval of the map from its nominal middle, to whole minutes.
 fn interval(time: DateTime, value: f64) -> Interval {
     let minute = 60 * u16::from(time.hour().unsigned_abs()) + u16::from(time.minute().unsigned_abs());
     Interval { month: time.month().unsigned_abs(), day: time.day().unsigned_abs(), minute, value }
 }
 
-/// The scale of a map's values.
+/// Returns the colour scale of a map's values.
 fn scale(values: impl Iterator<Item = f64>, log: bool) -> ColourScale {
     let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
     ColourScale::up_to(if most > 0.0 { most } else { 1.0 }, log, DECADES, ColourMap::Sequential)
 }
 
-/// The hours of a year. What is dark has no value, nor has what was not computed; lamps have one at night too. What the
-/// year does not hold any more is shown as the mean.
+/// Returns the map of a year's hours. Dark steps and steps that were not computed have no value; electric lighting has
+/// one at night too. If the year does not contain the quantity, the mean illuminance is displayed.
 pub fn map(year: &Year, look: &Look) -> HourMap {
     let shows = if choices(year).contains(&look.shows) { look.shows } else { Shows::Mean };
     let mut rows = vec![None; year.steps.list.len()];
@@ -134,8 +137,8 @@ pub fn map(year: &Year, look: &Look) -> HourMap {
     HourMap::of(title(shows), colours, 60.0 * year.steps.length, &list)
 }
 
-/// Direct normal (`direct`) or diffuse horizontal light of a weather file as the file has it, in W/m² or lx. Intervals
-/// whose figure is missing or that are dark have no value.
+/// Returns the map of direct normal (`direct`) or diffuse horizontal light of a weather file in the file's unit, W/m²
+/// or lx. Intervals that are dark or lack the value have none.
 pub fn weather_map(weather: &Weather, reading: Reading, direct: bool) -> HourMap {
     let lux = weather.quantity == Quantity::NormalIlluminance;
     let mut hours = weather.hours(reading).ok();

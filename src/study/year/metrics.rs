@@ -1,11 +1,12 @@
-//! The figures of a year under the keys that programs, tables and objectives name them by. Keys are stable, shares 0 … 1.
+//! Figures of a year by the keys that programs, tables and objectives use. Keys are stable, shares are 0 … 1.
 
 use super::{Figures, Solar, SolarFigures, Year};
 use crate::compute::year::glare::LIMITS;
 use crate::compute::year::provision::{LEVELS, Reached};
 use serde_json::{Value, json};
 
-/// All figures of a year, or of the year with less or more light, by their keys. `area` of the floor \[m²\].
+/// Returns all figures of a year, or of the year with less or more light, by their keys. `area`: area of the floor.
+/// \[m²\]
 pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
     let one = &figures.autonomy;
     let hours = |steps: usize| steps as f64 * year.steps.length;
@@ -85,18 +86,18 @@ pub fn metrics(year: &Year, figures: &Figures, area: f64) -> Value {
     all
 }
 
-/// Does a figure count the sun that comes straight through?
+/// Whether a figure counts direct sun.
 pub fn counts_direct_sun(key: &str) -> bool {
     ["sun_hours_1000", "ASE", "glare"].iter().any(|start| key.starts_with(start))
 }
 
-/// Does a figure hang on the light while nobody is in? All others count occupied hours, or what does not come of the light at
-/// places.
+/// Whether a figure depends on the light in unoccupied hours. All others count occupied hours, or do not depend on the
+/// light at places.
 pub fn counts_unoccupied(key: &str) -> bool {
     key == "annual_mean_lx" || key.starts_with("EN17037")
 }
 
-/// Solar energy straight through the apertures, by square metre of all of them where nothing else is said.
+/// Returns the solar energy transmitted, per square metre of all apertures unless the key says otherwise.
 fn solar_json(solar: &Solar, figures: &SolarFigures) -> Value {
     let total = figures.energy.total();
     let by_area = figures.energy.scaled(1.0 / solar.area());
@@ -123,7 +124,8 @@ fn solar_json(solar: &Solar, figures: &SolarFigures) -> Value {
     })
 }
 
-/// The larger distance of every number from those of the year with less and with more light; what is no number is left out.
+/// Returns the larger difference of every number from those of the year with less and with more light; other values are
+/// left out.
 pub fn errors(own: &Value, less: &Value, more: &Value) -> Option<Value> {
     match own {
         Value::Number(_) => {
@@ -141,8 +143,8 @@ pub fn errors(own: &Value, less: &Value, more: &Value) -> Option<Value> {
     }
 }
 
-/// The number that stands under a key, steps separated by dots (`lighting.LENI_kWh_m2`, `glare.Ev_1.share_above_0.40`): of a
-/// list its mean, of a yes or no 1 or 0. `None` where there is none.
+/// Returns the number under a key, steps separated by dots (`lighting.LENI_kWh_m2`, `glare.Ev_1.share_above_0.40`): of
+/// a list its mean, of a Boolean 1 or 0. `None` if there is none.
 pub fn number(metrics: &Value, key: &str) -> Option<f64> {
     if key.is_empty() {
         return match metrics {
@@ -163,7 +165,7 @@ pub fn number(metrics: &Value, key: &str) -> Option<f64> {
     metrics.as_object()?.iter().find_map(|(name, value)| number(value, rest(name)?))
 }
 
-/// All keys under which [`number`] finds one, in their order.
+/// Returns all keys under which [`number`] finds one, in their order.
 pub fn keys(metrics: &Value) -> Vec<String> {
     let Some(map) = metrics.as_object() else { return Vec::new() };
     let below = |(name, value): (&String, &Value)| match value {

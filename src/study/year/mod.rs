@@ -1,32 +1,32 @@
-//! A year in a room: every step of a weather file, the states that controls pick, and the illuminance at every sensor and
-//! eye, as the room of that moment has it.
+//! Annual simulation of a room: every step of a weather file, the states that the controls choose, and the illuminance
+//! at every sensor and observer with the room in these states.
 //!
 //! | file | what |
 //! | --- | --- |
-//! | `settings` | keys judged together |
+//! | `settings` | checked keys of `[year]` |
 //! | `steps` | the weather's intervals with sun and sky |
 //! | `states` | the state of every aperture in every step |
-//! | `indoor` | what the room's sensors read, for controls that ask |
+//! | `indoor` | readings of the room's sensors, for controls that need them |
 //! | `fixed` | the scene with fixed states, at a step |
-//! | `direct_sun` | the sun alone, straight at the sensors |
+//! | `direct_sun` | direct sun alone at the sensors |
 //! | `light` | illuminances: the room prepared once for each set of states, or moment by moment |
-//! | `resume` | hours kept while they are computed, for a run that is ended and goes on |
-//! | `lm83` | the same with blinds by IES LM-83-12's own rule |
-//! | `through` | the solar transmittance of what stands in the apertures |
-//! | `solar` | solar power straight through the apertures |
-//! | `dgp` | glare at the eyes, from the light |
-//! | `eye_light` | what eyes see of an aperture, ready for any sky |
+//! | `resume` | hours stored while they are computed, so that an interrupted run can be resumed |
+//! | `lm83` | illuminances with blinds operated by the rule of IES LM-83-12 |
+//! | `through` | solar transmittance of the systems in the apertures |
+//! | `solar` | solar power transmitted through the apertures |
+//! | `dgp` | daylight glare probability at the observers, from the light |
+//! | `eye_light` | luminance of an aperture as the observers see it, prepared for any sky |
 //! | `opening` | exposure to sunlight and view out, without light |
-//! | `figures` | what the year comes to, with errors |
-//! | `metrics` | figures by their keys |
-//! | `annual` | a year with its figures, and what it hangs on |
-//! | `look` | what of it is looked at |
-//! | `maps` | its hours as a map |
-//! | `table` | its figures as rows with words |
-//! | `lamps` | the lamps over a day and by month |
+//! | `figures` | annual figures with errors |
+//! | `metrics` | figures by key |
+//! | `annual` | a year with its figures, and the part of the scene that it depends on |
+//! | `look` | view of a year: page and displayed quantity |
+//! | `maps` | hours of a year as a map |
+//! | `table` | figures of a year as rows with labels |
+//! | `lamps` | electric lighting over a day and by month |
 //!
-//! The sun is never binned: every step has its own, in the middle of the lit part of its interval. Nothing is computed for
-//! dark steps, and nothing for states that no step picks.
+//! Sun positions are not grouped into bins: every step has its own, in the middle of the lit part of its interval.
+//! Nothing is computed for dark steps, and nothing for states that no step takes.
 
 mod annual;
 mod dgp;
@@ -77,44 +77,46 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A year, or the part of it that was asked for.
+/// A year, or the requested part of it.
 #[derive(Debug, Clone)]
 pub struct Year {
-    /// What it was asked with.
+    /// Checked input of the year.
     pub settings: Settings,
     /// All steps of the weather.
     pub steps: Arc<Steps>,
-    /// The apertures whose state a control picks.
+    /// Apertures whose state a control chooses.
     pub moving: Vec<Moving>,
-    /// By step and moving aperture: index of the state.
+    /// Indices of the states, by step and moving aperture.
     pub states: Vec<Vec<usize>>,
-    /// Movements of each moving aperture over all steps.
+    /// State changes of each moving aperture over all steps.
     pub movements: Vec<usize>,
-    /// How the room was read where a control asks how bright it is.
+    /// Record of the sensor readings for controls that depend on the illuminance in the room; `None` without such a
+    /// control.
     pub indoor: Option<Indoor>,
-    /// Indices of the steps that were asked for, rising.
+    /// Indices of the requested steps, ascending.
     pub chosen: Vec<usize>,
     /// Light of the chosen steps.
     pub light: Light,
-    /// The sun alone straight at sensors and eyes with what moves in the open state of its control, over all steps of a
-    /// whole year; `None` where nothing moves, nothing lets it through, or nobody asks. \[lx\]
+    /// Illuminance by direct sun alone at sensors and observers, with every moving aperture in the open state of its
+    /// control, over all steps of a whole year; `None` if nothing moves, nothing transmits direct sun, or it is not
+    /// requested. \[lx\]
     pub retracted_sun: Option<Vec<f64>>,
-    /// The chosen steps with blinds by IES LM-83-12's own rule, where they are asked for.
+    /// Light of the chosen steps with blinds operated by the rule of IES LM-83-12; `None` if not requested.
     pub lm83: Option<Lm83>,
-    /// Solar energy through the apertures, where it is asked for.
+    /// Solar energy transmitted through the apertures; `None` if not requested.
     pub solar: Option<Solar>,
-    /// Daylight glare probability of the chosen steps; `None` without eyes, or where it is not asked for.
+    /// Daylight glare probability of the chosen steps; `None` without observers, or if not requested.
     pub dgp: Option<Dgp>,
-    /// What a person should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
-    /// How long each stage took.
+    /// Duration of each stage, by name.
     pub spent: Vec<(&'static str, Duration)>,
 }
 
-/// What a year asks and the weather of it, whatever systems stand in the apertures: found once, used for every product.
+/// Checked input and weather of a year, independent of the systems in the apertures: read once, used for every product.
 #[derive(Debug, Clone)]
 pub struct Climate {
-    /// What is asked.
+    /// Checked input of the year.
     pub settings: Settings,
     /// All steps of the weather.
     pub steps: Arc<Steps>,
@@ -123,17 +125,17 @@ pub struct Climate {
 /// Reads the weather of a scene's year.
 ///
 /// # Errors
-/// A scene without `[year]`; wrong keys; a weather file that cannot be read.
+/// Returns an error if the scene has no `[year]`, a key is wrong, or the weather file cannot be read.
 pub fn climate(file: &SceneFile, base: &Path) -> Result<Climate, StudyError> {
     let settings = settings(file)?;
     let steps = Arc::new(steps::steps(file, &settings, base)?);
     Ok(Climate { settings, steps })
 }
 
-/// Computes the steps that `wanted` takes.
+/// Computes the steps for which `wanted` returns `true`.
 ///
 /// # Errors
-/// As [`climate`] and [`year_in`].
+/// Returns the errors of [`climate`] and [`year_in`].
 pub fn year(
     file: &SceneFile,
     base: &Path,
@@ -150,10 +152,11 @@ pub fn year(
     Ok(year)
 }
 
-/// The same with hours that are kept while they are computed, and those that an earlier run has kept.
+/// Computes a year like [`year`], but stores its hours while they are computed, and reads those that an earlier run has
+/// stored.
 ///
 /// # Errors
-/// As [`year`]; a part that cannot be written.
+/// Returns the errors of [`year`], and an error if the partial file cannot be written.
 pub fn year_kept(
     file: &SceneFile,
     base: &Path,
@@ -172,7 +175,7 @@ pub fn year_kept(
     Ok(year)
 }
 
-/// The scene with what stands in its apertures.
+/// Scene with the source of the systems in its apertures.
 struct Systems<'a> {
     file: &'a SceneFile,
     base: &'a Path,
@@ -180,11 +183,11 @@ struct Systems<'a> {
     session: &'a Session,
 }
 
-/// The same in a climate that is known already. `file` may name other systems than the scene that the climate was read for;
-/// room, sensors, site and `[year]` are the same.
+/// Computes a year in a climate that has been read before. `file` may name other systems than the scene that the
+/// climate was read for; room, sensors, site and `[year]` must be the same.
 ///
 /// # Errors
-/// Of systems and controls; none of the steps wanted; cancelled.
+/// Returns an error for wrong systems or controls, if no step is wanted, or if cancelled.
 pub fn year_in(
     climate: &Climate,
     file: &SceneFile,
@@ -280,11 +283,11 @@ fn computed(
     })
 }
 
-/// The scene at a step of its year, with fixed states: what computed as a room gives the same illuminances. `state`: of
-/// every moving aperture.
+/// Returns the scene at a step of its year, with the state of every moving aperture fixed. Its illuminances, computed
+/// without a year, are those of the step.
 ///
 /// # Errors
-/// As [`year`]; a moment that the weather does not hold.
+/// Returns the errors of [`year`], and an error if the weather does not contain the moment.
 pub fn scene_at(
     file: &SceneFile,
     base: &Path,

@@ -1,5 +1,5 @@
-//! The openings of a scene by EN 17037 beside their light: exposure to sunlight, view out. Of geometry and the sun's way
-//! alone: which state the systems are in does not matter.
+//! Exposure to sunlight and view out of a scene's apertures by EN 17037. They follow from geometry and sun path alone:
+//! the states of the systems do not matter.
 
 use super::settings::Settings;
 use super::steps::Steps;
@@ -17,31 +17,31 @@ use crate::study::scene_places::{apertures, room, sensors};
 use crate::study::year_keys::SunlightKeys;
 use glam::DVec3;
 
-/// What openings are asked beside their light.
+/// Exposure to sunlight and view out of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {
-    /// The day that was asked.
+    /// Day of the exposure to sunlight.
     pub day: Day,
-    /// The sun counts from this altitude on. \[rad\]
+    /// Minimum solar altitude that counts as sunlight. \[rad\]
     pub least_altitude: f64,
-    /// Of each aperture.
+    /// Exposure to sunlight of each aperture.
     pub by_aperture: Vec<Exposure>,
-    /// While any of them has the sun.
+    /// Exposure to sunlight of the room: while any aperture has the sun.
     pub any: Exposure,
-    /// From three quarters of the sensors' places, eyes at 1.2 m.
+    /// View out that three quarters of the sensors' places reach, observers at a height of 1.2 m.
     pub view: ViewOut,
-    /// So many places.
+    /// Number of places at which the view out was evaluated.
     pub points: usize,
 }
 
-/// What is not judged, to be said with the figures.
+/// Aspects that are not evaluated, to be stated with the figures.
 pub const NOT_JUDGED: [&str; 3] = [
     "the depth of the reveal: openings count as holes in a thin wall",
     "how clear the view is through the system, and what is seen: the scene knows boxes, a skyline and the horizon",
     "the least altitude of the sun and the day, which national annexes name: year.sunlight says them",
 ];
 
-/// The day as the keys name it, in the year of the weather's row of that day where there is one.
+/// Returns the day that the keys name, in the year of the weather's row of that day if there is one.
 fn day(keys: &SunlightKeys, steps: &Steps) -> Result<Day, StudyError> {
     let wrong = || {
         StudyError::key(
@@ -60,10 +60,10 @@ fn day(keys: &SunlightKeys, steps: &Steps) -> Result<Day, StudyError> {
     Day::new(year, month, number).ok_or_else(wrong)
 }
 
-/// Of the scene's openings under the weather's place.
+/// Evaluates exposure to sunlight and view out of a scene at the weather's place.
 ///
 /// # Errors
-/// Keys of room, apertures, boxes, sensors or `year.sunlight`.
+/// Returns an error if a key of room, apertures, boxes, sensors or `year.sunlight` is wrong.
 pub fn opening(file: &SceneFile, settings: &Settings, steps: &Steps) -> Result<Opening, StudyError> {
     let keys = &settings.keys.sunlight;
     if !(0.0..=45.0).contains(&keys.min_altitude) {

@@ -1,9 +1,9 @@
-//! Hours of a long year kept beside its table while it is computed, so that a run that was ended goes on where it stood.
+//! Hours of a long year stored beside its table while they are computed, so that an interrupted run can be resumed.
 //!
-//! A part `NAME.part` holds the fingerprint of all that the hours are made of, then a line for each hour with all bits of its
-//! numbers: a year that went on is the same as one in a single run. It is begun only when the run takes longer than
-//! [`PATIENCE`], and goes when the table is there. A line that was being written when the run ended is written anew.
-//! What is found from the hours (glare, solar energy, figures) is not kept.
+//! A partial file `NAME.part` contains the fingerprint of all input of the hours, then a line for each hour with all
+//! bits of its numbers: a resumed year is identical to one of a single run. It is created only when the run takes
+//! longer than [`PATIENCE`], and removed when the table is complete. A line that was incomplete when the run ended is
+//! written again. Results from the hours (glare, solar energy, figures) are not stored.
 
 use super::light::{self, Light, Question};
 use crate::compute::estimate::Progress;
@@ -15,16 +15,16 @@ use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Runs that are over before leave nothing behind.
+/// Duration of a run before it stores its hours; shorter runs create no partial file.
 pub const PATIENCE: Duration = Duration::from_secs(10);
-/// Hours between two writings are as many as take about so long.
+/// Duration of the computation between two writes; it sets the number of hours in a block.
 const BLOCK: Duration = Duration::from_secs(10);
-/// Hours at first, before it is known how long they take.
+/// Number of hours in the first block, before their duration is known.
 const FIRST: usize = 64;
-/// The first word of a part, with its version.
+/// First word of a partial file, with the version of its format.
 const HEAD: &str = "cfs-year-part-2";
 
-/// One hour.
+/// Illuminances of one hour.
 #[derive(Debug, Clone, PartialEq)]
 struct Hour {
     values: Vec<f64>,
@@ -32,7 +32,7 @@ struct Hour {
     sun: Option<Vec<f64>>,
 }
 
-/// The hours that are known, and where they are kept.
+/// Stored hours of a year, and their partial file.
 #[derive(Debug)]
 pub struct Kept {
     path: PathBuf,
@@ -87,11 +87,11 @@ impl Hour {
 }
 
 impl Kept {
-    /// Beside a table. `fingerprint` of all that its hours are made of; `patience`: see [`PATIENCE`]. `anew`: what is there of
-    /// something else may go.
+    /// Creates the store beside a table, and reads an existing partial file. `fingerprint`: of all input of the hours;
+    /// `patience`: see [`PATIENCE`]; `anew`: whether a file of another input may be overwritten.
     ///
     /// # Errors
-    /// A part of another scene, weather or program, or one that another run is writing.
+    /// Returns an error if the partial file is of another scene, weather or program, or if another run is writing it.
     pub fn beside(table: &Path, fingerprint: String, patience: Duration, anew: bool) -> Result<Self, StudyError> {
         let mut name = table.as_os_str().to_owned();
         name.push(".part");
@@ -111,7 +111,7 @@ impl Kept {
         Ok(kept)
     }
 
-    /// Reads what is there; goes on behind its last whole line.
+    /// Reads the existing file; new hours follow its last complete line.
     fn take_up(&mut self, anew: bool) -> Result<(), StudyError> {
         let cannot =
             |error: std::io::Error| wrong(&self.path, format!("cannot be read ({error}); check path and rights"));
@@ -134,7 +134,7 @@ impl Kept {
         if head == format!("{HEAD} {}", self.fingerprint) {
             end = head.len() + 1;
             for line in lines {
-                // Behind a damaged line nothing is believed.
+                // Lines after a damaged line are not trusted.
                 let Some((step, hour)) = Hour::read(line) else { break };
                 self.hours.insert(step, hour);
                 end += line.len() + 1;
@@ -150,12 +150,12 @@ impl Kept {
         Ok(())
     }
 
-    /// Hours that are known.
+    /// Returns the number of stored hours.
     pub fn count(&self) -> usize {
         self.hours.len()
     }
 
-    /// The file that it is kept in.
+    /// Returns the path of the partial file.
     pub fn path(&self) -> &Path {
         &self.path
     }
@@ -165,7 +165,7 @@ impl Kept {
         self.hours.insert(step, hour);
     }
 
-    /// Writes what waits, once the run has taken long.
+    /// Writes the hours that have not been written, once the run has taken longer than the delay.
     fn write(&mut self) -> Result<(), StudyError> {
         if self.waiting.is_empty() || self.file.is_none() && self.begun.elapsed() < self.patience {
             return Ok(());
@@ -184,10 +184,10 @@ impl Kept {
         Ok(())
     }
 
-    /// Removes what was kept: the table is there, or will never be.
+    /// Removes the partial file: the table is complete, or will never be.
     ///
     /// # Errors
-    /// A part that cannot be removed.
+    /// Returns an error if the file cannot be removed.
     pub fn done(mut self) -> Result<(), StudyError> {
         match self.file.take() {
             None => Ok(()),
@@ -200,7 +200,7 @@ impl Kept {
     }
 }
 
-/// Where files cannot be locked, two runs at once are not told apart.
+/// Locks the partial file. Where files cannot be locked, two simultaneous runs are not detected.
 fn locked(file: &File, path: &Path) -> Result<(), StudyError> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(wrong(path, "another run is writing it; expected one at a time")),
@@ -208,7 +208,7 @@ fn locked(file: &File, path: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Counts hours of all blocks together.
+/// Progress that counts the hours of all blocks together.
 struct Counted<'a> {
     inner: &'a dyn Progress,
     before: usize,
@@ -228,7 +228,8 @@ impl Progress for Counted<'_> {
     }
 }
 
-/// As [`light::light`], with the hours that are kept, keeping the others as they come.
+/// Computes the illuminances of all hours like [`light::light`], but reads finished hours from the file and appends new
+/// ones to it.
 pub(super) fn light(
     question: &Question<'_>,
     states: &[Vec<usize>],

@@ -1,4 +1,4 @@
-//! `[year]` judged: ranges, and what must agree with the rest of the scene.
+//! Checks of `[year]`: ranges, and consistency with the rest of the scene.
 
 use crate::compute::room::direct::Sensor;
 use crate::compute::year::lighting::{Control, Lamps, Zone};
@@ -7,20 +7,20 @@ use crate::study::scene_file::{ApertureKeys, SceneFile, SystemKeys};
 use crate::study::year_keys::{LampControlKey, LightingKeys, YearKeys};
 use glam::DVec3;
 
-/// What a year is asked with.
+/// Checked input of a year.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// As typed.
+    /// Keys of `[year]` as in the scene file.
     pub keys: YearKeys,
     /// Number of the scene's sensors, without eyes.
     pub sensors: usize,
-    /// Eyes, as sensors.
+    /// Observers, as sensors.
     pub eyes: Vec<Sensor>,
-    /// Lamps.
+    /// Electric lighting; `None` without `year.lighting`.
     pub lamps: Option<Lamps>,
-    /// Does anyone ask what light there is while nobody is in? Else those hours are left out.
+    /// Whether the light in unoccupied hours is needed; if not, those hours are left out.
     pub unoccupied: bool,
-    /// Does anyone ask for the sun alone, straight at the sensors?
+    /// Whether direct sun alone is needed at the sensors.
     pub direct_sun: bool,
 }
 
@@ -35,10 +35,10 @@ fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, 
     }
 }
 
-/// Of a scene.
+/// Checks `[year]` of a scene.
 ///
 /// # Errors
-/// No `[year]`, or keys out of range.
+/// Returns an error if there is no `[year]`, or a key is out of range.
 pub fn settings(file: &SceneFile) -> Result<Settings, StudyError> {
     let Some(keys) = &file.year else {
         return Err(StudyError::key("year", "missing: give [year] with weather = \"x.epw\""));

@@ -1,10 +1,10 @@
-//! Solar energy that comes straight through the apertures, step by step: irradiances of sky, ground and sun by direction,
-//! times the solar transmittance of what stands in each aperture at the time.
+//! Solar energy transmitted through the apertures, step by step: irradiances of sky, ground and sun by direction, times
+//! the solar transmittance of the system that each aperture has at the time.
 //!
-//! The sky has the shape that it has for light and the diffuse irradiance of the hour, the sun its direct normal irradiance;
-//! the ground reflects as for light (`site.ground_reflectance`, `year.ground`), skyline and boxes hide what they hide of
-//! light. Where a system has no solar properties its visible ones are taken, and the result says so. What is absorbed and
-//! given off to the room as heat is left out.
+//! The sky has the shape that it has for light and the diffuse irradiance of the hour, the sun its direct normal
+//! irradiance; the ground reflects as for light (`site.ground_reflectance`, `year.ground`), skyline and boxes obstruct
+//! solar radiation as they do light. Where a system has no solar properties its visible ones are used, and the result
+//! says so. Radiation that is absorbed and given off to the room as heat is left out.
 
 use super::fixed::put_state;
 use super::steps::Steps;
@@ -32,49 +32,50 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Steps that are computed before their sums are taken.
+/// Number of steps that are computed before their sums are taken.
 const AT_ONCE: usize = 512;
-/// Points a side of an aperture from which boxes are looked at, and rays to the sun.
+/// Number of points per side of an aperture from which boxes are seen.
 const EYES: usize = 2;
+/// Number of points per side of an aperture for rays to the sun.
 const RAYS: usize = 16;
-/// Steps whose sky is integrated too, for the error.
+/// Number of steps whose sky is also integrated exactly, for the error.
 const JUDGED: usize = 3;
-/// Safety on that error, seen in some steps and stated for others.
+/// Safety factor on the error found in [`JUDGED`] steps, which is stated for all others.
 const OTHER_SKIES: f64 = 2.0;
 
-/// One aperture over the chosen steps.
+/// Solar energy through one aperture over the chosen steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThroughAperture {
-    /// From 1, as in the scene.
+    /// Number of the aperture in the scene, from 1.
     pub number: usize,
-    /// \[m²\]
+    /// Area of the aperture. \[m²\]
     pub area: f64,
-    /// What stood for its solar properties; of several states the poorest.
+    /// Source of the system's solar properties; of several states the poorest.
     pub source: SolarSource,
-    /// \[kWh\]
+    /// Solar energy transmitted. \[kWh\]
     pub energy: Estimate,
 }
 
-/// Solar power straight through all apertures.
+/// Solar power transmitted through all apertures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solar {
-    /// By chosen step. \[W\]
+    /// Power through all apertures, by chosen step. \[W\]
     pub watts: Vec<f64>,
-    /// How far that may be off. \[W\]
+    /// Estimated absolute errors of `watts`. \[W\]
     pub errors: Vec<f64>,
-    /// In the scene's order.
+    /// Energies of the apertures, in the scene's order.
     pub apertures: Vec<ThroughAperture>,
-    /// Of the floor. \[m²\]
+    /// Area of the floor. \[m²\]
     pub floor: f64,
 }
 
 impl Solar {
-    /// Of all apertures. \[m²\]
+    /// Returns the area of all apertures together. \[m²\]
     pub fn area(&self) -> f64 {
         self.apertures.iter().map(|one| one.area).sum()
     }
 
-    /// The poorest source of all apertures where they agree; of different ones a mixture.
+    /// Returns the common source of all apertures' solar properties, or a mixture if they differ.
     pub fn source(&self) -> SolarSource {
         let mut sources = self.apertures.iter().map(|one| one.source);
         let first = sources.next().unwrap_or(SolarSource::Visible);
@@ -82,7 +83,7 @@ impl Solar {
     }
 }
 
-/// What is asked.
+/// Input of the solar energy.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -101,36 +102,36 @@ impl Question<'_> {
     }
 }
 
-/// Apertures that receive the same and let the same through.
+/// Apertures that receive the same irradiance and have the same transmittances.
 struct Group {
     surface: Surface,
-    /// Passages by state of the moving aperture; a single one for what does not move.
+    /// Indices of passages by state of the moving aperture; a single one if nothing moves.
     passages: Vec<Option<usize>>,
     moving: Option<usize>,
-    /// Indices of apertures, and their areas as far as frame and dirt leave them clear. \[m²\]
+    /// Indices of apertures, and their areas times the factor of frame and dirt. \[m²\]
     members: Vec<(usize, f64)>,
-    /// Of the only member where something stands before it.
+    /// Geometry of the first member; it is the only one if there are boxes outside.
     aperture: Aperture,
 }
 
-/// Ready for any hour.
+/// Transmitted power for any hour.
 struct Engine<'a> {
     question: &'a Question<'a>,
     orientation: Orientation,
-    /// Behind boxes.
+    /// Outside with boxes; `None` without any.
     prepared: Option<Arc<Prepared>>,
     per_lux: f64,
     groups: Vec<Group>,
     passages: Vec<Passage>,
-    /// By surface and cells.
+    /// Received irradiances, by surface and basis.
     received: Vec<(Surface, Received)>,
     between: Between,
 }
 
-/// Of the chosen steps.
+/// Computes the transmitted solar energy of the chosen steps.
 ///
 /// # Errors
-/// Of the scene and its systems; cancelled.
+/// Returns an error if the scene or a system is wrong, or if cancelled.
 pub(super) fn solar(
     question: &Question<'_>,
     notes: &mut Vec<String>,
@@ -182,7 +183,7 @@ pub(super) fn solar(
     Ok(Solar { watts, errors, apertures: list, floor: file.room.width * file.room.depth })
 }
 
-/// What the figures are, and where visible properties stand for solar ones.
+/// Returns the note on what the figures contain, and where visible properties are used instead of solar ones.
 fn told(list: &[ThroughAperture]) -> String {
     let of = |source: SolarSource| -> Vec<String> {
         list.iter().filter(|one| one.source == source).map(|one| one.number.to_string()).collect()
@@ -209,7 +210,7 @@ impl<'a> Engine<'a> {
     ) -> Result<Self, StudyError> {
         let Question { file, steps, moving, states, chosen, .. } = question;
         let lit = || chosen.iter().filter(|step| question.is_lit(**step));
-        // Fixed luminances count by the efficacy of all diffuse light together.
+        // Fixed luminances are converted by the efficacy of all diffuse light together.
         let (watts, lux) = lit().map(|step| &steps.list[*step].hour).fold((0.0, 0.0), |(watts, lux), hour| {
             (watts + hour.diffuse_horizontal_irradiance, lux + hour.diffuse_horizontal)
         });
@@ -278,13 +279,13 @@ impl<'a> Engine<'a> {
         Ok(Self { question, orientation, prepared, per_lux, groups, passages, received, between })
     }
 
-    /// Which of `received` a passage is gathered by in an aperture of a surface.
+    /// Returns the index in `received` of the irradiances for a passage in an aperture of a surface.
     fn received(&self, surface: Surface, passage: &Passage) -> usize {
         let same = |(own, known): &(Surface, Received)| *own == surface && *known.cells() == passage.cells;
         self.received.iter().position(same).expect("made for every passage of every group")
     }
 
-    /// Sky, ground, what stands before them, and the sun, in W/m².
+    /// Returns sky, ground, obstructions and sun of a step in W/m².
     fn outside(&self, step: usize) -> Result<(Outside, Option<Sun>), StudyError> {
         let (outside, sun) = self.question.steps.outside_in_watts(step, self.per_lux)?;
         match &self.prepared {
@@ -293,7 +294,8 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Points spread evenly over an aperture, in the world's axes from the room's origin; none where nothing stands before it.
+    /// Returns points spread over an aperture on a regular grid, in world axes from the room's origin; none without
+    /// obstructions.
     fn points(&self, aperture: &Aperture, a_side: usize) -> Vec<DVec3> {
         if self.prepared.is_none() {
             return Vec::new();
@@ -307,10 +309,10 @@ impl<'a> Engine<'a> {
             .collect()
     }
 
-    /// Power through a square metre of every group. \[W/m²\]
+    /// Computes the power per area through every group. \[W/m²\]
     fn at(&self, step: usize) -> Result<Vec<Estimate>, StudyError> {
         let (outside, sun) = self.outside(step)?;
-        // Where boxes stand every aperture sees an outside of its own.
+        // With boxes every aperture has a different outside.
         let alone = self.prepared.is_some();
         let mut known: Vec<Option<Vec<f64>>> = vec![None; self.received.len()];
         let mut list = Vec::with_capacity(self.groups.len());
@@ -330,7 +332,7 @@ impl<'a> Engine<'a> {
         Ok(list)
     }
 
-    /// The sun's part.
+    /// Computes the power by direct sun per area of a group. \[W/m²\]
     fn beam(&self, group: &Group, passage: &Passage, outside: &Outside, sun: Option<&Sun>) -> Estimate {
         let facing = Facing { outside, sun, orientation: self.orientation, surface: group.surface };
         let Some(d) = facing.sun_entering() else { return Estimate::default() };
@@ -341,7 +343,7 @@ impl<'a> Engine<'a> {
         Estimate::new(received * share * tau, received * error)
     }
 
-    /// Share of an aperture that no box keeps the sun from, and its doubt.
+    /// Returns the share of an aperture that no box shades from the sun, and its uncertainty.
     fn sunlit(&self, group: &Group, outside: &Outside, sun: Option<&Sun>) -> (f64, f64) {
         let (Some(around), Some(sun)) = (outside.surroundings(), sun) else { return (1.0, 0.0) };
         let points = self.points(&group.aperture, RAYS);
@@ -355,7 +357,7 @@ impl<'a> Engine<'a> {
         (share, if share > 0.0 && share < 1.0 { 0.5 / RAYS as f64 } else { 0.0 })
     }
 
-    /// Finds how far gathering by cells is off, in steps spread over those that are asked.
+    /// Finds the error of integrating by cells, in steps spread over the requested ones.
     fn judge(&mut self) -> Result<(), StudyError> {
         let question = self.question;
         let bright = |step: &usize| question.steps.list[*step].hour.diffuse_horizontal_irradiance > 0.0;
@@ -394,7 +396,7 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// The error with the place in the scene that led to it.
+/// Returns the error with the number of the aperture that led to it.
 fn in_aperture(index: usize, error: StudyError) -> StudyError {
     match error {
         StudyError::Key { key, message } => StudyError::Key { key: format!("aperture[{}].{key}", index + 1), message },

@@ -1,4 +1,5 @@
-//! The state of every moving aperture in every step: the controls stepped through the year with the weather's sun and sky.
+//! States of every moving aperture in every step: the controls are stepped through the year with the weather's sun and
+//! sky.
 
 use super::indoor::{Indoor, Reader, sensors};
 use super::light;
@@ -22,20 +23,20 @@ use crate::study::system::SystemLibrary;
 use std::path::Path;
 use std::sync::Arc;
 
-/// What the controls did.
+/// States that the controls have chosen.
 #[derive(Default)]
 pub(super) struct States {
-    /// The apertures that move.
+    /// Apertures whose state a control chooses.
     pub moving: Vec<Moving>,
-    /// By step and moving aperture: index of the state.
+    /// Indices of the states, by step and moving aperture.
     pub list: Vec<Vec<usize>>,
-    /// How often each moves.
+    /// Number of state changes of each moving aperture.
     pub movements: Vec<usize>,
-    /// How the room was read; `None` where no control asks.
+    /// Summary of the sensor readings; `None` if no control reads the room.
     pub indoor: Option<Indoor>,
 }
 
-/// What is asked.
+/// Input of the controls.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -45,7 +46,7 @@ pub(super) struct Question<'a> {
     pub steps: &'a Steps,
 }
 
-/// Is any aperture left to a control?
+/// Whether the state of any aperture is left to a control.
 fn moves(file: &SceneFile) -> bool {
     let controlled = |state: &Option<String>| state.as_deref() == Some(CONTROLLED);
     file.aperture.iter().any(|aperture| match &aperture.system {
@@ -56,10 +57,11 @@ fn moves(file: &SceneFile) -> bool {
     })
 }
 
-/// Steps the controls through all steps of a year, dark ones included: hysteresis and dwell time act at their length.
+/// Steps the controls through all steps of a year, including dark ones, so that hysteresis and dwell time have their
+/// true length.
 ///
 /// # Errors
-/// A control that cannot be; cancelled.
+/// Returns an error if a control is not valid, or if cancelled.
 pub(super) fn states(
     question: &Question<'_>,
     notes: &mut Vec<String>,
@@ -123,7 +125,7 @@ pub(super) fn states(
         }
         let time = 3600.0 * steps.length * k as f64;
         let decisions = match &mut reader {
-            // In the dark no sensor is asked.
+            // No sensor is read in dark steps.
             Some(reader) if step.hour.is_lit() => reader.step(k, time, &mut controllers, &all, progress)?,
             _ => controllers.iter_mut().zip(&all).map(|(controller, inputs)| controller.step(time, inputs)).collect(),
         };
@@ -135,7 +137,7 @@ pub(super) fn states(
     Ok(States { moving, list, movements, indoor })
 }
 
-/// What the readings leave open.
+/// Adds notes on readings that do not determine the state.
 fn tell(indoor: Option<&Indoor>, notes: &mut Vec<String>) {
     let Some(Indoor { read, hunting, unsure }) = indoor else { return };
     if !hunting.is_empty() {

@@ -1,4 +1,4 @@
-//! The intervals of a weather file as steps of a year: nominal time, sun, sky.
+//! Intervals of a weather file as steps of a year: nominal time, sun, sky.
 
 use super::settings::Settings;
 use crate::compute::sky::{Outside, Sun};
@@ -14,56 +14,57 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Number of the first weekday on which nobody works, from Monday on.
+/// Number of the first weekday without work, counted from Monday = 0.
 const SATURDAY: f64 = 5.0;
 /// Hours of a common year.
 const HOURS_OF_A_YEAR: f64 = 8760.0;
 
-/// One step.
+/// One step of a year.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Sun and light.
+    /// Sun and outdoor light of the step.
     pub hour: Hour,
-    /// Nominal middle, local standard time, the row's own year; moved by the whole hours of `sun_offset_minutes`.
+    /// Nominal middle of the step in local standard time, in the row's own year; moved by the whole hours of
+    /// `sun_offset_minutes`.
     pub time: DateTime,
-    /// Month of that, 1 … 12.
+    /// Month of `time`, 1 … 12.
     pub month: u8,
-    /// By the clock on the wall. \[h\]
+    /// Hour of the local clock, with daylight saving time where the site has it. \[h\]
     pub clock: f64,
-    /// Is somebody there?
+    /// Whether the room is occupied.
     pub occupied: bool,
 }
 
 /// All steps of a weather file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
-    /// In the file's order.
+    /// Steps in the file's order.
     pub list: Vec<Step>,
-    /// Of a step. \[h\]
+    /// Length of a step. \[h\]
     pub length: f64,
-    /// Where the weather is from.
+    /// Station of the weather.
     pub station: Station,
-    /// Test of its clock; `None` where it cannot be tested.
+    /// Test of the weather file's clock; `None` if it cannot be tested.
     pub closure: Option<Closure>,
-    /// Minutes by which intervals were moved.
+    /// Time by which intervals were moved. \[min\]
     pub offset: f64,
-    /// Are they a whole year?
+    /// Whether the steps cover a whole year.
     pub whole: bool,
-    /// What a person should know.
+    /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// Codes of those that are the weather file's.
+    /// Codes of those warnings that concern the weather file.
     pub weather_warnings: Vec<&'static str>,
-    /// Light, ground and skyline of the scene.
+    /// Sky keys of the scene: light, ground and skyline.
     sky: SkyKeys,
     site: SiteKeys,
     ground: Vec<f64>,
     found: Found,
 }
 
-/// Outside and sun of a step.
+/// Outside and sun of one step.
 type Sky = (Outside, Option<Sun>);
 
-/// What has been found of the steps: kept for all that ask again, and no part of what the steps are.
+/// Skies of the steps that have been computed: shared by all copies, ignored by comparisons of steps.
 #[derive(Debug, Clone)]
 struct Found {
     number: u64,
@@ -87,7 +88,7 @@ impl PartialEq for Found {
 /// Reads the weather of a scene's year.
 ///
 /// # Errors
-/// A file that cannot be read, a missing figure by day.
+/// Returns an error if the file cannot be read, or a value of a daytime hour is missing.
 pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps, StudyError> {
     let keys = &settings.keys;
     let kept = kept(&keys.weather, base).map_err(|error| StudyError::key("year.weather", error.to_string()))?;
@@ -97,7 +98,7 @@ pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps
     let mut hours = weather.hours(reading).map_err(|error| wrong(error.to_string()))?;
     let offset = hours.offset();
     let parts = keys.steps_per_hour * u32::from(weather.interval) / 60;
-    // Intervals shorter than an hour are steps as they are.
+    // Intervals shorter than an hour are steps without division.
     let parts = parts.max(1);
     let moved = 60.0 * f64::from(hours.moved_clock());
     let mut list = Vec::with_capacity(weather.records.len() * parts as usize);
@@ -146,7 +147,8 @@ fn step(hour: Hour, time: DateTime, clock: DateTime, working_day: bool, keys: &Y
 }
 
 impl Steps {
-    /// The step whose interval holds a moment, of the same year where there is one, else of any.
+    /// Returns the index of the step whose interval contains `time`: of the same year if there is one, else of any
+    /// year.
     pub fn at(&self, time: DateTime) -> Option<usize> {
         let half = (1800.0 * self.length).round() as i64;
         let holds = |step: &Step, moment: DateTime| {
@@ -162,25 +164,26 @@ impl Steps {
         })
     }
 
-    /// Reflectance of the ground in a step.
+    /// Returns the reflectance of the ground in a step.
     pub fn ground(&self, step: usize) -> f64 {
         let month = usize::from(self.list[step].month.clamp(1, 12)) - 1;
         self.ground.get(month).copied().unwrap_or(self.site.ground_reflectance)
     }
 
-    /// The same under a sky that is equally bright all over: for controls that do not ask how bright the façade is.
+    /// Returns outside and sun of a step under a uniform sky: for controls that do not depend on the illuminance of the
+    /// façade.
     ///
     /// # Errors
-    /// As [`Self::outside`].
+    /// Returns the errors of [`Self::outside`].
     pub fn even_outside(&self, step: usize) -> Result<(Outside, Option<Sun>), StudyError> {
         even_outside_of_hour(&self.list[step].hour, &self.sky, &self.site)
             .map_err(|SkyKeyError { key, message }| StudyError::key(key, message))
     }
 
-    /// Sky, ground and skyline of a step, and its sun.
+    /// Returns sky, ground and skyline of a step, and its sun.
     ///
     /// # Errors
-    /// Keys of sky or site that are out of range.
+    /// Returns an error if a key of sky or site is out of range.
     pub fn outside(&self, step: usize) -> Result<(Outside, Option<Sun>), StudyError> {
         if let Some(found) = self.found.skies[step].get() {
             return Ok(found.clone());
@@ -191,16 +194,16 @@ impl Steps {
         Ok(self.found.skies[step].get_or_init(|| found).clone())
     }
 
-    /// A number that no other steps have, but copies of these: for what is kept of them elsewhere.
+    /// Returns a number that only these steps and their copies have; it identifies what is stored of them elsewhere.
     pub fn number(&self) -> u64 {
         self.found.number
     }
 
-    /// The same in W/m²: sky, ground and sun by the hour's irradiances, in the same shape. `per_lux`: what a fixed luminance of
-    /// the skyline counts. \[W/lm\]
+    /// Returns outside and sun of a step in W/m²: sky, ground and sun by the hour's irradiances, in the same shape as
+    /// for light. `per_lux`: factor for a fixed luminance of the skyline. \[W/lm\]
     ///
     /// # Errors
-    /// As [`Self::outside`].
+    /// Returns the errors of [`Self::outside`].
     pub fn outside_in_watts(&self, step: usize, per_lux: f64) -> Result<(Outside, Option<Sun>), StudyError> {
         let hour = &self.list[step].hour;
         let hour = Hour {
@@ -223,7 +226,7 @@ impl Steps {
 }
 
 impl Settings {
-    /// Is the light of a step to be computed?
+    /// Whether the light of a step is to be computed.
     pub(super) fn asks(&self, step: &Step) -> bool {
         step.hour.is_lit() && (self.unoccupied || step.occupied)
     }

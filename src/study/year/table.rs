@@ -1,4 +1,4 @@
-//! The figures of a year as rows with words: what each is, its error, and what limits say of it.
+//! Figures of a year as rows with labels: value, error, and compliance with limits.
 
 use super::maps::states;
 use super::{Annual, Figures};
@@ -6,25 +6,25 @@ use crate::compute::year::glare::LIMITS;
 use crate::compute::year::provision::{LEVELS, Level};
 use crate::texts::{Text, fixed, year as say};
 
-/// Where a row belongs.
+/// Section of the table that a row belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Section {
     /// Autonomy and useful illuminances.
     Light,
-    /// Sun on the sensors.
+    /// Direct sun on the sensors.
     Sun,
-    /// EN 17037.
+    /// Daylight provision of EN 17037.
     Provision,
-    /// Eyes.
+    /// Glare at the observers.
     Glare,
-    /// Lamps.
+    /// Electric lighting.
     Lighting,
-    /// What moves.
+    /// Shading operation.
     Control,
 }
 
 impl Section {
-    /// In words.
+    /// Returns the label of the section.
     pub const fn words(self) -> Text {
         match self {
             Self::Light => say::SECTION_LIGHT,
@@ -37,24 +37,24 @@ impl Section {
     }
 }
 
-/// A figure.
+/// One figure of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Where it belongs.
+    /// Section of the row.
     pub section: Section,
-    /// What it is called.
+    /// Label of the figure.
     pub name: String,
-    /// What it is, in a sentence, with its source.
+    /// Definition of the figure in one sentence, with its source.
     pub tip: &'static str,
-    /// Its value: shares 0 … 1, else in `unit`.
+    /// Value of the figure: shares 0 … 1, else in `unit`.
     pub value: f64,
-    /// What the errors of the hours leave open of it.
+    /// Uncertainty of the value by the errors of the hours, in the same unit.
     pub error: f64,
-    /// Lowest and highest of the sensors, where it is their mean.
+    /// Minimum and maximum of the sensors, if the figure is their mean.
     pub between: Option<[f64; 2]>,
-    /// `%` for shares.
+    /// Unit of the figure; `%` for shares.
     pub unit: &'static str,
-    /// What limits say of it, or nothing.
+    /// Compliance with limits; empty without limits.
     pub said: String,
 }
 
@@ -68,7 +68,7 @@ impl Row {
         }
     }
 
-    /// Value, error and unit: `80.6 ± 0.2 %`. What is counted has no error.
+    /// Formats value, error and unit: `80.6 ± 0.2 %`. Counted figures have no error.
     pub fn value_words(&self) -> String {
         let value = self.written(self.value);
         let error = self.written(self.error);
@@ -77,18 +77,18 @@ impl Row {
         format!("{words} {}", self.unit).trim_end().to_owned()
     }
 
-    /// Lowest and highest of the sensors.
+    /// Formats minimum and maximum of the sensors.
     pub fn between_words(&self) -> String {
         self.between.map_or_else(String::new, |ends| ends.map(|end| self.written(end)).join(" – "))
     }
 }
 
-/// The larger distance from a value to those with less and with more light.
+/// Returns the larger difference between a value and those with less and with more light.
 fn apart([own, less, more]: [f64; 3]) -> f64 {
     (less - own).abs().max((more - own).abs())
 }
 
-/// What a limit says, where the errors leave it no doubt.
+/// Returns whether a limit is met, or that the uncertainty does not decide it.
 fn verdict(values: [f64; 3], met: impl Fn(f64) -> bool) -> Text {
     let told = values.map(met);
     match told {
@@ -119,7 +119,7 @@ impl Rows<'_> {
         self.list.push(row);
     }
 
-    /// The mean of the sensors.
+    /// Adds a figure that is the mean of the sensors.
     fn mean(&mut self, section: Section, words: (Text, Text), unit: &'static str, of: impl Fn(&Figures) -> &[f64]) {
         let figures = self.figures;
         let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len().max(1) as f64;
@@ -139,7 +139,7 @@ impl Rows<'_> {
     }
 }
 
-/// All figures of a year.
+/// Returns all figures of a year.
 pub fn table(annual: &Annual) -> Vec<Row> {
     let mut rows = Rows { figures: &annual.figures, list: Vec::new() };
     light(&mut rows);
@@ -244,7 +244,7 @@ fn lighting(rows: &mut Rows<'_>) {
     rows.add(Section::Lighting, (say::LIGHTING_FULL, say::LIGHTING_FULL_TIP), unit, [own.full; 3]);
 }
 
-/// Movements, and hours with light in each state; counted, so without an error.
+/// Returns state changes, and hours with light in each state; they are counted, so without an error.
 fn control(annual: &Annual) -> Vec<Row> {
     let year = &annual.year;
     let mut list = Vec::new();

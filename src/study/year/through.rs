@@ -1,4 +1,4 @@
-//! What systems let through of the sun's radiation, each found once.
+//! Solar transmittances of systems, each computed once.
 
 use crate::catalogue::stated_error;
 use crate::compute::basis::RingBasis;
@@ -10,21 +10,21 @@ use crate::study::system::{Need, System, SystemLibrary};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A system in a state.
+/// Solar transmittance of a system in one state.
 pub(super) struct Passage {
-    /// By direction.
+    /// Transmittance by direction.
     pub tau: DirectionalTransmittance,
-    /// Where that is from.
+    /// Source of the transmittance.
     pub source: SolarSource,
-    /// Cells that diffuse light is gathered by.
+    /// Basis by which diffuse radiation is integrated.
     pub cells: RingBasis,
-    /// Mean of τ over each.
+    /// Mean transmittance of each cell of the basis.
     pub by_cell: Vec<f64>,
-    /// What gathering costs in a façade and in a roof, relative to diffuse light.
+    /// Errors of the integration by cells in a façade and in a roof, relative to the diffuse radiation.
     pub judged: [f64; 2],
 }
 
-/// A system's transmittance, and what stood for its solar properties.
+/// Solar transmittance of a system, and the source of its solar properties.
 pub(super) struct Found {
     pub tau: DirectionalTransmittance,
     pub source: SolarSource,
@@ -43,10 +43,10 @@ impl<'a> DirectSolar<'a> {
         Self { library, base, keys: Vec::new(), found: Vec::new() }
     }
 
-    /// Index of a system's transmittance.
+    /// Returns the index of a system's transmittance.
     ///
     /// # Errors
-    /// Of the library; data without transmission.
+    /// Returns an error if the library cannot load the system, or its data have no transmission.
     pub fn of(&mut self, keys: &SystemKeys) -> Result<usize, StudyError> {
         if let Some(known) = self.keys.iter().position(|other| other == keys) {
             return Ok(known);
@@ -57,7 +57,7 @@ impl<'a> DirectSolar<'a> {
         Ok(self.keys.len() - 1)
     }
 
-    /// All of them.
+    /// Returns all transmittances.
     pub fn found(self) -> Vec<Found> {
         self.found
     }
@@ -70,7 +70,7 @@ impl<'a> DirectSolar<'a> {
                 return Ok(Found { tau, source });
             }
         }
-        // A description is not made data before somebody asks for them.
+        // Data of a described system are not computed before they are needed.
         let empty = |system: &System| {
             system.dataset.transmission().is_none_or(|btdf| btdf.regular.is_none() && btdf.scattered.is_none())
         };
@@ -84,16 +84,16 @@ fn of_data(system: &Arc<System>) -> Result<Found, StudyError> {
     let btdf: &Btdf = dataset
         .transmission_of(BandName::Solar)
         .ok_or_else(|| StudyError::key("system", format!("'{}' has no transmission data", system.label)))?;
-    // Measured data do not say how exact they are: then only what lies between their directions is in doubt.
+    // Measured data do not state their error: then only the interpolation between their directions is uncertain.
     let tau = DirectionalTransmittance::of_data(btdf, stated_error(dataset).unwrap_or(0.0));
     Ok(Found { tau, source: dataset.solar_source() })
 }
 
-/// Ready to be multiplied by what is received.
+/// Prepares transmittances for multiplication by received irradiances.
 pub(super) fn ready(found: Vec<Found>, between: Between) -> Vec<Passage> {
     let of = |Found { tau, source }: Found| {
         let cells = tau.cells();
-        // Values of the data's own cells are means already, whatever is taken between them.
+        // Values of the data's own cells are means already, whatever the interpolation.
         let own = if tau.knows_cells() { Between::Constant } else { between };
         let by_cell = tau.on(&cells, own);
         Passage { tau, source, cells, by_cell, judged: [0.0; 2] }

@@ -1,4 +1,4 @@
-//! The products as a gallery: cards with the picture of what each does to the sun.
+//! The products as a gallery: cards with the picture of each product's transmittance.
 
 use super::{entry, names};
 use crate::app::command::Command;
@@ -9,16 +9,16 @@ use crate::app::theme;
 use crate::texts::{catalogue as text, fixed};
 use egui::{Color32, FontId, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-/// Least width of a card. \[points\]
+/// Minimum width of a card. \[points\]
 const LEAST: f32 = 106.0;
-/// Between two cards. \[points\]
+/// Gap between two cards. \[points\]
 const GAP: f32 = 4.0;
 /// Side of the picture. \[points\]
 const PICTURE: f32 = 76.0;
 /// Height of a card: picture, two lines of a name, one of figures. \[points\]
 const HEIGHT: f32 = PICTURE + 70.0;
 
-/// Draws it, with room left below: the cards in sight alone.
+/// Draws the gallery, with `below` points left under it. Only visible cards are drawn.
 pub(super) fn show(ui: &mut Ui, state: &mut State, gallery: &mut Gallery, below: f32, commands: &mut Vec<Command>) {
     let found = state.found.clone();
     let entries = &found.entries;

@@ -1,4 +1,5 @@
-//! What list and gallery show of a product alike: its figures in words, its tip, its star and the sign of comparison.
+//! Parts shared by list and gallery for a product: its figures as text, its tooltip, its star and the sign of
+//! comparison.
 
 use super::menu;
 use crate::app::command::Command;
@@ -15,7 +16,7 @@ pub(super) fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| fixed(value, 2))
 }
 
-/// The state that a row's figures are of, in words; empty for a product of one.
+/// Returns the state that a row's figures belong to, as text; empty for a product with one state.
 fn figures_of(entry: &Entry) -> String {
     match entry.state() {
         _ if !entry.moves() => String::new(),
@@ -24,7 +25,7 @@ fn figures_of(entry: &Entry) -> String {
     }
 }
 
-/// What a row says under the name, most important first: the end may be cut.
+/// Returns the line under a product's name, most important first: the end may be cut.
 pub(super) fn figures(entry: &Entry, sort: Sort) -> String {
     let mut words = String::new();
     // What the list is ordered by is seen.
@@ -48,7 +49,7 @@ pub(super) fn figures(entry: &Entry, sort: Sort) -> String {
     words
 }
 
-/// A product's tip: the whole name, and what its figures are.
+/// Returns a product's tooltip: the whole name, and the meaning of its figures.
 pub(super) fn tip(entry: &Entry) -> String {
     let mut words = entry.name.clone();
     if !entry.subscribed.is_empty() {
@@ -68,7 +69,7 @@ pub(super) fn tip(entry: &Entry) -> String {
     words
 }
 
-/// Says all that is said of an entry while the pointer is on it, and offers its menu.
+/// Adds name, tooltip and menu to an entry; a click selects its product.
 pub(super) fn respond(
     response: Response,
     (found, place): (&Found, usize),
@@ -97,7 +98,8 @@ pub(super) fn respond(
     response
 }
 
-/// Arrow keys on an entry that has the keyboard choose another one, which then has it. `columns`: entries side by side.
+/// Selects another entry by arrow keys while an entry has the keyboard, which then moves to it. `columns`: entries side
+/// by side.
 pub(super) fn arrows(
     ui: &Ui,
     response: &Response,
@@ -124,7 +126,7 @@ pub(super) fn arrows(
     true
 }
 
-/// The star, with its middle at a point.
+/// Draws the star, with its middle at a point.
 pub(super) fn star(ui: &mut Ui, at: Pos2, entry: &Entry, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let rect = Rect::from_center_size(at, Vec2::splat(23.0));
@@ -138,13 +140,13 @@ pub(super) fn star(ui: &mut Ui, at: Pos2, entry: &Entry, commands: &mut Vec<Comm
     }
 }
 
-/// Place in the tray of the first candidate that is a product.
+/// Returns the place in the comparison of the first candidate with this product.
 pub(super) fn in_tray(state: &State, key: &str) -> Option<usize> {
     let is = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { key: own, .. } if own == key);
     state.document.scene.compare.iter().position(|one| one.system.as_ref().is_some_and(is))
 }
 
-/// Puts a product into the tray, or takes it out; the sign has its middle at a point.
+/// Draws the sign that adds a product to the comparison, or removes it; the sign has its middle at a point.
 pub(super) fn compare_sign(ui: &mut Ui, at: Pos2, entry: &Entry, compared: Option<usize>, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let rect = Rect::from_center_size(at, Vec2::splat(23.0));
@@ -166,7 +168,7 @@ pub(super) fn compare_sign(ui: &mut Ui, at: Pos2, entry: &Entry, compared: Optio
     }
 }
 
-/// τ in the vertical plane, sun from below on the left to above on the right.
+/// Draws τ in the vertical plane, from a sun below on the left to one above on the right.
 pub(super) fn thumbnail(painter: &egui::Painter, rect: Rect, entry: &Entry, palette: &theme::Palette) {
     painter.rect_filled(rect, 3, palette.raised);
     let last = entry.tau_profile.len().saturating_sub(1);

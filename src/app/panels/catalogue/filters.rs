@@ -1,5 +1,5 @@
-//! What narrows the list: facets folded into menus, what is chosen as chips, the order; and what to give up where nothing
-//! is found.
+//! Filters of the catalogue: facets folded into menus, chosen values as chips, the order; and the filters to remove
+//! where nothing is found.
 
 use crate::app::command::Command;
 use crate::app::shelf::{Found, Query};
@@ -11,7 +11,7 @@ use crate::texts::{Text, catalogue as text};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{ComboBox, PopupCloseBehavior, RichText, ScrollArea, Ui, vec2};
 
-/// A menu of values that stays open while they are chosen.
+/// Draws a menu of values that stays open while they are chosen.
 fn menu(ui: &mut Ui, [title, facet]: [Text; 2], chosen: bool, values: impl FnOnce(&mut Ui)) {
     let title =
         if chosen { RichText::new(title.get()).color(theme::palette(ui).accent) } else { RichText::new(title.get()) };
@@ -23,9 +23,9 @@ fn menu(ui: &mut Ui, [title, facet]: [Text; 2], chosen: bool, values: impl FnOnc
     button.accessible_name(text::filter_by(facet));
 }
 
-/// A value with what choosing it would find; was it clicked?
+/// Draws a value with the number of products that choosing it would find. Returns whether it was clicked.
 fn value(ui: &mut Ui, chosen: bool, words: &str, count: usize) -> bool {
-    // One that would find nothing can be told from one that is missing, and taken back when it is chosen.
+    // A value that would find nothing is shown, unlike one that is missing, and can be unchosen while it is chosen.
     ui.add_enabled(chosen || count > 0, egui::Button::selectable(chosen, format!("{words}  {count}"))).clicked()
 }
 
@@ -49,7 +49,7 @@ fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>, words: fn(&str)
     }
 }
 
-/// A pair of which one, the other or both may be asked for.
+/// Draws a pair of values of which one may be chosen; without a choice both are listed.
 fn either(ui: &mut Ui, words: [Text; 2], counts: [usize; 2], chosen: &mut Option<bool>) {
     for (yes, (words, count)) in [true, false].into_iter().zip(words.into_iter().zip(counts)) {
         if value(ui, *chosen == Some(yes), words.get(), count) {
@@ -76,7 +76,7 @@ fn figures(ui: &mut Ui, found: &Found, query: &mut Query) {
     }
 }
 
-/// The facets, folded: a line or two of menus.
+/// Draws the facets, folded: a line or two of menus.
 pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
     let found = &*state.found;
     ui.horizontal_wrapped(|ui| {
@@ -124,7 +124,7 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
     chosen(ui, query);
 }
 
-/// What is chosen: each goes by a click.
+/// Draws the chosen values; a click removes a value.
 fn chosen(ui: &mut Ui, query: &mut Query) {
     let filters: Vec<Filter> = query.filters().collect();
     if filters.is_empty() {
@@ -146,7 +146,7 @@ fn chosen(ui: &mut Ui, query: &mut Query) {
     });
 }
 
-/// How many there are, and their order.
+/// Draws the number of products that were found, and the choice of their order.
 pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     let found = &*state.found;
     ui.horizontal(|ui| {
@@ -183,7 +183,7 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     });
 }
 
-/// Products that were restored or are not listed, and words that were read as others.
+/// Draws notes: products that were restored or are not listed, and words that were read as others.
 pub(super) fn notes(ui: &mut Ui, found: &Found) {
     if !found.restored.is_empty() {
         ui.colored_label(theme::palette(ui).warning, text::restored(found.restored.join(", ")));
@@ -196,7 +196,7 @@ pub(super) fn notes(ui: &mut Ui, found: &Found) {
     }
 }
 
-/// What the list is like, until a click.
+/// Draws a chip with the product that the list is similar to; a click removes it.
 pub(super) fn like(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(key) = &state.query.like else { return };
     let found = state.found.like.as_ref().filter(|like| like.key == *key);
@@ -208,7 +208,7 @@ pub(super) fn like(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// Nothing was found: what to give up, one click each.
+/// Draws buttons that remove filters, where nothing was found.
 pub(super) fn nothing(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let (found, query) = (&*state.found, &state.query);
     ui.add_space(16.0);

@@ -7,20 +7,20 @@ use crate::app::state::State;
 use crate::app::theme;
 use egui::{FontId, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-/// What a second line of a name adds to a row. \[points\]
+/// Height that a second line of a name adds to a row. \[points\]
 const SECOND_LINE: f32 = 18.0;
 /// Mean width of a letter of a name. \[points\]
 const LETTER: f32 = 6.6;
 
-/// Height of the list's rows: all the same, so that only those in sight are drawn. Higher where a name of the list may
-/// need a second line.
+/// Returns the height of the list's rows \[points\]: all the same, so that only visible ones are drawn. Higher where a
+/// name of the list may need a second line.
 fn row_height(ui: &Ui, longest_name: usize) -> f32 {
     let room = ui.available_width() - theme::ROW_HEIGHT - 26.0;
     let second = if longest_name as f32 * LETTER > room { SECOND_LINE } else { 0.0 };
     theme::ROW_HEIGHT + second
 }
 
-/// Draws it, with room left below.
+/// Draws the list, with `below` points left under it.
 pub(super) fn show(ui: &mut Ui, state: &mut State, below: f32, commands: &mut Vec<Command>) {
     let found = state.found.clone();
     let entries = &found.entries;
@@ -51,7 +51,7 @@ fn offset_key(ui: &Ui) -> egui::Id {
     ui.scope_id().with("rows-offset")
 }
 
-/// Is a row out of sight, as the list stood in the last frame?
+/// Whether a row is outside the visible part of the list, as it was in the last frame.
 fn area_hides(ui: &Ui, row: usize, height: f32, step: f32) -> bool {
     let key = offset_key(ui);
     let offset = ui.data(|data| data.get_temp::<f32>(key)).unwrap_or(0.0);

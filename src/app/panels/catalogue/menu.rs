@@ -1,4 +1,4 @@
-//! What a right click on a row offers.
+//! Menu of a right click on a row.
 
 use crate::app::command::Command;
 use crate::app::compare::Act;
@@ -8,7 +8,7 @@ use crate::app::state::Sheet;
 use crate::catalogue::Collection;
 use crate::texts::catalogue as text;
 
-/// The menu of a row.
+/// Draws the menu of a row.
 pub(super) fn show(row: &egui::Response, entry: &Entry, collections: &[Collection], commands: &mut Vec<Command>) {
     row.context_menu(|ui| {
         let key = || Some(entry.key.clone());

@@ -1,19 +1,20 @@
-//! Names in a list: on two lines where they need them; where that is not enough, cut in the middle, so that what tells
-//! them apart stays.
+//! Names in a list: on two lines where they need them; where that is not enough, cut in the middle, so that their
+//! difference stays.
 
 use egui::epaint::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Galley, Painter};
 use std::sync::Arc;
 
-/// Lines of a name.
+/// Maximum number of lines of a name.
 const LINES: usize = 2;
 
-/// Characters that two names begin with in common.
+/// Returns the number of characters that two names begin with in common.
 fn common(a: &str, b: &str) -> usize {
     a.chars().zip(b.chars()).take_while(|(a, b)| a == b).count()
 }
 
-/// A name cut to so many characters: its beginning, and from where it first differs from the names beside it.
+/// Returns a name cut to `most` characters: its beginning, and the part from where it first differs from the names
+/// beside it.
 fn shortened(name: &str, beside: [Option<&str>; 2], most: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= most || most < 8 {
@@ -23,7 +24,7 @@ fn shortened(name: &str, beside: [Option<&str>; 2], most: usize) -> String {
     let tail = most - head - 1;
     let end = letters.len() - tail;
     let differs = beside.into_iter().flatten().map(|other| common(name, other)).max().unwrap_or(0);
-    // From the word's beginning on; where the difference is in sight anyway the end of the name tells more.
+    // From the word's beginning; where the difference is visible anyway the end of the name says more.
     let word = letters[..differs.min(letters.len())].iter().rposition(|c| c.is_whitespace()).map_or(0, |at| at + 1);
     let start = if differs >= head && word < end { word.max(head) } else { end };
     let cut = if start + tail < letters.len() { "…" } else { "" };
@@ -31,7 +32,7 @@ fn shortened(name: &str, beside: [Option<&str>; 2], most: usize) -> String {
     format!("{}…{tail}{cut}", letters[..head].iter().collect::<String>())
 }
 
-/// A name laid out in the width of a list, with the names before and behind it.
+/// Returns a name laid out in the width of a list, with the names before and behind it.
 pub(super) fn layout(
     painter: &Painter,
     name: &str,

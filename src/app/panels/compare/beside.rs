@@ -1,4 +1,4 @@
-//! The same tile for each candidate, all on one scale.
+//! The tile of each candidate side by side, all on one scale.
 
 use super::places::{kind, missing, places, tile};
 use crate::app::command::Command;
@@ -20,9 +20,9 @@ use egui::{Label, RichText, Sense, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
 /// Height of a candidate's name. \[points\]
 const NAME: f32 = 24.0;
-/// The common scale is no wider. \[points\]
+/// Maximum width of the common scale. \[points\]
 const WIDE: f32 = 560.0;
-/// A logarithmic scale of illuminances begins at this share of its end, as the tiles' do.
+/// Share of its end at which a logarithmic scale of illuminances begins, as those of the tiles do.
 const LEAST: f64 = 1e-4;
 
 /// Draws the tiles.
@@ -64,7 +64,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
-/// The scale of all tiles, with one choice of its kind for all of them.
+/// Draws the scale of all tiles, with one choice of its kind for all of them.
 fn legend(ui: &mut Ui, kind: Option<TileKind>, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
     let unit = match kind {
         Some(TileKind::Btdf) => "q / (1/sr)",
@@ -130,8 +130,8 @@ fn one(
     bench.show(ui, tile, &seen, commands);
 }
 
-/// Lowest and highest value of a scale that holds all candidates; `None` for tiles whose scales are fixed, and before there
-/// is anything.
+/// Returns the lowest and highest value of a scale that holds all candidates; `None` for tiles whose scales are fixed,
+/// and before there are any data.
 fn scale(columns: &[Column], kind: Option<TileKind>) -> Option<[f64; 2]> {
     let data =
         || columns.iter().filter_map(|column| Some((column, column.state.dataset.value.as_ref()?.transmission()?)));

@@ -1,4 +1,4 @@
-//! Curves of all candidates in one plot, told apart by colour and dashes.
+//! Curves of all candidates in one plot, distinguished by colour and dashes.
 
 use super::places::{kind, short, tile_words};
 use crate::app::compare_columns::{Column, Columns};
@@ -58,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     }
 }
 
-/// Candidates by number and name, each with something of it, as far as it is known.
+/// Returns the candidates' numbers and names, each with a result of the candidate, for those that have it.
 fn known<'a, T>(list: &'a [Column], names: &[String], of: impl Fn(&'a Column) -> Option<T>) -> Vec<(String, T)> {
     list.iter().zip(names).filter_map(|(column, name)| Some((name.clone(), of(column)?))).collect()
 }

@@ -1,4 +1,4 @@
-//! Each candidate less the base, with sign, all on one scale.
+//! Each candidate minus the reference, with sign, all on one scale.
 
 use super::places::{kind, missing, places, short};
 use crate::app::compare_columns::{Column, Columns};
@@ -72,7 +72,8 @@ fn is_there(kind: TileKind, column: &Column) -> bool {
     if kind == TileKind::Room { column.results.room.value.is_some() } else { column.state.dataset.value.is_some() }
 }
 
-/// The difference of a candidate from the base; `None` while one of them is not known, or where they have nothing in common.
+/// Returns the difference of a candidate from the reference; `None` while one of them is not known, or where they have
+/// nothing in common.
 fn picture(kind: TileKind, column: &Column, base: &Column) -> Option<Picture> {
     if kind == TileKind::Room {
         let of = |column: &Column| {

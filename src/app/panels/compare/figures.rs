@@ -1,4 +1,5 @@
-//! The table of figures: each with unit and error, the better one marked where the difference is larger than the errors.
+//! The table of figures: each with unit and error, the better one marked where the difference is larger than the
+//! errors.
 
 use crate::app::command::Command;
 use crate::app::compare::Act;
@@ -8,7 +9,7 @@ use crate::study::comparison::{Row, Value, Verdict, verdict_words};
 use crate::texts::compare as texts;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 
-/// What the last column says.
+/// Returns the text of the last column: the better candidates, or why there are none.
 fn verdict(row: &Row, names: &[String]) -> String {
     match &row.verdict {
         Verdict::Better(list) => {
@@ -19,7 +20,7 @@ fn verdict(row: &Row, names: &[String]) -> String {
     }
 }
 
-/// A value as it stands in the table, marked where it is better.
+/// Draws a value of the table, marked where it is better.
 fn cell(ui: &mut Ui, row: &Row, place: usize, start: &str) {
     let text = row.values[place].map_or_else(|| "–".to_owned(), Value::words);
     if matches!(&row.verdict, Verdict::Better(list) if list.contains(&place)) {
@@ -30,13 +31,13 @@ fn cell(ui: &mut Ui, row: &Row, place: usize, start: &str) {
     }
 }
 
-/// Name and unit of a figure.
+/// Returns name and unit of a figure.
 fn heading(row: &Row) -> String {
     let unit = if row.figure.unit.is_empty() { String::new() } else { format!(" / {}", row.figure.unit) };
     format!("{}{unit}", row.figure.name)
 }
 
-/// A column a candidate.
+/// Draws the table with one column per candidate.
 fn table(ui: &mut Ui, rows: &[Row], names: &[String]) {
     Grid::new("compared figures").striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
         ui.label(RichText::new(texts::FIGURE.get()).strong());
@@ -57,7 +58,7 @@ fn table(ui: &mut Ui, rows: &[Row], names: &[String]) {
     });
 }
 
-/// Where there is no room for columns: a line a candidate under each figure.
+/// Draws one line per candidate under each figure, where there is no room for columns.
 fn lines(ui: &mut Ui, rows: &[Row], names: &[String]) {
     names.iter().for_each(|name| drop(ui.add(Label::new(RichText::new(name).strong()).wrap())));
     for row in rows {

@@ -1,4 +1,5 @@
-//! What the looks share: which tile, where the candidates' tiles stand, and what is said in place of one.
+//! Parts shared by the forms of comparison: the tile that is compared, the places of the candidates' tiles, and the
+//! text in place of one.
 
 use crate::app::compare_columns::Column;
 use crate::app::state::{State, Tile};
@@ -7,7 +8,8 @@ use crate::report::TileKind;
 use crate::texts::compare as texts;
 use egui::{Rect, vec2};
 
-/// A name in at most so many letters: its beginning, which says what it is, and its end, which tells it from others.
+/// Returns a name in at most `most` letters: its beginning, which says what it is, and its end, which distinguishes it
+/// from others.
 pub(super) fn short(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= most {
@@ -19,22 +21,22 @@ pub(super) fn short(name: &str, most: usize) -> String {
     format!("{}…{}", first.trim_end(), end.trim_start())
 }
 
-/// A tile's title for people.
+/// Returns a tile's title for people.
 pub(super) fn tile_words(title: &str) -> String {
     TileKind::titled(title).map_or_else(|| title.to_owned(), |kind| kind.words().into())
 }
 
-/// Which of the tiles that are compared and handed on the compared one is.
+/// Returns the kind of the compared tile, if it is one of those that are compared and exported.
 pub(super) fn kind(state: &State) -> Option<TileKind> {
     TileKind::titled(state.compare.tile())
 }
 
-/// The tile that is compared.
+/// Returns the tile that is compared.
 pub(super) fn tile(state: &State) -> Option<Tile> {
     TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == state.compare.tile())
 }
 
-/// Where tiles of so many candidates stand: side by side while each is wide enough, else in two rows.
+/// Returns the places of the tiles of `count` candidates: side by side while each is wide enough, else in two rows.
 pub(super) fn places(whole: Rect, count: usize) -> Vec<Rect> {
     const GAP: f32 = 6.0;
     let rows = if count > 3 && whole.width() / (count as f32) < 300.0 { 2 } else { 1 };
@@ -47,7 +49,7 @@ pub(super) fn places(whole: Rect, count: usize) -> Vec<Rect> {
     (0..count).map(|k| Rect::from_min_size(whole.min + place(k), size)).collect()
 }
 
-/// What stands in place of a candidate's picture.
+/// Returns the text in place of a candidate's picture.
 pub(super) fn missing(column: &Column) -> String {
     column.error().map_or_else(|| texts::COMPUTING.into(), str::to_owned)
 }

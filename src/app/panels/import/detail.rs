@@ -1,4 +1,4 @@
-//! Beside the table of what was found: words about the products that are chosen, and the row that is shown, as it will be
+//! Details beside the table of an import: texts about the selected products, and the row that is shown, as it will be
 //! stored.
 
 use super::findings::{counts, diagnoses, picture, repair_words, seen};
@@ -10,7 +10,7 @@ use crate::compute::doctor::{Repair, RepairKind};
 use crate::texts::{fixed, take_in as text};
 use egui::{TextEdit, Ui};
 
-/// Draws it.
+/// Draws the details.
 pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     let products = import.selected_products();
     let there = |row: &Row| import.products.get(row.0).is_some_and(|product| row.1 < product.datasets.len());
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     }
 }
 
-/// Fields whose words are given to all that are chosen.
+/// Draws fields whose texts are given to all selected products.
 fn for_all(ui: &mut Ui, import: &Import, products: &[usize], commands: &mut Vec<Command>) {
     egui::Grid::new("for all").num_columns(2).show(ui, |ui| {
         for word in Word::ALL {

@@ -1,4 +1,5 @@
-//! What the checks say about datasets, with repairs to try, and the picture by which one sees whether they lie as they should.
+//! Findings of the data check on datasets, with repairs to try, and a picture that shows whether the data lie as they
+//! should.
 
 use crate::app::import::number;
 use crate::app::state::State;
@@ -10,7 +11,8 @@ use crate::texts::{Text, fixed, take_in as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::sync::Arc;
 
-/// How many findings there are of each severity, the worst first: `1 error, 2 warnings`; empty without any.
+/// Returns the number of findings of each severity, errors before warnings and infos: `1 error, 2 warnings`; empty
+/// without any.
 pub(super) fn counts(list: &[Diagnosis]) -> String {
     let of = |severity: Severity| list.iter().filter(|one| one.finding.severity == severity).count();
     type Words = (Severity, Text, fn(usize) -> String);
@@ -25,7 +27,7 @@ pub(super) fn counts(list: &[Diagnosis]) -> String {
     words.join(", ")
 }
 
-/// A repair as buttons say it; the functions that it is for stay as findings name them.
+/// Returns a repair as text for buttons; the functions that it is for stay as findings name them.
 pub(super) fn repair_words(repair: Repair) -> String {
     use RepairKind::*;
     let kind = match repair.kind {
@@ -47,12 +49,12 @@ pub(super) fn repair_words(repair: Repair) -> String {
     repair.label().replacen(repair.kind.label(), kind.get(), 1)
 }
 
-/// The worst of them.
+/// Returns the highest severity of the findings.
 pub(super) fn worst(list: &[Diagnosis]) -> Option<Severity> {
     list.iter().map(|one| one.finding.severity).max()
 }
 
-/// What the doctor says about the selected dataset, once it was asked.
+/// Draws the findings on the selected dataset, once it was checked.
 pub fn of_selection(ui: &mut Ui, state: &State, dataset: &Arc<Dataset>) {
     match state.examined.as_ref().filter(|(of, _)| Arc::ptr_eq(of, dataset)) {
         Some((_, found)) => diagnoses(ui, found, &[], |_| {}),
@@ -60,7 +62,7 @@ pub fn of_selection(ui: &mut Ui, state: &State, dataset: &Arc<Dataset>) {
     }
 }
 
-/// Shows findings with their title and meaning, and a button for every repair that is offered and not yet made.
+/// Draws findings with their title and meaning, and a button for every repair that is offered and not yet made.
 pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnMut(Repair)) {
     let palette = theme::palette(ui);
     if list.is_empty() {
@@ -93,7 +95,7 @@ pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut as
     }
 }
 
-/// What is shown of a dataset: asked once a dataset, not once a frame.
+/// Figures shown of a dataset: computed once per dataset, not once per frame.
 pub(super) struct Seen {
     /// Transmittance at normal incidence and under uniform light.
     pub tau: [f64; 2],
@@ -101,7 +103,7 @@ pub(super) struct Seen {
     pub ways: Option<Ways>,
 }
 
-/// What is shown of a dataset; `None` for one without transmission of light from outside.
+/// Returns the figures shown of a dataset; `None` for one without transmission of light from outside.
 pub(super) fn seen(ui: &Ui, dataset: &Arc<Dataset>) -> Option<Arc<Seen>> {
     type Kept = (Arc<Dataset>, Arc<Seen>);
     let id = egui::Id::unique("import seen");
@@ -116,8 +118,8 @@ pub(super) fn seen(ui: &Ui, dataset: &Arc<Dataset>) -> Option<Arc<Seen>> {
     Some(seen)
 }
 
-/// The section through a window with the sun 45° above outside, on the left, and arrows into the room as long as their
-/// shares of the light; below it the figures.
+/// Draws the section through an aperture with the sun 45° above outside, on the left, and arrows into the room as long
+/// as their shares of the light; below it the figures.
 pub(super) fn picture(ui: &mut Ui, &Ways { tau, up, .. }: &Ways) {
     let (response, painter) = ui.allocate_painter(Vec2::new(120.0, 72.0), Sense::hover());
     let palette = theme::palette(ui);

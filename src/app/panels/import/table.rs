@@ -1,4 +1,4 @@
-//! The table of what was found: a line a product, its states under it, and every question in its place.
+//! The table of an import: one line per product, its states under it, and every question in its place.
 
 use super::findings::{counts, worst};
 use crate::app::command::Command;
@@ -42,7 +42,7 @@ pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     }
 }
 
-/// The file's cell and those of [`COLUMNS`].
+/// Returns the file's cell and those of [`COLUMNS`].
 fn cells(line: Rect) -> [Rect; 5] {
     let mut right = line.right();
     let mut cells = [line; 5];
@@ -75,7 +75,7 @@ fn one(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, commands
     }
 }
 
-/// A line that begins under its product's name.
+/// Draws a line that begins under its product's name.
 fn indented(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
     if ui.is_rect_visible(rect) {
@@ -85,7 +85,7 @@ fn indented(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     }
 }
 
-/// A state's key, with the unit where it is an angle.
+/// Returns a state's key, with the unit where it is an angle.
 fn words_of(words: &StateWords) -> String {
     match (words.number(), words.name.trim()) {
         (Some(_), "") => format!("{}°", words.key()),
@@ -94,7 +94,7 @@ fn words_of(words: &StateWords) -> String {
     }
 }
 
-/// A product in one line: its name and states.
+/// Returns a product as one line: its name and states.
 fn title(product: &Proposed) -> String {
     let name = if product.named() { product.fields.name.trim() } else { text::NO_NAME.get() };
     let states: Vec<String> = product.states.iter().map(words_of).collect();
@@ -104,7 +104,7 @@ fn title(product: &Proposed) -> String {
     }
 }
 
-/// How a click on a row is meant: keys held, and that Space chooses a row beside others.
+/// Returns the meaning of a click on a row, by the keys held; Space chooses a row beside others.
 fn meant(ui: &Ui, response: &Response) -> Choose {
     let modifiers = ui.input(|input| input.modifiers);
     if modifiers.shift {
@@ -116,7 +116,7 @@ fn meant(ui: &Ui, response: &Response) -> Choose {
     }
 }
 
-/// A line that is chosen by a click.
+/// Draws a line that is chosen by a click.
 fn option(ui: &Ui, rect: Rect, chosen: bool, words: (&str, &str), palette: &Palette, left: f32) -> Response {
     let (shown, label) = words;
     let response = ui.interact(rect, ui.scope_id().with("row"), Sense::click());
@@ -198,7 +198,7 @@ fn question(ui: &mut Ui, import: &Import, number: usize, doubt: &Doubt, commands
     });
 }
 
-/// Puts a product together with those of these files.
+/// Combines a product with those of these files.
 fn together(import: &Import, number: usize, others: &[String], commands: &mut Vec<Command>) {
     let asked = |row: &Row| {
         let source = import.products[row.0].sources.get(row.1);
@@ -216,7 +216,7 @@ fn together(import: &Import, number: usize, others: &[String], commands: &mut Ve
     }
 }
 
-/// Whether the same data are there already, in the catalogue or in another file.
+/// Draws a note if the same data are there already, in the catalogue or in another file.
 fn there_already(ui: &mut Ui, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     let known = product.known.first();
     let line = match (known, &product.same_as) {

@@ -1,14 +1,14 @@
-//! The openings of the scene: where they are, how large, and what their room side reflects.
+//! The apertures of the scene: position, size, and back reflectance.
 
 use crate::app::panels::fields::{note, number};
 use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, SceneFile, SurfaceKey};
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{Button, Ui};
 
-/// Smallest edge of an aperture. \[m\]
+/// Minimum edge of an aperture. \[m\]
 const LEAST: f64 = 0.05;
 
-/// Extent of a surface along an aperture's two axes. \[m\]
+/// Returns the extent of a surface along an aperture's two axes. \[m\]
 fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
     match surface {
         SurfaceKey::Facade => [room.width, room.height],
@@ -16,10 +16,10 @@ fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
     }
 }
 
-/// Names of the fields of an aperture's size.
+/// Labels of the fields of an aperture's size.
 const SIZES: [Text; 2] = [texts::WIDTH, texts::HEIGHT];
 
-/// Where an edge has to move so that a size fits from it; `None` where it may stay.
+/// Returns the position to which an edge has to move so that a size fits from it \[m\]; `None` where it may stay.
 fn pushed(origin: f64, size: f64, extent: f64) -> Option<f64> {
     // To the millimetre, so that what is shown is what is meant.
     let most = ((extent - size) * 1000.0).floor() / 1000.0;
@@ -41,7 +41,7 @@ fn overlap(a: &ApertureKeys, b: &ApertureKeys) -> bool {
     a.surface == b.surface && axis(0) && axis(1)
 }
 
-/// The first aperture that the room is too small for, and what would be right.
+/// Returns a message on the first aperture that the room is too small for, with the valid values; `None` without one.
 pub fn beyond(scene: &SceneFile) -> Option<String> {
     scene.aperture.iter().enumerate().find_map(|(i, a)| {
         let extent = extent(&scene.room, a.surface);
@@ -55,7 +55,7 @@ pub fn beyond(scene: &SceneFile) -> Option<String> {
     })
 }
 
-/// What is wrong with the apertures, and what would be right.
+/// Returns a message on what is wrong with the apertures, with the valid values; `None` if nothing is.
 pub fn problem(scene: &SceneFile) -> Option<String> {
     if let Some(text) = beyond(scene) {
         return Some(text);
@@ -68,7 +68,8 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     None
 }
 
-/// A square metre of façade or roof (or what the room has) that no aperture uses yet, with the last one's system.
+/// Returns a new aperture with the last one's system: a square metre of façade or roof (or the size of the room's
+/// surface) that is still free; `None` without space.
 fn addition(scene: &SceneFile) -> Option<ApertureKeys> {
     let last = scene.aperture.last()?;
     for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
@@ -124,7 +125,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     }
 }
 
-/// Puts an aperture into another surface, inside its edges; true where it had to become smaller.
+/// Moves an aperture to another surface, inside its edges. Returns `true` where it had to become smaller.
 fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) -> bool {
     aperture.surface = surface;
     let extent = extent(room, surface);

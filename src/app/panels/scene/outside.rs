@@ -1,4 +1,4 @@
-//! What stands outside: boxes with name, place and size in metres, and what they send.
+//! Obstructions: boxes with name, place and size in metres, and their reflectance or luminance.
 
 use crate::app::command::Command;
 use crate::app::outside::{Act, Kind, ObstructionEffects, building, exact, name};
@@ -12,19 +12,19 @@ use crate::texts::{Text, fixed, scene as texts};
 use egui::{CollapsingHeader, Label, RichText, TextEdit, Ui};
 use glam::DVec3;
 
-/// Farthest that a place is typed. \[m\]
+/// Maximum distance that can be typed. \[m\]
 const FAR: f64 = 1000.0;
-/// Least size of a box. \[m\]
+/// Minimum size of a box. \[m\]
 const LEAST: f64 = 0.01;
-/// What dragging a field by a point changes. \[m\]
+/// Change of a field per point of a drag. \[m\]
 const SPEED: f64 = 0.05;
-/// What a box sends where a luminance is asked for. \[cd/m²\]
+/// Luminance of a box when it is first set to a luminance. \[cd/m²\]
 const FIRST_LUMINANCE: f64 = 1000.0;
 
-/// Names that are longer together do not stand beside the section's. \[characters\]
+/// Maximum length of the names that stand beside the section's. \[characters\]
 const LONGEST: usize = 26;
 
-/// Folded, what there is.
+/// Returns the summary of the obstructions for the folded section.
 pub fn essence(scene: &SceneFile) -> String {
     let boxes: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
     let count = boxes.len();
@@ -39,7 +39,8 @@ pub fn essence(scene: &SceneFile) -> String {
     }
 }
 
-/// The first box that reaches into the room, and what would be right; else the first that does not rise above the ground.
+/// Returns a message on the first box that reaches into the room, else on the first that does not rise above the
+/// ground, with the valid values; `None` without one.
 pub fn problem(scene: &SceneFile) -> Option<String> {
     let size = [scene.room.width, scene.room.depth, scene.room.height];
     let room = Solid::new(DVec3::ZERO, DVec3::from_array(size), 0.0);
@@ -56,7 +57,7 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     inside.or_else(|| scene.outside.iter().enumerate().find_map(below))
 }
 
-/// Changes of the apertures' illuminance without each obstruction, in words.
+/// Returns the changes of the apertures' illuminance without each obstruction as text.
 fn words(effects: &[Estimate]) -> Vec<String> {
     let words = |effect: &Estimate| {
         let sign = if effect.value > 0.0 { "+" } else { "" };
@@ -138,7 +139,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffec
     }
 }
 
-/// A length that keeps its place on the other side: from `low` upwards, or from `high` downwards.
+/// Draws a length that keeps its place on the other side: from `low` upwards, or from `high` downwards.
 fn length(ui: &mut Ui, label: Text, low: &mut f64, high: &mut f64, keeps_high: bool) {
     let mut size = *high - *low;
     if number_by(ui, (label.get(), " m"), &mut size, LEAST..=FAR, 2, SPEED) {

@@ -1,4 +1,4 @@
-//! The place: a city from the list, coordinates, or latitude, longitude, clock and elevation by hand.
+//! The place: a city from the list, coordinates, or latitude, longitude, clock and elevation as typed numbers.
 
 use super::summer_time;
 use crate::app::panels::fields::{number, optional, select_all};
@@ -12,17 +12,17 @@ use crate::texts::{decimal, fixed, scene as texts};
 use egui::accesskit::Role;
 use egui::{Align, Button, Key, Label, Layout, Modifiers, RichText, TextEdit, Ui, WidgetInfo};
 
-/// Cities that are listed at once.
+/// Maximum number of cities listed at once.
 const MOST: usize = 8;
 
-/// What the search field holds.
+/// Content of the search field, and the marked row.
 #[derive(Debug, Clone, Default)]
 struct Typed {
     text: String,
     row: usize,
 }
 
-/// A site that can be chosen.
+/// Site that can be chosen.
 struct Choice {
     words: String,
     where_: String,
@@ -34,7 +34,7 @@ struct Choice {
     elevation: Option<f64>,
 }
 
-/// Hours ahead of UTC in words: `UTC+5.75`.
+/// Returns the UTC offset \[h\] as text: `UTC+5.75`.
 fn clock_words(utc_offset: f64) -> String {
     if utc_offset == 0.0 { "UTC".to_owned() } else { decimal(format!("UTC{utc_offset:+}")) }
 }
@@ -60,7 +60,7 @@ fn of_city(city: &City) -> Choice {
     }
 }
 
-/// A place by coordinates keeps the clock of the city that is nearest, and its elevation where it lies in it.
+/// Returns a place by coordinates, with the clock of the nearest city, and its elevation where the place lies in it.
 fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
     let (city, distance) = nearest(latitude, longitude)?;
     let elevation = city_at(latitude, longitude).and_then(|city| city.elevation);
@@ -80,7 +80,7 @@ fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
     })
 }
 
-/// What answers to the text, how many do, and what is wrong with it.
+/// Returns the sites that match a text, their number, and an error message.
 fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
     match read_coordinates(text) {
         Some(Ok(place)) => {
@@ -118,7 +118,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     number(ui, texts::ELEVATION, " m", &mut scene.site.elevation, LOWEST..=HIGHEST, 0);
 }
 
-/// The search field with its list; what was chosen.
+/// Draws the search field with its list. Returns the site that was chosen.
 fn find(ui: &mut Ui) -> Option<Choice> {
     let key = ui.make_persistent_id("find a place");
     let id = key.with("field");
@@ -172,7 +172,7 @@ fn find(ui: &mut Ui) -> Option<Choice> {
     chosen
 }
 
-/// A row of the list; true where it was clicked.
+/// Draws a row of the list. Returns `true` where it was clicked.
 fn choice_ui(ui: &mut Ui, choice: &Choice, marked: bool) -> bool {
     let height = ui.spacing().interact_size.y;
     let size = egui::vec2(ui.available_width(), height);

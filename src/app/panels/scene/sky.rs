@@ -1,4 +1,4 @@
-//! The sky: its model, and where its illuminances come from. They are shown whoever gives them.
+//! The sky: its model, and the source of its illuminances. They are shown whatever their source.
 
 use crate::app::moment;
 use crate::app::panels::fields::{figure, lines, number, optional};
@@ -11,7 +11,7 @@ use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illum
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{ComboBox, TextEdit, Ui};
 
-/// CIE general sky types in the standard's order. ISO 15469, table 1.
+/// Names of the CIE general sky types in the standard's order. ISO 15469, table 1.
 const CIE: [Text; 16] = [
     texts::CIE_1,
     texts::CIE_2,
@@ -31,7 +31,7 @@ const CIE: [Text; 16] = [
     texts::CIE_16,
 ];
 
-/// What an entry of the list is called, and what it means.
+/// Returns label and tooltip of a source of the illuminances.
 const fn words(by: IlluminanceKey) -> (Text, Text) {
     match by {
         IlluminanceKey::ClearSky => (texts::FOLLOW_TURBIDITY, texts::FOLLOW_TURBIDITY_TIP),
@@ -40,7 +40,7 @@ const fn words(by: IlluminanceKey) -> (Text, Text) {
     }
 }
 
-/// What a model is called in the list.
+/// Returns the name of a model in the list.
 const fn model_word(model: SkyModelKey) -> Text {
     match model {
         SkyModelKey::Cie => texts::MODEL_CIE,
@@ -51,7 +51,8 @@ const fn model_word(model: SkyModelKey) -> Text {
     }
 }
 
-/// Why the figures of a sky cannot be with a sun that stands as low as it does; `None` where they can.
+/// Returns the reason why the figures of a sky are impossible with a sun at its low altitude; `None` where they are
+/// possible.
 pub fn low_sun(scene: &SceneFile) -> Option<Text> {
     // Weather brings its own sun: what is typed here has none.
     let (altitude, _) = moment::sun_of_site(scene).filter(|_| scene.sky.weather.is_none())?;
@@ -77,7 +78,7 @@ pub fn low_sun(scene: &SceneFile) -> Option<Text> {
     }
 }
 
-/// Draws the section. `low_sun`: what [`low_sun`] says.
+/// Draws the section. `low_sun`: result of [`low_sun`].
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<Text>) {
     let width = ui.available_width() - 8.0;
     model(ui, &mut scene.sky, width);
@@ -121,12 +122,12 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<Text>) {
     }
 }
 
-/// Is it a sky whose illuminances turbidity changes?
+/// Whether turbidity changes the illuminances of a sky.
 fn clear(sky: &SkyKeys) -> bool {
     sky.model == SkyModelKey::Cie && Cover::of_cie_type(sky.cie_type.unwrap_or(16)) == Cover::Clear
 }
 
-/// Where the figures come from, in words.
+/// Returns the source of the illuminances as text.
 fn origin(light: &Illuminances) -> String {
     if light.is_night() {
         return texts::NIGHT.into();
@@ -193,7 +194,7 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
     }
 }
 
-/// Keys that belong to one model alone are taken out with it.
+/// Sets a sky to a model, and removes keys that belong to one model alone.
 fn choose_model(sky: &mut SkyKeys, model: SkyModelKey) {
     sky.model = model;
     sky.cie_type = (model == SkyModelKey::Cie).then_some(12);

@@ -1,4 +1,4 @@
-//! The skyline: of even height, or by compass bearing.
+//! The skyline: of uniform elevation, or by compass bearing.
 
 use crate::app::panels::fields::number;
 use crate::app::typing::read_number;
@@ -6,10 +6,10 @@ use crate::study::scene_file::{ObstructionKeys, SceneFile, SkylineKeys};
 use crate::texts::scene as texts;
 use egui::{DragValue, Ui};
 
-/// Most points that the panel adds.
+/// Maximum number of points that the panel adds.
 const MOST: usize = 72;
 
-/// Draws its fields.
+/// Draws the fields of the skyline.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     let sky = &mut scene.sky;
     let mut even = sky.skyline.is_none();
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     }
 }
 
-/// A row for each point.
+/// Draws a row for each point.
 fn by_bearing(ui: &mut Ui, keys: &mut SkylineKeys) {
     let several = keys.altitudes.len() > 1;
     let mut gone = None;
@@ -70,7 +70,7 @@ fn by_bearing(ui: &mut Ui, keys: &mut SkylineKeys) {
     number(ui, texts::SKYLINE_LUMINANCE, " cd/m²", &mut keys.luminance, 0.0..=20_000.0, 0);
 }
 
-/// A point in the middle of the widest gap, on the line that is there.
+/// Returns a point in the middle of the widest gap, on the existing line.
 fn between(knots: &[[f64; 2]]) -> [f64; 2] {
     let mut sorted = knots.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));

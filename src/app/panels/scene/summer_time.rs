@@ -1,4 +1,4 @@
-//! When the clock is an hour ahead of standard time.
+//! Summer time: the rule by which the clock is an hour ahead of standard time.
 
 use crate::app::clock;
 use crate::app::panels::fields::{row, typed};
@@ -20,13 +20,13 @@ const fn word(key: DstKey) -> Text {
     }
 }
 
-/// Rules of the list; the days are those of the European Union in 2026 until others are typed.
+/// Returns the rules of the list; the days are those of the European Union in 2026 until others are typed.
 fn choices() -> [DstKey; 7] {
     let days = DstKey::days(date(2026, 3, 29), date(2026, 10, 25));
     [DstKey::None, DstKey::Eu, DstKey::Us, DstKey::Australia, DstKey::NewZealand, DstKey::Chile, days]
 }
 
-/// Draws its fields.
+/// Draws the fields of summer time.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     let key = &mut scene.site.dst;
     let choice = row(ui, texts::SUMMER_TIME.get(), |ui| {

@@ -1,4 +1,5 @@
-//! Weather and year: which weather, its calendar to pick an hour from, and what a year is asked with.
+//! Weather and year: the choice of the weather, its calendar to pick an hour from, and the settings of an annual
+//! simulation.
 
 use crate::app::command::Command;
 use crate::app::panels::fields::{lines, number, typed};
@@ -18,20 +19,20 @@ use crate::study::year_keys::{DaysKey, LampControlKey, YearKeys};
 use crate::texts::{Text, fixed, one_line, year as texts};
 use egui::{ComboBox, Label, RichText, Ui};
 
-/// The weather as it was read, and how it is looked at.
+/// The weather as it was read, and its view.
 pub struct Weather<'a> {
-    /// What was read.
+    /// Calendar of the weather as it was read.
     pub calendar: &'a Shown<Calendar>,
-    /// How it is looked at.
+    /// State of the calendar's view.
     pub view: &'a mut calendar::State,
 }
 
-/// The section's essence while it is folded.
+/// Returns the summary for the folded section.
 pub fn essence(scene: &SceneFile) -> String {
     weather_of(scene).map_or_else(|| texts::NO_WEATHER.into(), short_name)
 }
 
-/// What is wrong with the weather; of a sky's own weather the sky's section says it.
+/// Returns the error of the weather; the error of a sky's own weather is shown in the sky's section.
 pub fn problem(scene: &SceneFile, weather: &Weather<'_>) -> Option<String> {
     weather.calendar.error.clone().filter(|_| scene.sky.weather.is_none() && scene.year.is_some())
 }
@@ -116,7 +117,8 @@ fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, command
     }
 }
 
-/// A scene that states another place than its weather has: what counts, and a way to agree.
+/// Draws a warning and a button that adopts the weather's place, for a scene that states another place than its
+/// weather.
 fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
     let place = coordinates(station.latitude, station.longitude);
     let name = if station.name.is_empty() { place } else { one_line(&station.name).into() };
@@ -131,7 +133,7 @@ fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
     }
 }
 
-/// What a year is asked with; eyes and zones beyond the usual stand in the scene's file.
+/// Draws the settings of an annual simulation; observers and zones beyond the default are edited in the scene's file.
 fn year(ui: &mut Ui, scene: &SceneFile, keys: &mut YearKeys) {
     ui.separator();
     let before = keys.hours;

@@ -1,4 +1,4 @@
-//! Date and time: typed, by sliders, or the sun by its angles. Every line stands where it stood, wherever the sun is.
+//! Date and time: typed, by sliders, or the sun by its angles. Every line keeps its place, wherever the sun is.
 
 use crate::app::clock;
 use crate::app::moment;
@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 use std::path::Path;
 
-/// Steps of the time's slider. \[min\]
+/// Step of the time's slider. \[min\]
 const STEP: i32 = 5;
 
 /// Draws the section.
@@ -59,7 +59,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     sun(ui, scene, base);
 }
 
-/// The day of a scene, as what sunrise and sunset hang on.
+/// Day of a scene, as key of sunrise and sunset.
 #[derive(Clone, Copy)]
 struct Day<'a>(&'a SceneFile, &'a Path);
 
@@ -72,7 +72,7 @@ impl Hash for Day<'_> {
     }
 }
 
-/// Sunrise and sunset, sought once a day: finding them costs more than the rest of the panel.
+/// Cache of sunrise and sunset, computed once per day: finding them costs more than the rest of the panel.
 #[derive(Default)]
 struct SunHours;
 
@@ -86,7 +86,7 @@ fn sun_hours(ui: &Ui, scene: &SceneFile, base: &Path) -> Option<RiseSet> {
     ui.memory_mut(|memory| *memory.caches.cache::<FrameCache<Option<RiseSet>, SunHours>>().get(Day(scene, base)))
 }
 
-/// When the sun rises and sets, and where it stands.
+/// Draws sunrise and sunset, and the position of the sun.
 fn sun(ui: &mut Ui, scene: &SceneFile, base: &Path) {
     let day = match sun_hours(ui, scene, base).map(|hours| (hours.rise, hours.set)) {
         Some((Some(rise), Some(set))) => texts::rise_and_set(moment::clock(rise), moment::clock(set)),
@@ -100,7 +100,7 @@ fn sun(ui: &mut Ui, scene: &SceneFile, base: &Path) {
     lines(ui, &position(scene, base), weak, 1);
 }
 
-/// Where the sun stands, against horizon and façade.
+/// Returns the position of the sun relative to horizon and façade, as text.
 fn position(scene: &SceneFile, base: &Path) -> String {
     let Some((altitude, bearing)) = moment::sun(scene, base) else { return String::new() };
     let words = moment::height_words(altitude.to_degrees(), 0);
@@ -134,7 +134,7 @@ fn angles(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     }
 }
 
-/// Sunrise and sunset as ticks under the time's slider.
+/// Draws sunrise and sunset as ticks under the time's slider.
 fn sun_marks(ui: &Ui, scene: &SceneFile, base: &Path, rect: egui::Rect) {
     let Some(hours) = sun_hours(ui, scene, base) else { return };
     let colour = theme::palette(ui).sun;

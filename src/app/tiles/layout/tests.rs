@@ -1,4 +1,4 @@
-//! Layouts as values: read, joined, split, resized.
+//! Tests of layouts as values: read, joined, split, resized.
 
 use super::*;
 use crate::texts::Text;

@@ -1,4 +1,5 @@
-//! What leaves for one incidence as curves over the angle: in the plane of incidence, and across it.
+//! Section curves of the light that leaves for one incident direction, over the angle: in the plane of incidence and
+//! across it.
 
 use super::words::drawn;
 use crate::app::paint::colour_scale::ColourScale;
@@ -13,18 +14,18 @@ use crate::texts::{Text, tiles as say};
 use egui::{Rect, Ui};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Steps of the angle: half degrees.
+/// Number of steps of the angle on each side of the normal: half degrees.
 const STEPS: i32 = 180;
 
-/// The value at an angle off the normal in the plane of an azimuth of through-names; light that goes straight on has an
-/// angle above 0.
+/// Returns the value at an angle off the normal, in the plane of an azimuth of through directions. Angles of light that
+/// is transmitted undeviated are positive.
 fn value(indicatrix: &Indicatrix, phi: f64, angle: f64, weighted: bool) -> f64 {
     let phi = if angle < 0.0 { phi + PI } else { phi };
     let index = indicatrix.basis.index(Dir::from_theta_phi(angle.abs(), phi));
     index.map_or(0.0, |index| drawn(indicatrix.q[index], &indicatrix.basis.cell(index), weighted))
 }
 
-/// The curves: of a perpendicular incidence in the upright and in the level plane.
+/// Returns the section curves; for perpendicular incidence those of the vertical and the horizontal plane.
 fn curves(indicatrix: &Indicatrix, direction: Incident, scale: &ColourScale, weighted: bool) -> Plot {
     let oblique = direction.0.theta() > 0.01;
     let phi = if oblique { direction.0.phi() } else { FRAC_PI_2 };
@@ -46,7 +47,7 @@ fn curves(indicatrix: &Indicatrix, direction: Incident, scale: &ColourScale, wei
     }
 }
 
-/// Draws them.
+/// Draws the section curves.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! What the BTDF tile draws, and what may be asked of it.
+//! Input and actions of the BTDF tile.
 
 use crate::app::data_looks::{FormResult, SchemesResult};
 use crate::app::incidence::Incidence;
@@ -7,62 +7,62 @@ use crate::compute::btdf::Btdf;
 use crate::compute::direction::Incident;
 use crate::study::data_form::DataForm;
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Transmission of light from outside; `None` while no product is chosen.
+    /// BTDF for light from outside; `None` while no product is chosen.
     pub btdf: Option<&'a Btdf>,
-    /// Product and state in words.
+    /// Product and state as text.
     pub name: &'a str,
-    /// The direction of incidence, the sun's or a chosen one.
+    /// Incident direction: the sun's or a chosen one.
     pub incidence: Incidence,
-    /// Where the sun is, if it is before the façade.
+    /// Direction of the sun; `None` if it is not in front of the façade.
     pub sun: Option<Incident>,
-    /// Scale forced from outside (comparison), lowest and highest q.
+    /// Scale forced from outside (comparison), lowest and highest q. \[1/sr\]
     pub range: Option<[f64; 2]>,
-    /// Changes with `btdf`.
+    /// Number that changes with `btdf`.
     pub revision: u64,
-    /// The data in another form than as measured, where that is looked at.
+    /// Data in another form than the original data, where that is shown.
     pub form: Option<FormInput<'a>>,
-    /// The map of schemes, where it is looked at.
+    /// Map of schemes, where it is shown.
     pub schemes: Option<SchemesInput<'a>>,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// A cell of the incident hemisphere was chosen: its centre.
+    /// Choice of a cell of the incident hemisphere, given by its centre.
     ChooseIncidence(Incident),
-    /// Couple the incidence to the sun, or not.
+    /// Coupling of the incident direction to the sun, or (`false`) its end.
     FollowSun(bool),
-    /// Show the data in this form.
+    /// Choice of the form in which the data are shown.
     Form(DataForm),
-    /// Show or hide the map of schemes.
+    /// Switching of the map of schemes on or off.
     Schemes,
 }
 
-/// Another form of the data than as measured.
+/// Input for another form of the data than the original data.
 #[derive(Debug, Clone, Copy)]
 pub struct FormInput<'a> {
-    /// Which.
+    /// Form of the data.
     pub form: DataForm,
-    /// The data in it; `None` until they are computed.
+    /// Data in `form`; `None` until they are computed.
     pub result: Option<&'a FormResult>,
-    /// A fault of the program.
+    /// Internal error, as text.
     pub error: Option<&'a str>,
-    /// Changes with `result`.
+    /// Number that changes with `result`.
     pub revision: u64,
 }
 
-/// The map of schemes.
+/// Input for the map of schemes.
 #[derive(Debug, Clone, Copy)]
 pub struct SchemesInput<'a> {
-    /// The triangles; `None` until they are there.
+    /// Triangles of the map; `None` until they are computed.
     pub result: Option<&'a SchemesResult>,
-    /// A fault of the program.
+    /// Internal error, as text.
     pub error: Option<&'a str>,
-    /// Changes with `result`.
+    /// Number that changes with `result`.
     pub revision: u64,
 }

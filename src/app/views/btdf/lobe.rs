@@ -1,4 +1,5 @@
-//! What leaves for one incidence as a body: its radius in every direction is the value, linear or by its logarithm.
+//! 3D polar surface of the light that leaves for one incident direction: the radius is the value, linear or
+//! logarithmic.
 
 use super::place::Place;
 use super::words::{drawn, leaving_text};
@@ -15,17 +16,17 @@ use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Steps of the polar angle and of the azimuth.
+/// Number of steps of the polar angle and of the azimuth.
 const STEPS: [usize; 2] = [48, 96];
-/// From the side, a little from outside and above.
+/// Camera at a first start: from the side, a little from outside and above.
 const FIRST: Camera = Camera::from(-0.45, 0.3);
-/// A node so near to the cursor is meant. \[points\]
+/// Distance within which the cursor selects a node. \[points\]
 const REACH: f32 = 14.0;
 
-/// Data and incidence, times the cosine, scale.
+/// Key of the body: data and incident direction, weighting by the cosine, scale.
 type BodyKey = ((u64, [u64; 3]), bool, ColourScale);
 
-/// What only this picture knows.
+/// State of this picture between frames.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
@@ -38,33 +39,33 @@ impl Default for State {
     }
 }
 
-/// What is drawn.
+/// Input of the picture.
 pub(super) struct Input<'a> {
-    /// What leaves.
+    /// Light that leaves.
     pub indicatrix: &'a Indicatrix,
-    /// Where light comes from.
+    /// Incident direction.
     pub direction: Incident,
-    /// What of it goes straight on.
+    /// Regular transmittance for this incident direction.
     pub regular: f64,
-    /// Of radius and colours.
+    /// Scale of radius and colours.
     pub scale: &'a ColourScale,
-    /// q·cosθ instead of q.
+    /// Whether q·cosθ is drawn instead of q.
     pub weighted: bool,
-    /// Changes with the data and with the incidence.
+    /// Number and direction that change with the data and with the incident direction.
     pub key: (u64, [u64; 3]),
 }
 
-/// A node of the grid as a through-name.
+/// Returns the through direction of a node of the grid.
 fn node(row: usize, column: usize) -> Dir<Facade> {
     Dir::from_theta_phi(FRAC_PI_2 * row as f64 / STEPS[0] as f64, TAU * column as f64 / STEPS[1] as f64)
 }
 
-/// Where light goes that a through-name names, in the room: x along the façade, y into the room, z up.
+/// Returns the emergent direction of a through direction in the room frame: x along the façade, y into the room, z up.
 fn into_room(through: Dir<Facade>) -> DVec3 {
     Surface::Facade.room_from_facade(-through.vector())
 }
 
-/// The value at a through-name: that of its cell.
+/// Returns the value of a through direction: that of its cell.
 fn value(input: &Input<'_>, through: Dir<Facade>) -> f64 {
     let Indicatrix { basis, q } = input.indicatrix;
     basis.index(through).map_or(0.0, |index| drawn(q[index], &basis.cell(index), input.weighted))
@@ -79,14 +80,14 @@ fn make(input: &Input<'_>) -> Body {
     })
 }
 
-/// A line of points on a unit circle, as far as it is before the eye.
+/// Draws an arc of a unit circle, as far as it lies in front of the camera.
 fn arc(painter: &Painter, view: &View, at: impl Fn(f64) -> DVec3, ends: [f64; 2], stroke: Stroke) {
     let angle = |k: u32| ends[0] + (ends[1] - ends[0]) * f64::from(k) / 48.0;
     let places: Vec<Pos2> = (0..=48).filter_map(|k| Some(view.screen(at(angle(k)))?.0)).collect();
     painter.add(Shape::line(places, stroke));
 }
 
-/// The façade's plane, the level and the upright plane of the room, with their names.
+/// Draws the façade's plane, the horizontal and the vertical plane of the room, with their names.
 fn axes(painter: &Painter, view: &View, palette: &Palette) {
     let stroke = Stroke::new(1.0, palette.outline);
     arc(painter, view, |a| DVec3::new(a.cos(), 0.0, a.sin()), [0.0, TAU], stroke);
@@ -100,7 +101,7 @@ fn axes(painter: &Painter, view: &View, palette: &Palette) {
     }
 }
 
-/// Draws it: words and value of what is under the cursor.
+/// Draws the surface. Returns text and value for the node under the cursor.
 pub(super) fn show(ui: &mut Ui, place: &Place, input: &Input<'_>, state: &mut State) -> (Option<Foot>, Option<f64>) {
     let palette = Palette::of(ui.visuals());
     let bottom = place.legend.map_or(place.rect.bottom(), |legend| legend.top());

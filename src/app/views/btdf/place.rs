@@ -1,4 +1,4 @@
-//! Where the two hemispheres stand in a tile, and what is written round them.
+//! Layout of the two hemispheres in a tile, and their captions.
 
 use crate::app::paint::colour_scale::LEGEND_HEIGHT;
 use crate::app::paint::hemisphere::{Disk, Projection};
@@ -6,23 +6,23 @@ use crate::app::paint::palette::Palette;
 use crate::texts::tiles as say;
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-/// Where one of the two hemispheres is drawn.
+/// Place of one of the two hemispheres in the tile.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
-    /// All that may be written on.
+    /// Area that may be written on.
     pub rect: Rect,
-    /// The hemisphere.
+    /// Disk of the hemisphere.
     pub disk: Disk,
-    /// Its legend, where it has one of its own.
+    /// Area of the hemisphere's legend; `None` if it has none.
     pub legend: Option<Rect>,
-    /// A corner for the caption; without one it goes under the disk.
+    /// Corner for the caption with its alignment; `None`: the caption stands under the disk.
     pub corner: Option<(Rect, Align2)>,
 }
 
-/// The incident and the emergent hemisphere: side by side in a wide tile, else on a diagonal, where two disks of one
-/// tile are largest and the free corners hold the captions.
+/// Returns the places of the incident and the emergent hemisphere: side by side in a wide tile, else on a diagonal,
+/// where two disks of one tile are largest and the free corners hold the captions.
 ///
-/// `stacked`: what leaves is no disk, and stands below the other in a narrow tile.
+/// `stacked`: the emergent side is not drawn as a disk, and stands below the other in a narrow tile.
 pub(super) fn places(rect: Rect, stacked: bool) -> [Place; 2] {
     if rect.width() > 1.6 * rect.height() || rect.width() > 440.0 {
         let (left, right) = rect.split_left_right_at_fraction(0.5);
@@ -72,7 +72,7 @@ pub(super) fn places(rect: Rect, stacked: bool) -> [Place; 2] {
     ]
 }
 
-/// Rim and caption: the long one where it fits.
+/// Draws rim and caption: the long caption where it fits.
 pub(super) fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2], palette: &Palette) {
     let Some((corner, align)) = place.corner else {
         let long = say::side_and(side, what);

@@ -1,4 +1,5 @@
-//! The map of schemes on the incident side: what is done within each triangle of the data's directions, and why.
+//! The map of schemes on the incident side: the interpolation within each triangle of the data's directions, and its
+//! reason.
 
 use super::input::{Input, SchemesInput};
 use crate::app::data_looks::NoSchemes;
@@ -13,9 +14,9 @@ use crate::texts::{Text, tiles as say};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::DVec3;
 
-/// Parts of a triangle's edge: its sides are great circles.
+/// Number of parts of a triangle's edge, which is an arc of a great circle.
 const PARTS: usize = 4;
-/// Share of a triangle that is drawn: between them the ground is seen as a line.
+/// Share of a triangle's area that is drawn, so that the ground shows as a line between triangles.
 const DRAWN: f64 = 0.94;
 /// Height of a line of the legend. \[points\]
 const LINE: f32 = 16.0;
@@ -39,7 +40,7 @@ fn colour(way: Way) -> Color32 {
 }
 
 impl<'a> SchemesInput<'a> {
-    /// The triangles, once they are there.
+    /// Returns the triangles; `None` until they are computed.
     pub(super) fn triangles(&self) -> Option<&'a [Triangle]> {
         self.result?.made.as_deref().ok()
     }
@@ -61,14 +62,15 @@ impl<'a> SchemesInput<'a> {
         }
     }
 
-    /// Why the triangle under the pointer is what it is; without a pointer nothing, or why there is no map.
+    /// Returns the reason for the scheme of the triangle under the pointer; without a map the reason why there is none.
+    /// `None` if there are triangles but the pointer is in none of them.
     pub(super) fn told(&self, at: Option<Pos2>, disk: &Disk, projection: Projection) -> Option<Foot> {
         let Some(list) = self.triangles() else { return Some(Foot::from(self.missing())) };
         let d = Side::Incident.through_name(projection, disk.disk(at?))?;
         Some(self.why(list.iter().find(|one| holds(one, d.vector()))?))
     }
 
-    /// One sentence with the figures that decide.
+    /// Returns the reason for the scheme of a triangle in one sentence, with the figures that decide.
     fn why(&self, one: &Triangle) -> Foot {
         let percent = |share: f64| number(100.0 * share, 2);
         let own = self.asked();
@@ -87,14 +89,14 @@ impl<'a> SchemesInput<'a> {
     }
 }
 
-/// Is a direction in a triangle of great circles?
+/// Whether a direction lies in a triangle of great circles.
 fn holds(one: &Triangle, d: DVec3) -> bool {
     let [a, b, c] = one.corners;
     let sides = [a.cross(b).dot(d), b.cross(c).dot(d), c.cross(a).dot(d)];
     (sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)) && (a + b + c).dot(d) > 0.0
 }
 
-/// All triangles in the colours of what is done in them.
+/// Returns all triangles, in the colours of their schemes.
 pub(super) fn mesh(disk: &Disk, projection: Projection, list: &[Triangle], input: &SchemesInput<'_>) -> Mesh {
     let mut mesh = Mesh::default();
     for one in list {
@@ -124,7 +126,7 @@ pub(super) fn mesh(disk: &Disk, projection: Projection, list: &[Triangle], input
     mesh
 }
 
-/// The names of the colours that occur, in as many lines as they need.
+/// Draws the names of the colours that occur, on as many lines as they need.
 pub(super) fn legend(ui: &Ui, rect: Rect, align: Align2, input: &Input<'_>, palette: &Palette) {
     let Some(schemes) = &input.schemes else { return };
     let Some(list) = schemes.triangles() else { return };

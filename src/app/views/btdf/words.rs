@@ -1,4 +1,4 @@
-//! The line under the hemispheres: which incidence is shown, and how much of it gets through.
+//! The line under the hemispheres: which incident direction is shown, and its transmittance.
 
 use crate::app::incidence::{Incidence, direction_text};
 use crate::app::paint::tile::Foot;
@@ -8,13 +8,13 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::{degrees, number};
 use crate::texts::tiles as say;
 
-/// The incidence under the pointer, which a click would choose.
+/// Returns the text for the incident direction under the pointer, which a click would choose.
 pub(super) fn pointed_text(d: Incident, tau: f64) -> Foot {
     let (angles, tau) = (direction_text(d.0), number(tau, 3));
     Foot::from([say::incidence_tau(&angles, &tau), format!("{angles} · τ {tau}"), format!("τ {tau}")])
 }
 
-/// "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)", and shorter.
+/// Returns "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)", and shorter wordings.
 pub(super) fn selection_text(btdf: &Btdf, incidence: &Incidence) -> Foot {
     let incident = incidence.direction;
     let tau = btdf.tau(incident);
@@ -36,7 +36,8 @@ pub(super) fn selection_text(btdf: &Btdf, incidence: &Incidence) -> Foot {
     ])
 }
 
-/// Which direction the data shown belong to, where they are of single directions and another one is chosen.
+/// Returns the direction that the data shown belong to, if the data are of single directions and another one is chosen;
+/// else an empty text.
 fn measured_at(btdf: &Btdf, incident: Incident) -> String {
     let Some(Scattered::Directions(data)) = &btdf.scattered else { return String::new() };
     let Some(own) = data.standing_for(incident.0).map(|index| data.incident()[index].0) else { return String::new() };
@@ -46,12 +47,12 @@ fn measured_at(btdf: &Btdf, incident: Incident) -> String {
     say::data_of(direction_text(own))
 }
 
-/// Value drawn for a cell: q, or q times the cell's mean cosine.
+/// Returns the value drawn for a cell: q, or q times the cell's mean cosine.
 pub(super) fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
     if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
 }
 
-/// What leaves into a direction that is given by its through-name.
+/// Returns the text for an emergent direction, given by its through direction, and its value.
 pub(super) fn leaving_text(through: Dir<Facade>, value: f64, weighted: bool) -> Foot {
     let leaving = Emergent::from_through_name(through);
     let (theta, phi) = (degrees(through.theta()), degrees(leaving.0.phi()));

@@ -1,4 +1,4 @@
-//! The tile before anything is ranked: what it would do, and the button that does it.
+//! The ranking tile before anything is ranked: what it would do, and the button that starts it.
 
 use super::input::{Action, Input};
 use super::objectives::range;
@@ -34,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
     });
 }
 
-/// How far the computation is, and a button that stops it.
+/// Draws the progress of the computation, and a button that stops it.
 pub(super) fn progress(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     let Some(running) = &input.running else { return };
     ui.horizontal(|ui| {

@@ -1,106 +1,106 @@
-//! What the tile draws, and what it is asked for.
+//! Input and actions of the ranking tile.
 
 use crate::app::paint::tile::Status;
 use crate::study::rank::{Look, Reason, Shortlist};
 use crate::study::rank_keys::ObjectiveKeys;
 use std::path::Path;
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// Rank, or go on, or rank anew.
+    /// Request to rank, to continue, or to rank again.
     Rank,
-    /// Stop it.
+    /// Request to stop the ranking.
     Stop,
-    /// Look at something else of it.
+    /// New settings of the view.
     Look(Box<Look>),
-    /// Other objectives; `true`: one more or one less, not only other numbers.
+    /// New objectives; `true`: one more or one less, not only other numbers.
     Objectives(Vec<ObjectiveKeys>, bool),
-    /// This product (by its key) into the room.
+    /// Choice of this product (by its key) as the system of the room.
     IntoRoom(String),
-    /// This product (by its key) into the comparison's tray.
+    /// Addition of this product (by its key) to the comparison.
     Compare(String),
 }
 
-/// A figure that may become an objective.
+/// Figure that may become an objective.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offer {
-    /// The objective as it begins.
+    /// The objective with its first settings.
     pub keys: ObjectiveKeys,
-    /// What it is called.
+    /// Name of the figure.
     pub name: String,
-    /// Is it known of all products already?
+    /// Whether the figure is known for all products already.
     pub known: bool,
 }
 
-/// Products that are being computed.
+/// Progress of products that are being computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Running {
-    /// By data on their cells, beams to come?
+    /// Whether the products are computed from patch-averaged data first, with sharp beams to follow.
     pub coarse: bool,
-    /// How many are done.
+    /// Number of products that are done.
     pub done: usize,
-    /// Of how many.
+    /// Number of all products to compute.
     pub all: usize,
-    /// Time that the others will take, as far as can be told. \[s\]
+    /// Estimated time for the remaining products; `None` if it cannot be estimated. \[s\]
     pub left: Option<f64>,
 }
 
 impl Running {
-    /// Share done.
+    /// Returns the share that is done, 0–1.
     pub fn share(&self) -> f32 {
         self.done as f32 / self.all.max(1) as f32
     }
 }
 
-/// Why there is something to compute.
+/// Reason to compute something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Due {
-    /// There is nothing.
+    /// No reason: nothing is to compute.
     #[default]
     Nothing,
-    /// Room, weather, catalogue or search are others than those of the figures.
+    /// Room, weather, catalogue or search have changed since the figures were computed.
     Changed,
-    /// So many products were not reached.
+    /// Number of products that were not computed yet.
     Unfinished(usize),
-    /// An objective's figure is not known.
+    /// An objective's figure is not known yet.
     Figure,
 }
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The products in order; `None` before there are any.
+    /// Ranked products; `None` before there are any.
     pub list: Option<&'a Shortlist>,
-    /// Why the chosen product stands where it does.
+    /// Reason for the rank of the selected product.
     pub reason: Option<&'a Reason>,
-    /// How it is looked at.
+    /// Settings of the view.
     pub look: &'a Look,
-    /// What counts.
+    /// Objectives of the ranking.
     pub objectives: &'a [ObjectiveKeys],
-    /// What else may.
+    /// Figures that may become objectives.
     pub offers: &'a [Offer],
-    /// The weather that the years are of.
+    /// Weather of the annual simulations.
     pub weather: &'a Path,
     /// The scene in a few words.
     pub name: &'a str,
     /// Key of the product that is in the room.
     pub in_room: &'a str,
-    /// How many products the catalogue's search finds, where it is one.
+    /// Number of products that the catalogue's search finds, where it is one.
     pub search: Option<usize>,
-    /// How many apertures the scene has.
+    /// Number of the scene's apertures.
     pub apertures: usize,
-    /// What is being computed.
+    /// Progress of the computation; `None` while none runs.
     pub running: Option<Running>,
-    /// What there is to compute.
+    /// Reason to compute something.
     pub due: Due,
-    /// Why there is nothing, or nothing newer.
+    /// Error because of which there is no ranking, or no newer one.
     pub error: Option<&'a str>,
-    /// How far it is to be trusted.
+    /// Status of the ranking: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// `3`, or `3–5` where the errors leave it open.
+/// Returns the rank as text: `3`, or `3–5` where ranks lie within the uncertainty.
 pub fn rank_words((first, last): (usize, usize)) -> String {
     if first == last { first.to_string() } else { format!("{first}–{last}") }
 }

@@ -1,4 +1,4 @@
-//! What counts: weight and anchors of every objective, more of them, and among which products is chosen.
+//! Objectives of the ranking: weight and scale limits of each, adding more, and the range of products that are ranked.
 
 use super::input::{Action, Input};
 use crate::app::paint::palette::Palette;
@@ -7,7 +7,7 @@ use crate::study::rank_keys::{BetterKey, ObjectiveKeys};
 use crate::texts::choose as say;
 use egui::{Checkbox, ComboBox, DragValue, Label, Rect, RichText, ScrollArea, Slider, SliderClamping, Ui, UiBuilder};
 
-/// A weight is at least and at most so much.
+/// Minimum and maximum weight of an objective.
 const WEIGHTS: [f64; 2] = [0.1, 5.0];
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) {
@@ -38,7 +38,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
     });
 }
 
-/// One objective in two lines; true where it is to go.
+/// Draws one objective on two lines. Returns `true` if it is to be removed.
 fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
     let (name, unit) = figure_words(&one.figure);
     let mut goes = false;
@@ -61,7 +61,7 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
         let scale = if unit == "%" { 100.0 } else { 1.0 };
         let suffix = if unit == "%" { " %" } else { "" };
         let speed = (0.01 * scale * (one.worst - one.best).abs()).max(1e-3);
-        // An anchor never comes to the other's side.
+        // A scale limit never passes the other one.
         let apart = 0.01 * (one.worst - one.best).abs().max(1e-6);
         let (low, high) = match one.better {
             BetterKey::Less => (f64::NEG_INFINITY..=one.worst - apart, one.best + apart..=f64::INFINITY),
@@ -104,7 +104,7 @@ fn more(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     combo.response.on_hover_text(say::ADD_OBJECTIVE_TIP).accessible_name(say::ADD_OBJECTIVE.get());
 }
 
-/// Among which products, and for which aperture.
+/// Draws the choice of the products that are ranked, and of the aperture.
 pub(super) fn range(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     let mut look = Look::clone(input.look);
     ui.horizontal_wrapped(|ui| {

@@ -1,4 +1,4 @@
-//! Products in rows: rank, name, worth as a bar with its error, every objective with a bar of what it is worth.
+//! Products in rows: rank, name, score as a bar with its error, and every objective with a bar of its score.
 
 use super::input::{Action, Input, rank_words};
 use super::words;
@@ -15,20 +15,23 @@ use std::sync::Arc;
 
 /// Height of a row. \[points\]
 const ROW: f32 = 24.0;
-/// Width of the rank, of the bar of worth, of an objective; the least of a name. \[points\]
+/// Width of the column of ranks. \[points\]
 const RANK: f32 = 48.0;
+/// Width of the column of scores. \[points\]
 const WORTH: f32 = 96.0;
+/// Width of the column of an objective. \[points\]
 const FIGURE: f32 = 112.0;
+/// Minimum width of the column of names. \[points\]
 const NAME: f32 = 130.0;
 /// Space between columns. \[points\]
 const GAP: f32 = 8.0;
 
-/// Height of so many rows with their heads.
+/// Returns the height of `rows` rows with their heads. \[points\]
 pub(super) fn height(rows: usize) -> f32 {
     70.0 + rows as f32 * ROW
 }
 
-/// Where columns stand: as many objectives as there is room for.
+/// Horizontal positions of the columns, with as many objectives as there is room for. \[points\]
 struct Columns {
     rank: f32,
     name: [f32; 2],
@@ -52,7 +55,7 @@ impl Columns {
     }
 }
 
-/// Text in at most so many lines, which end in … where there is more.
+/// Returns text laid out on at most `rows` lines, which end in "…" where there is more.
 fn text(ui: &Ui, words: &str, colour: Color32, width: f32, rows: usize) -> Arc<Galley> {
     let mut job = LayoutJob::simple(words.to_owned(), FontId::proportional(13.0), colour, width);
     job.wrap = TextWrapping { max_width: width.max(1.0), max_rows: rows, ..TextWrapping::default() };
@@ -115,7 +118,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
     }
 }
 
-/// Names of the columns, each of which orders the rows; where they end.
+/// Draws the names of the columns; a click on one sorts the rows. Returns the lower edge of the names.
 fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> f32 {
     let palette = Palette::of(ui.visuals());
     let mut heads = vec![
@@ -146,7 +149,7 @@ fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Sh
     let height = galleys.iter().map(|galley| galley.size().y).fold(0.0, f32::max) + 4.0;
     for ((left, width, name, sort, tip), galley) in heads.into_iter().zip(galleys) {
         let cell = Rect::from_min_size(pos2(left, rect.top()), vec2(width, height));
-        // Rank and worth order alike: one of them takes the click.
+        // Rank and score sort alike: one of them takes the click.
         let id = ui.scope_id().with(("head", left as i32));
         let response = ui.interact(cell, id, Sense::click()).on_hover_text(tip);
         response.widget_info(|| WidgetInfo::labeled(Role::ColumnHeader, true, say::order_by(&name)));
@@ -161,7 +164,7 @@ fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Sh
     below + 2.0
 }
 
-/// Arrow keys walk, Enter takes: the row to go to.
+/// Moves by arrow keys, and chooses by Enter. Returns the row to scroll to.
 fn keys(ui: &Ui, focus: &Response, shown: &[&Entry], chosen: Option<usize>, out: &mut Vec<Action>) -> Option<usize> {
     if !focus.has_focus() || shown.is_empty() {
         return None;
@@ -184,7 +187,7 @@ fn keys(ui: &Ui, focus: &Response, shown: &[&Entry], chosen: Option<usize>, out:
     })
 }
 
-/// What stands before a name.
+/// Returns the signs before a product's name: Pareto front, approximate, in the room.
 fn marks(entry: &Entry, in_room: &str) -> String {
     let list = [
         (entry.place == Some(Place::Front), "◆ "),
@@ -194,7 +197,7 @@ fn marks(entry: &Entry, in_room: &str) -> String {
     list.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect()
 }
 
-/// All of a row in words.
+/// Returns a row as text.
 fn spoken(entry: &Entry) -> String {
     match &entry.excluded {
         Some(reason) => format!("{}: {}", entry.name, say::excluded_because(reason)),
@@ -271,7 +274,7 @@ fn row(
     response.on_hover_text(tip)
 }
 
-/// What a product is worth as a bar, its error as a whisker.
+/// Draws the score of a product as a bar, and its error as a whisker.
 fn bar(ui: &Ui, rect: Rect, [left, right]: [f32; 2], entry: &Entry, pale: bool, palette: &Palette) {
     let x = |share: f64| left + (right - left - 6.0) * share.clamp(0.0, 1.0) as f32;
     let place = Rect::from_x_y_ranges(left..=x(1.0), rect.top() + 6.0..=rect.bottom() - 6.0);

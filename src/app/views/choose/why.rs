@@ -1,4 +1,5 @@
-//! Of the chosen product: the ways into room and tray, and why it stands where it does, in parts that add up.
+//! The selected product of a ranking: buttons to set it in the room or compare it, and the reason for its rank in parts
+//! that add up.
 
 use super::input::{Action, Input};
 use super::words;
@@ -7,7 +8,7 @@ use crate::study::rank::{Entry, Look, Shortlist};
 use crate::texts::choose as say;
 use egui::{Button, ComboBox, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder};
 
-/// Less of what a product is worth is not worth a line.
+/// Minimum difference in score for which a term gets a line.
 const LEAST: f64 = 5e-4;
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
@@ -23,7 +24,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
     });
 }
 
-/// What is said of a product; `true`: in the weak colour.
+/// Returns the lines on a product; `true` marks those in the weak colour.
 fn said(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(String, bool)> {
     if let Some(reason) = &entry.excluded {
         return vec![(say::excluded_because(reason), false)];
@@ -41,7 +42,7 @@ fn said(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(String, bool
     all
 }
 
-/// As many whole lines as there is room for; all of them in the tip.
+/// Draws as many whole lines as there is room for, and all of them in the tooltip.
 fn lines(ui: &mut Ui, all: &[(String, bool)]) {
     let palette = Palette::of(ui.visuals());
     let full = ui.available_rect_before_wrap();

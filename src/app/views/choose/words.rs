@@ -1,4 +1,4 @@
-//! Figures of products in words.
+//! Figures of products as text.
 
 use super::input::{Due, Running, rank_words};
 use crate::compute::estimate::Estimate;
@@ -6,17 +6,17 @@ use crate::drawing::ticks::number;
 use crate::study::rank::{Entry, Reason, Shortlist, Term, figure_words};
 use crate::texts::{choose as say, fixed};
 
-/// Value and error, in % where it is a share; without the unit, which stands in the column's head.
+/// Returns value and error, in % for a share; without the unit, which stands in the column's head.
 pub(super) fn value(unit: &str, figure: Estimate) -> String {
     if unit == "%" {
-        // An error too small for the value's digits is no nought.
+        // An error too small for the value's digits is not shown as 0.
         format!("{} ± {} %", fixed(100.0 * figure.value, 1), number(100.0 * figure.error, 1))
     } else {
         format!("{} ± {}", number(figure.value, 3), number(figure.error, 1))
     }
 }
 
-/// A bare value with its unit.
+/// Returns a value without error, with its unit.
 fn bare(unit: &str, value: f64) -> String {
     if unit == "%" {
         format!("{} %", fixed(100.0 * value, 1))
@@ -29,12 +29,12 @@ fn signed(text: String, value: f64) -> String {
     if value > 0.0 { format!("+{text}") } else { text.replacen('-', "−", 1) }
 }
 
-/// What a product is worth.
+/// Returns the score of a product with its error, as text.
 pub(super) fn worth(entry: &Entry) -> String {
     say::worth(fixed(entry.worth.value, 3), fixed(entry.worth.error, 3))
 }
 
-/// The sentence over the terms.
+/// Returns the sentence above the terms: the difference in score from the other product.
 pub(super) fn head(list: &Shortlist, reason: &Reason) -> String {
     let other = &list.entries[reason.other].name;
     let worth = fixed(reason.worth.abs(), 3);
@@ -46,7 +46,7 @@ pub(super) fn head(list: &Shortlist, reason: &Reason) -> String {
     }
 }
 
-/// `+0.120 by Lighting energy: 4.1 against 9.3 kWh/m² (of it −3.2 in winter, no sun, rear)`.
+/// Returns a term as text: `+0.120 by Lighting energy: 4.1 against 9.3 kWh/m² (of it −3.2 in winter, no sun, rear)`.
 pub(super) fn term(list: &Shortlist, term: &Term) -> String {
     let (name, unit) = figure_words(&list.list.figures[term.objective]);
     let worth = signed(fixed(term.worth, 3), term.worth);
@@ -60,7 +60,7 @@ pub(super) fn term(list: &Shortlist, term: &Term) -> String {
     if parts.is_empty() { text } else { format!("{text} ({})", parts.join("; ")) }
 }
 
-/// How far it is: `34 of 113 products, 12 s left`.
+/// Returns the progress as text: `34 of 113 products, 12 s left`.
 pub(super) fn running(running: &Running) -> String {
     let all =
         if running.coarse { say::by_cells(running.done, running.all) } else { say::done(running.done, running.all) };
@@ -70,7 +70,7 @@ pub(super) fn running(running: &Running) -> String {
     }
 }
 
-/// The button that computes what is due, and why.
+/// Returns label and tooltip of the button that computes what is due.
 pub(super) fn due(due: Due) -> Option<(&'static str, String)> {
     match due {
         Due::Nothing => None,
@@ -80,7 +80,7 @@ pub(super) fn due(due: Due) -> Option<(&'static str, String)> {
     }
 }
 
-/// A product with rank, worth and all its figures in a line.
+/// Returns a product with rank, score and all its figures on one line.
 pub(super) fn entry(list: &Shortlist, entry: &Entry) -> String {
     let mut text = format!("{} · {} · {}", entry.name, say::rank_is(rank_words(entry.ranks)), worth(entry));
     for (key, figure) in list.list.figures.iter().zip(&entry.figures) {

@@ -1,29 +1,29 @@
 //! Editing the points of a control curve: dragged with the pointer, or with the keys while the chart has the keyboard.
 //!
 //! Profile angles snap to whole degrees and stay between their neighbours; values snap to the states' (with Shift held:
-//! to whole numbers). A double click on the line adds a point, a right click takes one out; beside the line drags and
-//! double clicks are the view's. Keys: `,` and `.` choose a
-//! point, arrows move it, Insert or + adds one after it, Delete takes it out.
+//! to whole numbers). A double click on the line adds a point, a right click removes one; beside the line drags and
+//! double clicks are the view's. Keys: `,` and `.` choose a point, arrows move it, Insert or + adds one after it,
+//! Delete removes it.
 
 use super::input::{Input, curve_at, extent};
 use crate::app::paint::plot::{Shown, screen};
 use egui::{EventFilter, Id, Key, Modifiers, Pos2, Ui};
 use egui_plot::PlotTransform;
 
-/// Pointers this near to a point mean it. \[points\]
+/// Distance within which the pointer selects a point. \[points\]
 const REACH: f32 = 10.0;
-/// Least distance between neighbouring points. \[°\]
+/// Minimum distance between neighbouring points. \[°\]
 const GAP: f64 = 1.0;
 
-/// The point that is chosen, and the one that is dragged.
+/// State of the editing: the point that is selected, and whether it is dragged.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Editing {
-    /// Marked in the picture, moved by the keys.
+    /// Index of the selected point, marked in the picture and moved by the keys.
     pub chosen: Option<usize>,
     dragged: bool,
 }
 
-/// Index of the curve's point near a place on the screen.
+/// Returns the index of the curve's point near a place on the screen.
 fn near(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> Option<usize> {
     let distance = |k: usize| screen(transform, curve[k]).distance(at);
     (0..curve.len()).filter(|&k| distance(k) <= REACH).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
@@ -41,7 +41,7 @@ fn on_line(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> bool {
     (top - REACH..=bottom + REACH).contains(&at.y)
 }
 
-/// Whether the pointer is on something of the curve, so that the view must stay where it is.
+/// Whether the pointer is on a part of the curve, so that the view must stay where it is.
 pub fn held(ui: &Ui, id: Id, input: &Input<'_>, editing: &Editing) -> bool {
     let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
     let before = Shown::transform_before(ui, id);
@@ -51,13 +51,13 @@ pub fn held(ui: &Ui, id: Id, input: &Input<'_>, editing: &Editing) -> bool {
     input.editable && (editing.dragged || on_curve)
 }
 
-/// The value of the nearest state.
+/// Returns the value of the nearest state.
 fn snapped(input: &Input<'_>, value: f64) -> f64 {
     let states = input.states.iter().map(|state| state.value);
     states.min_by(|a, b| (a - value).abs().total_cmp(&(b - value).abs())).unwrap_or(value)
 }
 
-/// A point at another place, kept between its neighbours and on the chart's axis.
+/// Returns the curve with a point at another place, kept between its neighbours and on the chart's axis.
 fn moved(curve: &[[f64; 2]], index: usize, [angle, value]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut curve = curve.to_vec();
     let low = if index > 0 { curve[index - 1][0] + GAP } else { 0.0_f64.min(curve[index][0]) };
@@ -66,7 +66,8 @@ fn moved(curve: &[[f64; 2]], index: usize, [angle, value]: [f64; 2]) -> Vec<[f64
     curve
 }
 
-/// With a point more, on the line at a profile angle where there is room for it; its place in the curve.
+/// Returns the curve with one more point, on the line at a profile angle \[°\], and the index of that point; `None` if
+/// there is no room for it.
 fn with_point(curve: &[[f64; 2]], angle: f64) -> Option<(Vec<[f64; 2]>, usize)> {
     let angle = angle.round();
     let value = curve_at(curve, angle)?;
@@ -79,7 +80,7 @@ fn with_point(curve: &[[f64; 2]], angle: f64) -> Option<(Vec<[f64; 2]>, usize)> 
     })
 }
 
-/// Without a point; a curve keeps one.
+/// Returns the curve with a point removed; `None` if it is the last one.
 fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
     (curve.len() > 1 && index < curve.len()).then(|| {
         let mut curve = curve.to_vec();
@@ -88,7 +89,7 @@ fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
     })
 }
 
-/// What the pointer and the keys make of the curve: the new one if it changed, and whether the click was meant for it.
+/// Applies pointer and keys to the curve. Returns the new curve if it changed, and whether the click was meant for it.
 pub fn edit(
     ui: &Ui,
     Shown { response, transform, .. }: &Shown,
@@ -146,15 +147,15 @@ pub fn edit(
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
         new = by_keys(ui, input, editing).or(new);
     }
-    // Snapping mostly gives the curve that was there: that is no edit, and costs neither a run nor a step of undo.
+    // Snapping mostly gives the same curve: that is not an edit, and costs neither a run nor a step of undo.
     (new.filter(|new| new != curve), taken)
 }
 
-/// What the keys of this frame make of the curve.
+/// Applies the keys of this frame to the curve. Returns the new curve.
 fn by_keys(ui: &Ui, input: &Input<'_>, editing: &mut Editing) -> Option<Vec<[f64; 2]>> {
     let curve = input.curve;
     let last = curve.len().checked_sub(1)?;
-    // Taken out of the input, so that nothing else obeys them too; with Shift as well, as + is typed on many keyboards.
+    // Removed from the input, so that nothing else obeys them too; with Shift as well, as + is typed on many keyboards.
     let pressed =
         |key: Key| ui.input_mut(|i| i.consume_key(Modifiers::NONE, key) || i.consume_key(Modifiers::SHIFT, key));
     // With no point chosen backwards starts at the last one, forwards at the first.

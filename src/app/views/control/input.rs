@@ -1,61 +1,61 @@
-//! What the control tile draws, and the curve as numbers.
+//! Input of the control tile, and the control curve as numbers.
 
 use crate::app::paint::tile::Status;
 
-/// A state of a moving product.
+/// State of a moving product.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StatePoint {
     /// Key in the dataset.
     pub key: String,
-    /// What is set, e.g. a slat angle in degrees.
+    /// Value that the state sets, e.g. a slat angle in degrees.
     pub value: f64,
 }
 
-/// The sun and the control at one time of today.
+/// Sun and control at one time of today.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TracePoint {
     /// Hour of the day.
     pub hour: f64,
-    /// Profile angle on the façade \[°\]; `None` while the sun is not before it.
+    /// Profile angle on the façade \[°\]; `None` while the sun is not in front of it.
     pub profile_angle: Option<f64>,
-    /// Index of the state that control chose.
+    /// Index of the state that the control chose.
     pub state: usize,
 }
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The product's states, by rising value; fewer than two: nothing moves.
+    /// The product's states, by rising value; with fewer than two nothing moves.
     pub states: &'a [StatePoint],
-    /// Why nothing moves, where nothing does.
+    /// Reason why nothing moves, shown with fewer than two states.
     pub still: &'a str,
-    /// What a state sets, with unit, e.g. "slat angle / °".
+    /// Quantity that a state sets, with unit, e.g. "slat angle / °".
     pub quantity: &'a str,
-    /// The rule: value [unit of the states] over profile angle \[°\], rising angle.
+    /// Control curve: value [unit of the states] over profile angle \[°\], rising angle.
     pub curve: &'a [[f64; 2]],
-    /// May its points be moved?
+    /// Whether the curve's points may be moved.
     pub editable: bool,
-    /// Product and rule in words.
+    /// Product and control mode as text.
     pub name: &'a str,
-    /// Today.
+    /// Sun and control at the times of today.
     pub today: &'a [TracePoint],
-    /// The profile angle now. \[°\]
+    /// Profile angle of the sun now. \[°\]
     pub profile_angle: Option<f64>,
-    /// The state now, index into `states`.
+    /// Current state, index into `states`.
     pub current: usize,
     /// State of every hour of the year (365 × 24, day by day), `None` at night; empty while not computed.
     pub year: &'a [Option<u16>],
-    /// What is to be said of the year, or why there is none; empty: nothing.
+    /// Remark on the year, or the reason why there is none; empty without either.
     pub remark: &'a str,
     /// Day of the year now, from 0, and hour, for the mark on the map.
     pub moment: Option<(usize, f64)>,
-    /// Changes with states, curve, trace and year.
+    /// Number that changes with states, curve, trace and year.
     pub revision: u64,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// Lowest and highest value of the states and the curve.
+/// Returns the lowest and highest value of the states and the curve, with a margin.
 pub fn extent(input: &Input<'_>) -> (f64, f64) {
     let values = input.states.iter().map(|s| s.value).chain(input.curve.iter().map(|p| p[1]));
     let (lo, hi) =
@@ -64,7 +64,7 @@ pub fn extent(input: &Input<'_>) -> (f64, f64) {
     (lo - margin, hi + margin)
 }
 
-/// The rule at a profile angle, piecewise linear; held beyond its ends.
+/// Returns the value of the curve at a profile angle \[°\]: piecewise linear, constant beyond its ends.
 pub fn curve_at(curve: &[[f64; 2]], psi: f64) -> Option<f64> {
     let (first, last) = (curve.first()?, curve.last()?);
     if psi <= first[0] {

@@ -1,4 +1,4 @@
-//! The light of an aperture as a body: its radius in every direction is the intensity, its true peak marked.
+//! The light of an aperture as a 3D body: its radius in every direction is the intensity, with its true peak marked.
 
 use super::scaling::{Scaling, towards};
 use crate::app::paint::body::Body;
@@ -17,14 +17,14 @@ use std::f64::consts::{PI, TAU};
 
 /// Step of γ and of C. \[°\]
 const STEP: u16 = 3;
-/// Steps of γ and of C.
+/// Numbers of steps of γ and of C.
 const STEPS: [usize; 2] = [180 / STEP as usize, 360 / STEP as usize];
-/// From the side, a little from above.
+/// Camera at a first start: from the side, a little from above.
 const FIRST: Camera = Camera::from(-0.45, 0.3);
-/// A node so near to the cursor is meant. \[points\]
+/// Distance within which the cursor selects a node. \[points\]
 const REACH: f32 = 14.0;
 
-/// What only this picture knows.
+/// State of this picture between frames.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
@@ -37,35 +37,35 @@ impl Default for State {
     }
 }
 
-/// What is drawn.
+/// Input of the picture.
 pub(super) struct Input<'a> {
-    /// The distribution.
+    /// Luminous intensity distribution.
     pub lid: &'a Lid,
-    /// Its largest intensities, once they are known.
+    /// Largest intensities of the distribution; `None` until they are computed.
     pub peaks: Option<&'a Peaks>,
-    /// Changes with `lid`.
+    /// Number that changes with `lid`.
     pub revision: u64,
-    /// How intensities are told.
+    /// Form in which intensities are stated.
     pub scaling: Scaling,
 }
 
-/// C and γ of a node. \[rad\]
+/// Returns C and γ of a node. \[rad\]
 fn angles(node: usize) -> (f64, f64) {
     (TAU * (node % STEPS[1]) as f64 / STEPS[1] as f64, PI * (node / STEPS[1]) as f64 / STEPS[0] as f64)
 }
 
-/// Where light goes, in the room: x along the façade, y into the room, z up.
+/// Returns an emergent direction in the room frame: x along the façade, y into the room, z up.
 fn into_room(surface: Surface, to: Emergent) -> DVec3 {
     surface.room_from_facade(to.0.vector())
 }
 
-/// Intensities over the largest of them.
+/// Intensities relative to the largest of them, as a body.
 #[derive(Debug, Clone)]
 struct Solid {
     body: Body,
-    /// Of every node. \[cd\]
+    /// Intensity of every node. \[cd\]
     values: Vec<f64>,
-    /// \[cd\]
+    /// Largest intensity of the nodes. \[cd\]
     largest: f64,
 }
 
@@ -85,7 +85,7 @@ impl Solid {
     }
 }
 
-/// Draws it; words on what is under the cursor.
+/// Draws the body. Returns text for the node under the cursor.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let response = ui.interact(rect, ui.scope_id().with("body"), Sense::click_and_drag());

@@ -1,4 +1,4 @@
-//! Planes, diffusers and units of the LID picture.
+//! Tests of planes, diffusers and units of the LID picture.
 
 use super::*;
 use crate::compute::lid::EmergentLuminance;

@@ -1,4 +1,5 @@
-//! Boxes outside moved and resized by hand: they keep out of the room and touch it where they are pushed against it.
+//! Obstructions moved and resized with the pointer: they stay outside the room and touch it where they are pushed
+//! against it.
 
 use super::input::Frame;
 use super::outside::{outline, room, solid};
@@ -7,12 +8,12 @@ use crate::study::scene_file::BoxKeys;
 use crate::texts::{Text, tiles as say};
 use egui::Pos2;
 
-/// Least size of a box. \[m\]
+/// Minimum size of a box. \[m\]
 const LEAST: f64 = 0.01;
-/// Lengths typed as decimals do not add up exactly. \[m\]
+/// Tolerance for lengths typed as decimals, which do not add up exactly. \[m\]
 const SLACK: f64 = 1e-6;
 
-/// What a face of a box is called, by the axis across it.
+/// Returns the name of a face of a box, by the axis across it.
 pub(super) const fn face_word(axis: usize, far: bool) -> Text {
     match (axis, far) {
         (0, false) => say::LEFT_EDGE,
@@ -24,12 +25,12 @@ pub(super) const fn face_word(axis: usize, far: bool) -> Text {
     }
 }
 
-/// Does a box stand as its axes do, seen from the side?
+/// Whether a box is parallel to the room's axes, as seen from the side.
 fn is_straight(keys: &BoxKeys) -> bool {
     keys.turn.rem_euclid(360.0) == 0.0
 }
 
-/// The faces that may be dragged in a picture: axis, the far one?, the middle on the screen.
+/// Returns the faces that may be dragged in a picture: axis, whether it is the far face, its middle on the screen.
 pub(super) fn faces(keys: &BoxKeys, frame: &Frame) -> Vec<(usize, bool, Pos2)> {
     let corners = outline(keys, frame.side);
     let middle = |a: usize, b: usize| {
@@ -52,7 +53,7 @@ pub(super) fn faces(keys: &BoxKeys, frame: &Frame) -> Vec<(usize, bool, Pos2)> {
     list
 }
 
-/// The way in the room's axes of a way along the depth and across it. \[m\]
+/// Returns a displacement in the room's axes, given along the depth and across it. \[m\]
 const fn in_room([depth, across]: [f64; 2], side: bool) -> [f64; 3] {
     if side { [0.0, depth, across] } else { [across, depth, 0.0] }
 }
@@ -61,8 +62,8 @@ fn is_outside(keys: &BoxKeys, size: [f64; 3]) -> bool {
     !solid(keys).overlaps(&room(size), SLACK)
 }
 
-/// How far a box lies beyond each wall of the room that it stands before, by axis and side: the first that is not
-/// negative is the one against which it is pushed.
+/// Returns the wall that a box stands in front of, as axis and side: the first wall beyond which the whole box lies.
+/// The box is pushed against it.
 fn stands_before(keys: &BoxKeys, size: [f64; 3]) -> Option<(usize, bool)> {
     let corners = solid(keys).corners();
     let least = |axis: usize| corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
@@ -75,7 +76,7 @@ fn stands_before(keys: &BoxKeys, size: [f64; 3]) -> Option<(usize, bool)> {
     )
 }
 
-/// A box moved by a way along the depth and across it; it stays against the wall that it would be pushed through.
+/// Returns a box moved along the depth and across it; it stays against the wall that it would be pushed through.
 pub(super) fn moved(keys: &BoxKeys, way: [f64; 2], step: f64, size: [f64; 3], side: bool) -> Option<BoxKeys> {
     let mut new = *keys;
     for (axis, way) in in_room(way, side).into_iter().enumerate() {
@@ -108,7 +109,7 @@ pub(super) fn moved(keys: &BoxKeys, way: [f64; 2], step: f64, size: [f64; 3], si
     is_outside(&new, size).then_some(new)
 }
 
-/// A box with one of its faces moved by a way along the depth and across it; the opposite one stays.
+/// Returns a box with one of its faces moved along the depth and across it; the opposite face stays.
 pub(super) fn resized(
     keys: &BoxKeys,
     (axis, far): (usize, bool),
@@ -138,7 +139,7 @@ pub(super) fn resized(
         }
         return is_outside(&new, size).then_some(new);
     }
-    // A turned box is turned about its middle, which moves by half of what it grows.
+    // A rotated box is rotated about its middle, which moves by half of what it grows.
     let length = snapped(high - low + if far { along } else { -along }, step).max(LEAST);
     let shift = 0.5 * (length - (high - low)) * if far { 1.0 } else { -1.0 };
     let shift = if axis == 0 { [cos * shift, sin * shift] } else { [-sin * shift, cos * shift] };

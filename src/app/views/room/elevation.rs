@@ -7,10 +7,10 @@ use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::Palette;
 use egui::{Rect, Stroke, StrokeKind, Ui, vec2};
 
-/// Height of the strip of colours that stands for the sensor plane. \[points\]
+/// Height of the strip of colours that represents the sensor plane. \[points\]
 const STRIP: f32 = 6.0;
 
-/// Draws it.
+/// Draws the section.
 pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, row: usize, scale: &ColourScale, palette: &Palette) {
     let painter = ui.painter();
     painter.rect_filled(frame.area, 0, palette.face);

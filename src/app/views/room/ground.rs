@@ -1,4 +1,5 @@
-//! The ground outside with the sun's shade on it, in section and perspective; without obstructions and storey there is none.
+//! The ground outside with the sun's shade on it, in section and perspective; there is none without obstructions and
+//! storey.
 
 use super::input::{Frame, Input};
 use super::outside;
@@ -17,17 +18,17 @@ const THICKNESS: f32 = 7.0;
 /// Shortest stretch of shade that is named. \[m\]
 const NAMED: f64 = 0.05;
 
-/// Position of a row of sensors along x; the middle of the room without rows. \[m\]
+/// Returns the position of a row of sensor points along x; the middle of the room without rows. \[m\]
 fn across(input: &Input<'_>, row: usize) -> f64 {
     (row as f64 + 0.5) / input.nx.max(1) as f64 * input.room[0]
 }
 
-/// Colour of the ground where nothing shades it.
+/// Returns the colour of the ground where nothing shades it.
 fn open(ground: &GroundShade, palette: &Palette) -> Color32 {
     if ground.is_sunny { palette.sunlit } else { palette.grid }
 }
 
-/// Returns which stretches of the ground in front of the façade lie in shade at `x` \[m\], in a sentence.
+/// Returns the stretches of the ground in front of the façade that lie in shade at `x` \[m\], as a sentence.
 pub(super) fn words(ground: &GroundShade, x: f64) -> String {
     if !ground.is_sunny {
         return say::GROUND_WITHOUT_SUN.into();
@@ -63,7 +64,7 @@ pub(super) fn section(ui: &Ui, frame: &Frame, input: &Input<'_>, row: usize, pal
     response.on_hover_text(text);
 }
 
-/// Rectangle round the room and what stands near it: from and to in x and y. \[m\]
+/// Returns the rectangle round the room and the obstructions near it: from and to in x and y. \[m\]
 fn limits(input: &Input<'_>) -> [[f64; 2]; 2] {
     let room = outside::room(input.room);
     let corners = outside::near(input).flat_map(|solid| solid.corners()).chain(room.corners());
@@ -72,8 +73,8 @@ fn limits(input: &Input<'_>) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| [low[axis] - reach, high[axis] + reach])
 }
 
-/// Draws the ground in perspective, as far as it lies round the room. Everything drawn later lies before it: the eye is above
-/// it, or it is left out.
+/// Draws the ground in perspective, as far as it lies round the room. Everything drawn later covers it: the viewpoint
+/// is above the ground, or the ground is left out.
 pub(super) fn perspective(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     let Some(ground) = input.ground.filter(|ground| view.eye.z > ground.height) else { return };
     let [[a, b], [c, d]] = limits(input);
@@ -98,7 +99,7 @@ pub(super) fn perspective(painter: &Painter, view: &View, input: &Input<'_>, pal
     show(&whole, Color32::TRANSPARENT, PathStroke::new(1.0, palette.outline));
 }
 
-/// Returns which stretches in front of the middle of the room lie in shade, in a sentence; `None` without ground.
+/// Returns the stretches in front of the middle of the room that lie in shade, as a sentence; `None` without ground.
 pub(super) fn words_of_middle(input: &Input<'_>) -> Option<String> {
     input.ground.map(|ground| words(ground, 0.5 * input.room[0]))
 }

@@ -1,4 +1,4 @@
-//! Windows, sensor plane and sensors moved by hand: by mouse or, with the keyboard on them, by arrow keys.
+//! Apertures, sensor plane and sensor points moved with the pointer or, with the keyboard on them, by arrow keys.
 
 use super::boxes;
 use super::input::{Action, Frame, Input, Opening};
@@ -12,29 +12,29 @@ use egui::{
     Align2, CursorIcon, EventFilter, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2,
 };
 
-/// Smallest edge of an aperture. \[m\]
+/// Minimum edge of an aperture. \[m\]
 const LEAST: f64 = 0.05;
-/// Half of the place round a handle where it can be taken. \[points\]
+/// Half of the size of the area round a handle where it can be grabbed. \[points\]
 const REACH: f32 = 6.0;
 
-/// What moves.
+/// Object that is moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Part {
-    /// An edge of an aperture along one of its axes; the far one?
+    /// Edge of an aperture along one of its axes; `far`: whether it is the far edge.
     Edge { opening: usize, axis: usize, far: bool },
-    /// An aperture as a whole.
+    /// Aperture as a whole.
     Opening(usize),
-    /// The sensor plane.
+    /// Sensor plane.
     Plane,
-    /// A listed sensor.
+    /// Listed sensor point.
     Point(usize),
-    /// A box outside as a whole.
+    /// Obstruction as a whole.
     Solid(usize),
-    /// A face of such a box across one of its axes; the far one?
+    /// Face of an obstruction across one of its axes; `far`: whether it is the far face.
     Face { solid: usize, axis: usize, far: bool },
 }
 
-/// What was taken hold of, as it was then.
+/// Handle that is dragged, with its object as it was at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Held {
     id: Id,
@@ -42,14 +42,14 @@ pub struct Held {
     start: Action,
 }
 
-/// A place to take hold of.
+/// Area in which an object can be grabbed.
 struct Handle {
     part: Part,
     place: Rect,
     name: String,
 }
 
-/// The axes of an aperture that run along the depth and across it in a picture.
+/// Returns the axes of an aperture that run along the depth and across it in a picture.
 const fn axes(surface: Surface, side: bool) -> [Option<usize>; 2] {
     match (surface, side) {
         (Surface::Facade, false) => [None, Some(0)],
@@ -59,7 +59,7 @@ const fn axes(surface: Surface, side: bool) -> [Option<usize>; 2] {
     }
 }
 
-/// Lengths of a surface along an aperture's axes. \[m\]
+/// Returns the lengths of a surface along an aperture's axes. \[m\]
 const fn extent(surface: Surface, room: [f64; 3]) -> [f64; 2] {
     match surface {
         Surface::Facade => [room[0], room[2]],
@@ -78,7 +78,7 @@ const fn edge_word(surface: Surface, axis: usize, far: bool) -> Text {
     }
 }
 
-/// An aperture with an edge, or all of it, moved by a way along its axes. \[m\]
+/// Returns an aperture with an edge, or all of it, moved along its axes. \[m\]
 fn moved(part: Part, start: Opening, way: [f64; 2], step: f64, room: [f64; 3]) -> Opening {
     let (mut new, extent) = (start, extent(start.surface, room));
     match part {
@@ -109,8 +109,8 @@ fn overlap(a: &Opening, b: &Opening) -> bool {
     a.surface == b.surface && along(0) && along(1)
 }
 
-/// Boxes outside, the small ones over the large, and their faces over all of them: those in sight, or `all`, as what is
-/// dragged may leave the picture.
+/// Returns handles of the obstructions, the small ones over the large, and those of their faces over all of them: of
+/// visible ones, or of `all`, since what is dragged may leave the picture.
 fn solids(input: &Input<'_>, frame: &Frame, all: bool) -> Vec<Handle> {
     let bodies = input.outside.iter().enumerate().filter_map(|(number, (keys, name))| {
         let place = outside::bounds(keys, frame).expand(2.0);
@@ -173,7 +173,7 @@ fn handles(input: &Input<'_>, frame: &Frame, held: bool) -> Vec<Handle> {
     list
 }
 
-/// What there is now of a part.
+/// Returns the current state of an object, as an action that leaves it as it is.
 fn present(part: Part, input: &Input<'_>) -> Option<Action> {
     match part {
         Part::Edge { opening: number, .. } | Part::Opening(number) => {
@@ -187,7 +187,7 @@ fn present(part: Part, input: &Input<'_>) -> Option<Action> {
     }
 }
 
-/// What a part becomes that is moved by a way: along the depth, and across it. \[m\]
+/// Returns the action that moves an object along the depth and across it. \[m\]
 fn target(part: Part, start: Action, way: [f64; 2], step: f64, input: &Input<'_>, side: bool) -> Option<Action> {
     match start {
         Action::OpeningMoved(number, opening) => {
@@ -198,7 +198,7 @@ fn target(part: Part, start: Action, way: [f64; 2], step: f64, input: &Input<'_>
                 }
             }
             let new = moved(part, opening, along, step, input.room);
-            // Openings keep apart: there the hand goes on without them.
+            // Apertures must not overlap: where they would, the aperture does not follow the pointer.
             let free = |(other, placed): (usize, &Opening)| other == number || !overlap(&new, placed);
             input.apertures.iter().enumerate().all(free).then_some(Action::OpeningMoved(number, new))
         }
@@ -222,7 +222,7 @@ fn target(part: Part, start: Action, way: [f64; 2], step: f64, input: &Input<'_>
     }
 }
 
-/// Where something is, in metres.
+/// Returns position and size of an object in metres, as text.
 fn metres(part: Part, at: Action) -> String {
     match (part, at) {
         (Part::Edge { axis, .. }, Action::OpeningMoved(_, one)) => {
@@ -250,7 +250,7 @@ fn metres(part: Part, at: Action) -> String {
     }
 }
 
-/// The way that arrow keys ask for, in steps along the depth and across it.
+/// Returns the displacement that arrow keys ask for, in steps along the depth and across it.
 fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
     if !response.has_focus() {
         return [0.0; 2];
@@ -262,7 +262,7 @@ fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
     [pressed(Key::ArrowRight) - pressed(Key::ArrowLeft), if side { up } else { -up }]
 }
 
-/// Offers all handles of a picture, over what is drawn already; `held`: kept from frame to frame.
+/// Offers all handles of a picture, over what is drawn already; `held` is kept from frame to frame.
 pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Option<Held>, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
     for Handle { part, place, name } in handles(input, frame, held.is_some()) {
@@ -329,7 +329,7 @@ pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Opt
     }
 }
 
-/// Words beside a handle, inside the picture.
+/// Draws text beside a handle, inside the picture.
 fn label(ui: &Ui, place: Rect, text: &str, area: Rect, palette: &Palette) {
     let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(13.0), palette.ink);
     let size = galley.size() + vec2(8.0, 4.0);

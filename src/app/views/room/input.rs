@@ -1,4 +1,4 @@
-//! What the room tile draws, and what may be asked of it.
+//! Input and actions of the room tile.
 
 use crate::app::paint::tile::Status;
 use crate::app::room_look::{RoomLook, RoomView};
@@ -10,46 +10,46 @@ use crate::study::scene_file::BoxKeys;
 use crate::texts::Text;
 use egui::{Pos2, Rect, pos2, vec2};
 
-/// Result at one sensor, in the unit of the input.
+/// Result at one sensor point, in the unit of the input.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CellValue {
-    /// Direct and interreflected together.
+    /// Total of direct and interreflected component.
     pub total: f64,
     /// Estimated absolute error of `total`.
     pub error: f64,
-    /// Straight from the apertures.
+    /// Direct component, from the apertures.
     pub direct: f64,
-    /// By way of the room's surfaces.
+    /// Interreflected component.
     pub inter: f64,
-    /// The part of `direct` that is the sun's beams.
+    /// Part of `direct` that comes from the sun's beams.
     pub beam: f64,
-    /// The part of `error` that the data leave open.
+    /// Part of `error` that is due to the uncertainty of the data.
     pub data_error: f64,
 }
 
-/// An aperture as a rectangle of its surface.
+/// Aperture as a rectangle of its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Opening {
-    /// Façade or roof.
+    /// Surface that holds the aperture: façade or roof.
     pub surface: Surface,
     /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
     pub origin: [f64; 2],
-    /// Size in the same order. \[m\]
+    /// Size in the same order as `origin`. \[m\]
     pub size: [f64; 2],
 }
 
-/// In what the sensors' light is told.
+/// Quantity shown at the sensor points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Quantity {
-    /// \[lx\]
+    /// Illuminance. \[lx\]
     #[default]
     Illuminance,
-    /// Of the unobstructed horizontal illuminance outside. \[%\]
+    /// Daylight factor: share of the unobstructed horizontal illuminance outside. \[%\]
     DaylightFactor,
 }
 
 impl Quantity {
-    /// Its unit.
+    /// Returns the unit of the quantity.
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Illuminance => "lx",
@@ -57,7 +57,7 @@ impl Quantity {
         }
     }
 
-    /// Its sign in plots.
+    /// Returns the symbol of the quantity in plots.
     pub const fn sign(self) -> &'static str {
         match self {
             Self::Illuminance => "E",
@@ -65,7 +65,7 @@ impl Quantity {
         }
     }
 
-    /// A value with its unit.
+    /// Returns a value with its unit as text.
     pub fn told(self, value: f64) -> String {
         match self {
             Self::Illuminance => si(value, "lx"),
@@ -74,47 +74,47 @@ impl Quantity {
     }
 }
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Width (x), depth (y), height (z). \[m\]
+    /// Size of the room: width (x), depth (y), height (z). \[m\]
     pub room: [f64; 3],
-    /// Windows and rooflights.
+    /// Apertures: windows and rooflights.
     pub apertures: &'a [Opening],
-    /// What stands outside, and what it is called.
+    /// Obstructions, each with its name.
     pub outside: &'a [(BoxKeys, String)],
-    /// The ground outside with the sun's shade on it; `None` where there is nothing outside above ground at the floor.
+    /// Ground outside with the sun's shade on it; `None` where there is nothing outside above ground at the floor.
     pub ground: Option<&'a GroundShade>,
-    /// Sensors along x.
+    /// Number of sensor points along x.
     pub nx: usize,
-    /// Sensors along y.
+    /// Number of sensor points along y.
     pub ny: usize,
     /// Results at the centres of the cells, x running fastest, or at the listed points; empty before the first result.
     pub cells: &'a [CellValue],
-    /// The sensors where they are listed points instead of a plane. \[m\]
+    /// Sensor points where they are listed instead of a plane. \[m\]
     pub points: &'a [[f64; 3]],
     /// Height of the sensor plane; `None`: there is none. \[m\]
     pub plane_z: Option<f64>,
-    /// In what `cells` are.
+    /// Quantity of `cells`.
     pub quantity: Quantity,
-    /// Why there is no daylight factor, where there is none.
+    /// Reason why there is no daylight factor; `None` if there is one.
     pub no_factor: Option<Text>,
-    /// How it is drawn.
+    /// Settings of the view.
     pub look: RoomLook,
     /// Light on the surfaces, for the perspective, with a number that changes with it.
     pub surfaces: Option<(&'a SurfaceLight, u64)>,
-    /// Product and moment in words.
+    /// Product and moment as text.
     pub name: &'a str,
     /// Scale forced from outside (comparison), in the unit of `cells`.
     pub range: Option<[f64; 2]>,
-    /// Changes with the results.
+    /// Number that changes with the results.
     pub revision: u64,
-    /// How far the content is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
 impl Input<'_> {
-    /// A room of no size without anything in it.
+    /// Creates the input of a room of size zero without anything in it.
     pub const fn nothing() -> Self {
         Self {
             room: [0.0; 3],
@@ -137,12 +137,12 @@ impl Input<'_> {
         }
     }
 
-    /// Has every cell of the plane its value?
+    /// Whether every cell of the plane has its value.
     pub const fn complete(&self) -> bool {
         self.nx > 0 && self.ny > 0 && self.cells.len() == self.nx * self.ny
     }
 
-    /// Where a sensor is. \[m\]
+    /// Returns the position of a sensor point. \[m\]
     pub fn position(&self, sensor: usize) -> [f64; 3] {
         if let Some(point) = self.points.get(sensor) {
             return *point;
@@ -153,49 +153,49 @@ impl Input<'_> {
     }
 }
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// The sensor plane should lie at this height. \[m\]
+    /// New height of the sensor plane. \[m\]
     PlaneMoved(f64),
-    /// An aperture (from 0) should be there.
+    /// New place and size of an aperture (counted from 0).
     OpeningMoved(usize, Opening),
-    /// A listed sensor (from 0) should be there. \[m\]
+    /// New position of a listed sensor point (counted from 0). \[m\]
     PointMoved(usize, [f64; 3]),
-    /// A box outside (from 0) should be there.
+    /// New place and size of an obstruction (counted from 0).
     BoxMoved(usize, BoxKeys),
-    /// A box outside (from 0) should be taken away.
+    /// Removal of an obstruction (counted from 0).
     BoxGone(usize),
-    /// It should be drawn so.
+    /// New settings of the view.
     Look(RoomLook),
 }
 
-/// What a picture shows: from and to along the depth, and of what runs across. \[m\]
+/// Extent of a picture: from and to along the depth, and along the axis across it. \[m\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span(pub [[f64; 2]; 2]);
 
 impl Span {
-    /// The room alone.
+    /// Returns the extent of the room alone.
     pub const fn of(room: [f64; 3], side: bool) -> Self {
         Self([[0.0, room[1]], [0.0, if side { room[2] } else { room[0] }]])
     }
 }
 
-/// A room on the screen, the façade at the left: from above with x downwards, or from the side with z upwards.
+/// Room on the screen, the façade at the left: from above with x downwards, or from the side with z upwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// The room's outline.
+    /// Outline of the room.
     pub area: Rect,
-    /// All that is shown: the room, and what stands round it.
+    /// Area of all that is shown: the room and its surroundings.
     pub view: Rect,
-    /// Points a metre.
+    /// Scale of the picture. \[points/m\]
     pub scale: f32,
-    /// From the side.
+    /// Whether the room is seen from the side.
     pub side: bool,
 }
 
 impl Frame {
-    /// The room with what is round it, the largest into a rectangle, at its left.
+    /// Creates the largest frame of the room with its surroundings that fits into a rectangle, at its left.
     pub fn around(rect: Rect, span: Span, room: [f64; 3], side: bool) -> Self {
         let lengths = |span: Span| span.0.map(|[low, high]| (high - low).max(1e-3) as f32);
         let [depth, across] = lengths(span);
@@ -210,21 +210,21 @@ impl Frame {
         Self { area: Rect::from_min_size(corner, vec2(own_depth, own_across) * scale), view, scale, side }
     }
 
-    /// On the screen, from the depth and what runs across: x from above, z from the side. \[m\]
+    /// Returns the screen point of a depth and a length across it: x from above, z from the side. \[m\]
     pub fn screen(&self, depth: f64, across: f64) -> Pos2 {
         let across = across as f32 * self.scale;
         let y = if self.side { self.area.bottom() - across } else { self.area.top() + across };
         pos2(self.area.left() + depth as f32 * self.scale, y)
     }
 
-    /// In the room: depth and what runs across. \[m\]
+    /// Returns depth and length across it of a screen point: x from above, z from the side. \[m\]
     pub fn room(&self, at: Pos2) -> (f64, f64) {
         let depth = (at.x - self.area.left()) / self.scale;
         let across = if self.side { self.area.bottom() - at.y } else { at.y - self.area.top() };
         (f64::from(depth), f64::from(across / self.scale))
     }
 
-    /// An aperture on the screen; a line where it is seen edge-on.
+    /// Returns an aperture on the screen; a line where it is seen edge-on.
     pub fn opening(&self, opening: &Opening, room: [f64; 3]) -> Rect {
         let ([o, s], side) = ([opening.origin, opening.size], self.side);
         let [depth, across] = match (opening.surface, side) {

@@ -1,4 +1,5 @@
-//! The surfaces of a room cut into small pieces with what falls on their corners, fine where the sun's patches end.
+//! The surfaces of a room cut into small pieces with the illuminance at their corners, fine where the sun's patches
+//! end.
 
 use crate::compute::polygon::area;
 use crate::compute::room::beam::Lit;
@@ -6,35 +7,35 @@ use crate::compute::room::mesh::Wall;
 use crate::study::{PatchLight, SurfaceLight};
 use glam::{DVec2, DVec3};
 
-/// Largest edge of a piece. \[m\]
+/// Maximum edge of a piece. \[m\]
 const LARGEST: f64 = 0.25;
-/// How often a piece is halved where a sun patch ends in it.
+/// Number of times that a piece is halved where a sun patch ends in it.
 const HALVINGS: usize = 3;
 
-/// A rectangular piece of a surface.
+/// Rectangular piece of a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
     /// Index of the wall.
     pub wall: usize,
-    /// In order round it. \[m\]
+    /// Corners, in order round the piece. \[m\]
     pub corners: [DVec3; 4],
-    /// Illuminance at each. \[lx\]
+    /// Illuminance at each corner. \[lx\]
     pub illuminance: [f64; 4],
     /// Diffuse reflectance.
     pub reflectance: f64,
 }
 
-/// Patches of a wall by its grid.
+/// Returns the patches of a wall, with the numbers of its rows and columns.
 fn grid<'a>(light: &'a SurfaceLight, wall: &Wall) -> (&'a [PatchLight], usize, usize) {
     (&light.patches[wall.patches()], wall.lines[0].len() - 1, wall.lines[1].len() - 1)
 }
 
-/// Number of the cell that holds a coordinate.
+/// Returns the index of the cell that holds a coordinate.
 fn cell(lines: &[f64], at: f64) -> usize {
     lines.partition_point(|line| *line <= at).clamp(1, lines.len() - 1) - 1
 }
 
-/// Between which two cells, by their middles, a coordinate is, and how far on.
+/// Returns the two cells between whose middles a coordinate lies, and its share of the distance between them.
 fn between(lines: &[f64], at: f64) -> (usize, usize, f64) {
     let middle = |k: usize| 0.5 * (lines[k] + lines[k + 1]);
     let own = cell(lines, at);
@@ -44,7 +45,8 @@ fn between(lines: &[f64], at: f64) -> (usize, usize, f64) {
     (a, b, share)
 }
 
-/// What falls on a point of a wall but the sun's beams, between the means of its patches. \[lx\]
+/// Returns the illuminance at a point of a wall without the sun's beams, interpolated between the means of its patches.
+/// \[lx\]
 fn diffuse(light: &SurfaceLight, wall: &Wall, at: DVec2) -> f64 {
     let (patches, _, columns) = grid(light, wall);
     let (i0, i1, s) = between(&wall.lines[0], at.x);
@@ -60,12 +62,13 @@ fn holds(lit: &Lit, at: DVec2) -> bool {
     edges.into_iter().all(|(a, b)| sign * (*b - *a).perp_dot(at - *a) >= 0.0)
 }
 
-/// The sun's beams on a point of a wall. \[lx\]
+/// Returns the illuminance by the sun's beams at a point of a wall. \[lx\]
 fn beams(light: &SurfaceLight, wall: usize, at: DVec2) -> f64 {
     light.lit.iter().filter(|lit| lit.wall == wall && holds(lit, at)).map(|lit| lit.illuminance).sum()
 }
 
-/// The patch at a point of a wall, with what falls on the point. \[m\], \[lx\]
+/// Returns the patch at a `point` \[m\] of a wall, and the illuminances there without the sun's beams and by them.
+/// \[lx\]
 pub fn at(light: &SurfaceLight, wall: usize, point: DVec3) -> Option<(PatchLight, f64, f64)> {
     let own = light.walls.get(wall)?;
     let place = DVec2::new(point[own.along[0]], point[own.along[1]]);
@@ -74,7 +77,7 @@ pub fn at(light: &SurfaceLight, wall: usize, point: DVec3) -> Option<(PatchLight
     Some((patch, diffuse(light, own, place), beams(light, wall, place)))
 }
 
-/// Does the border of what a beam lights run through a rectangle of its wall?
+/// Whether the border of the area that a beam lights runs through a rectangle of its wall.
 fn crosses(lit: &Lit, low: DVec2, high: DVec2) -> bool {
     let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
     if corners.iter().all(|corner| holds(lit, *corner)) {
@@ -122,7 +125,7 @@ impl Cutter<'_> {
     }
 }
 
-/// All surfaces but the apertures.
+/// Returns the pieces of all surfaces but the apertures.
 pub fn pieces(light: &SurfaceLight) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for (number, wall) in light.walls.iter().enumerate() {
@@ -162,7 +165,7 @@ mod tests {
     use crate::compute::room::aperture::Aperture;
     use crate::compute::room::mesh::{BoxRoom, Nested};
 
-    /// Light that rises evenly along x and y, and a triangle of sun on the floor.
+    /// Returns light that rises evenly along x and y, and a triangle of sun on the floor.
     fn light() -> SurfaceLight {
         let room = BoxRoom { size: DVec3::new(4.0, 6.0, 3.0), floor: 0.2, walls: 0.5, ceiling: 0.7 };
         let window = Aperture { surface: Surface::Facade, corner: DVec3::new(0.5, 0.0, 0.9), size: [3.0, 1.8] };

@@ -1,11 +1,11 @@
-//! What stands on the plan beside its colours: iso-lux levels with their names, and a scale.
+//! Marks on the floor plan: iso-lux levels with their names, and a scale.
 
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::contrast;
 use crate::drawing::ticks::tick;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
-/// Writes a line's level on it where nothing else stands, inside the plan; false where there is no such place.
+/// Writes a line's level on it where nothing else stands, inside the plan; `false` where there is no such place.
 pub(super) fn label_line(
     ui: &Ui,
     points: &[Pos2],
@@ -41,10 +41,10 @@ pub(super) fn label_line(
     false
 }
 
-/// Size of names on the plan. \[points\]
+/// Size of names on the floor plan. \[points\]
 const NAME_SIZE: f32 = 13.0;
 
-/// Does a line run through a rectangle?
+/// Whether a line runs through a rectangle.
 fn runs_through(line: &[Pos2], place: Rect) -> bool {
     line.windows(2).any(|ends| {
         // What of the line, as shares of its length, is within all four sides (Liang and Barsky 1984).
@@ -66,7 +66,8 @@ fn runs_through(line: &[Pos2], place: Rect) -> bool {
     })
 }
 
-/// Where a thing of some size covers least of an area: in a corner if one is free, else anywhere, the deep end first.
+/// Returns the place of a given size that covers least of an area: in a corner if one is free, else anywhere, starting
+/// at the deep end.
 fn free_place(area: Rect, size: Vec2, lines: &[Vec<Pos2>], things: &[Rect]) -> Option<Rect> {
     const STEPS: usize = 12;
     let inside = area.shrink(3.0);
@@ -89,7 +90,8 @@ fn free_place(area: Rect, size: Vec2, lines: &[Vec<Pos2>], things: &[Rect]) -> O
     corners.into_iter().chain(grid).map(|(x, y)| at(x, y)).min_by_key(covered)
 }
 
-/// A bar of whole metres where it covers neither lines nor things, `scale` points a metre; returns the place that it takes.
+/// Draws a bar of whole metres where it covers neither lines nor things, at `scale` \[points/m\]. Returns the place
+/// that it takes.
 pub(super) fn scale_bar(ui: &Ui, area: Rect, scale: f32, lines: &[Vec<Pos2>], things: &[Rect]) -> Rect {
     let metres = [10.0_f32, 5.0, 2.0].into_iter().find(|m| m * scale < 0.3 * area.width()).unwrap_or(1.0);
     let galley = ui.painter().layout_no_wrap(format!("{metres} m"), FontId::proportional(NAME_SIZE), Color32::WHITE);

@@ -1,5 +1,5 @@
-//! What stands outside, in plan and section: to scale, as far as the picture goes; what lies beyond it is told with its
-//! distance.
+//! Obstructions in floor plan and section: to scale, as far as the picture extends; those beyond it are stated with
+//! their distance.
 
 use super::input::{Frame, Input, Span};
 use crate::app::paint::palette::Palette;
@@ -11,30 +11,30 @@ use egui::epaint::PathStroke;
 use egui::{Align2, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::DVec3;
 
-/// Round the room so much is shown at least, where anything stands outside. \[m\]
+/// Minimum margin round room and obstructions in the picture, where there are obstructions. \[m\]
 const MARGIN: f64 = 0.25;
-/// On the side where something lies beyond the picture. \[m\]
+/// Width of the strip on a side where an obstruction lies beyond the picture. \[m\]
 const MARGIN_CUT: f64 = 0.6;
-/// A larger part of the room's depth than this is not given to what stands outside on one side ...
+/// Maximum share of the room's depth that the surroundings take on one side; [`MOST`] limits them too.
 const MOST_OF_DEPTH: f64 = 0.4;
-/// ... nor more than so much. \[m\]
+/// Maximum length that the surroundings take on one side of the picture. \[m\]
 const MOST: f64 = 3.0;
-/// The ground is shown where it lies no more below the floor than this times the height of the room.
+/// Maximum depth of the ground below the floor at which it is shown, relative to the height of the room.
 const GROUND_SHOWN: f64 = 1.25;
-/// Height of the line that tells what lies beyond the picture. \[points\]
+/// Height of the line that states what lies beyond the picture. \[points\]
 pub(super) const TOLD_HEIGHT: f32 = 18.0;
 
-/// A box in the room's axes.
+/// Returns a box in the room's axes.
 pub(super) fn solid(keys: &BoxKeys) -> Solid {
     Solid::new(DVec3::from_array(keys.from), DVec3::from_array(keys.to), keys.turn.to_radians())
 }
 
-/// The room as a box.
+/// Returns the room as a box.
 pub(super) fn room(size: [f64; 3]) -> Solid {
     Solid::new(DVec3::ZERO, DVec3::from_array(size), 0.0)
 }
 
-/// Corners of a box as it is seen, in order: along the depth and what runs across. \[m\]
+/// Returns the corners of a box as it is seen, in order: along the depth and across it. \[m\]
 pub(super) fn outline(keys: &BoxKeys, side: bool) -> [[f64; 2]; 4] {
     let corners = solid(keys).corners();
     if side {
@@ -46,7 +46,8 @@ pub(super) fn outline(keys: &BoxKeys, side: bool) -> [[f64; 2]; 4] {
     }
 }
 
-/// Distance from the room within which boxes are drawn in perspective: far ones would be lines across the picture. \[m\]
+/// Returns the distance from the room within which boxes are drawn in perspective: far ones would be lines across the
+/// picture. \[m\]
 pub(super) fn reach(input: &Input<'_>) -> f64 {
     0.5 * DVec3::from_array(input.room).length()
 }
@@ -72,7 +73,7 @@ fn extent(keys: &BoxKeys, side: bool) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| range(corners.iter().map(|corner| corner[axis])))
 }
 
-/// What of the surroundings is shown: near boxes whole, of far ones no more than that they are there.
+/// Returns the extent of the surroundings that is shown: near boxes whole, of far ones only a strip on their side.
 pub(super) fn span(input: &Input<'_>, side: bool) -> Span {
     let room = Span::of(input.room, side);
     let most = (MOST_OF_DEPTH * input.room[1]).clamp(1.0, MOST);
@@ -103,22 +104,23 @@ pub(super) fn span(input: &Input<'_>, side: bool) -> Span {
     Span(shown)
 }
 
-/// Does any of a box show in a picture?
+/// Whether any part of a box shows in a picture.
 fn in_sight(keys: &BoxKeys, frame: &Frame) -> bool {
     bounds(keys, frame).intersects(frame.view.shrink(1.0))
 }
 
-/// The rectangle round a box on the screen.
+/// Returns the rectangle round a box on the screen.
 pub(super) fn bounds(keys: &BoxKeys, frame: &Frame) -> Rect {
     Rect::from_points(&polygon(keys, frame))
 }
 
-/// A box on the screen.
+/// Returns the corners of a box on the screen.
 pub(super) fn polygon(keys: &BoxKeys, frame: &Frame) -> [Pos2; 4] {
     outline(keys, frame.side).map(|[depth, across]| frame.screen(depth, across))
 }
 
-/// The boxes that a picture cuts or does not reach, with what is said of them, and where their middles lie in it.
+/// Returns the boxes and the ground that a picture cuts or does not reach, each with its text, and the place of its
+/// middle if it is not reached.
 fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
     let corners = room(input.room).corners();
     let told = |(keys, name): &(BoxKeys, String)| {
@@ -140,7 +142,7 @@ fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
     input.outside.iter().filter_map(told).chain(ground).collect()
 }
 
-/// Lines that the picture is drawn over: the boxes, and marks on its border for those beyond it.
+/// Draws what lies under the picture: the boxes, and marks on its border for those beyond it.
 pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     if input.outside.is_empty() && !(frame.side && input.ground.is_some()) {
         return;
@@ -153,7 +155,7 @@ pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
         let fill = palette.weak.gamma_multiply(0.3);
         painter.add(Shape::convex_polygon(places.to_vec(), fill, PathStroke::new(1.5, palette.outline)));
         let galley = painter.layout_no_wrap(name.clone(), FontId::proportional(13.0), palette.ink);
-        // In the corner that is in sight, off the room: there stand other words.
+        // In the visible corner, off the room, where other words stand.
         let seen = bounds(keys, frame).intersect(frame.view).shrink(3.0);
         let at = Rect::from_min_size(pos2(seen.left(), seen.top()), galley.size());
         let free = !at.intersects(frame.area.expand(22.0)) && names.iter().all(|other| !other.intersects(at));
@@ -175,7 +177,7 @@ pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
     painter.rect_stroke(frame.view, 0, Stroke::new(1.0, palette.grid), StrokeKind::Inside);
 }
 
-/// Boxes that lie over or under the room, as they are seen: dashed over what is drawn of it.
+/// Draws boxes that lie over or under the room as dashed lines over the picture.
 pub(super) fn over(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter().with_clip_rect(frame.view.intersect(ui.clip_rect()));
     for (keys, _) in input.outside {
@@ -187,7 +189,7 @@ pub(super) fn over(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
     }
 }
 
-/// Says in a line what lies beyond the picture; all of it when it is pointed at.
+/// Draws a line that states what lies beyond the picture, with all of it as tooltip.
 pub(super) fn tell(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let list: Vec<String> = beyond(input, frame).into_iter().map(|(words, _)| words).collect();
     let Some(first) = list.first() else { return };
@@ -206,7 +208,7 @@ pub(super) fn tell(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, p
     response.on_hover_text(list.join("\n"));
 }
 
-/// Is there anything to be told in that line?
+/// Whether anything lies beyond the picture, so that [`tell`] has something to state.
 pub(super) fn tells(input: &Input<'_>, side: bool, span: Span) -> bool {
     let holds = |extent: [[f64; 2]; 2]| {
         (0..2).all(|axis| span.0[axis][0] <= extent[axis][0] + 1e-9 && extent[axis][1] <= span.0[axis][1] + 1e-9)

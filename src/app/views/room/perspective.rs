@@ -1,7 +1,7 @@
-//! The room as a place: its surfaces as they are lit, windows, sensors, a person to scale; turned by hand.
+//! The room in perspective: its lit surfaces, apertures, sensor points, a person to scale; rotated with the pointer.
 //!
-//! A box from inside: walls that turn their back are left out, and what remains covers nothing of each other, so that no
-//! order of drawing is needed but that of things over walls.
+//! A box from inside: walls that turn their back are left out, and what remains covers nothing of each other, so that
+//! no order of drawing is needed but that of things over walls.
 
 use super::ground;
 use super::input::Input;
@@ -21,11 +21,11 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// From outside, over the façade's side, into the room.
+/// Camera at a first start: from outside, over the façade's side, into the room.
 const FIRST: Camera = Camera::from(-0.75, 0.5);
 /// Height of the person. \[m\]
 const PERSON: f64 = 1.7;
-/// What the mean luminance becomes of the brightest that can be shown (Reinhard et al. 2002, key).
+/// Share of the brightest displayable luminance to which the mean luminance is mapped (Reinhard et al. 2002, key).
 const KEY: f64 = 0.28;
 /// Names of the walls in their order.
 const WALLS: [Text; 6] =
@@ -34,7 +34,7 @@ const WALLS: [Text; 6] =
 /// Colours of a piece's corners.
 type Corners = [Color32; 4];
 
-/// What is kept from frame to frame.
+/// State of this picture between frames.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
@@ -49,14 +49,14 @@ impl Default for State {
     }
 }
 
-/// The scale of the surfaces' illuminances: the sun's patches, a hundred times brighter, are left beyond it.
+/// Returns the scale of the surfaces' illuminances. The sun's patches, a hundred times brighter, lie beyond it.
 fn scale_of(light: &SurfaceLight, log: bool) -> ColourScale {
     let bare = light.patches.iter().filter(|one| one.patch.aperture.is_none());
     let max = bare.map(|one| one.diffuse.value).fold(1.0, f64::max);
     ColourScale::up_to(max, log, 2, ColourMap::Sequential)
 }
 
-/// Colours of the corners of all pieces: by the scale, or as luminances are seen.
+/// Returns the colours of the corners of all pieces: by the scale, or as luminances are seen.
 fn colours(pieces: &[Piece], scale: Option<&ColourScale>) -> Vec<[Color32; 4]> {
     if let Some(scale) = scale {
         return pieces.iter().map(|piece| piece.illuminance.map(|e| scale.colour(e))).collect();
@@ -78,14 +78,14 @@ fn colours(pieces: &[Piece], scale: Option<&ColourScale>) -> Vec<[Color32; 4]> {
     pieces.iter().map(|piece| luminance(piece).map(seen)).collect()
 }
 
-/// A line in space, as far as it is before the eye.
+/// Draws a line in space, if both ends lie in front of the camera.
 fn line(painter: &Painter, view: &View, ends: [DVec3; 2], stroke: Stroke) {
     if let [Some((a, _)), Some((b, _))] = ends.map(|end| view.screen(end)) {
         painter.line_segment([a, b], stroke);
     }
 }
 
-/// Six sides of a box: a point and the normal into the room, in the order of [`WALLS`].
+/// Returns the six sides of a box, each as a point and the normal into the room, in the order of [`WALLS`].
 fn sides(size: DVec3) -> [(DVec3, DVec3); 6] {
     [
         (DVec3::ZERO, DVec3::Z),
@@ -97,7 +97,7 @@ fn sides(size: DVec3) -> [(DVec3, DVec3); 6] {
     ]
 }
 
-/// The wall that a ray meets from inside, and where.
+/// Returns the wall that a ray meets from inside, and the point.
 fn hit(view: &View, size: DVec3, at: Pos2) -> Option<(usize, DVec3)> {
     let ray = view.ray(at);
     sides(size).into_iter().enumerate().find_map(|(wall, (point, normal))| {
@@ -111,7 +111,7 @@ fn hit(view: &View, size: DVec3, at: Pos2) -> Option<(usize, DVec3)> {
     })
 }
 
-/// The pieces of the walls that are seen.
+/// Returns the pieces of the visible walls as a mesh.
 fn mesh(view: &View, size: DVec3, pieces: &[Piece], colours: &[[Color32; 4]]) -> Mesh {
     let seen = sides(size).map(|(point, normal)| view.faces(point, normal));
     let mut mesh = Mesh::default();
@@ -128,7 +128,7 @@ fn mesh(view: &View, size: DVec3, pieces: &[Piece], colours: &[[Color32; 4]]) ->
     mesh
 }
 
-/// Edges of the walls that are seen, with a mark every metre along the floor.
+/// Draws the edges of the visible walls, with a mark every metre along the floor.
 fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
     let seen = sides(size).map(|(point, normal)| view.faces(point, normal));
     for axis in 0..3 {
@@ -148,7 +148,7 @@ fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
         }
     }
     for (axis, other) in [(0, 1), (1, 0)] {
-        // Along the edge of the floor that is nearer to the eye.
+        // Along the edge of the floor that is nearer to the viewpoint.
         let mut at = DVec3::ZERO;
         at[other] = if view.eye[other] > 0.5 * size[other] { size[other] } else { 0.0 };
         let outward = if at[other] > 0.0 { 0.12 } else { -0.12 };
@@ -175,7 +175,7 @@ fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
     }
 }
 
-/// The openings: framed, brighter than what is around them where one looks at their inner face.
+/// Draws the apertures: framed, and brighter than their surroundings where their room side is seen.
 fn openings(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     for opening in input.apertures {
         let ([a, b], [w, h]) = (opening.origin, opening.size);
@@ -201,14 +201,14 @@ fn openings(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette
     }
 }
 
-/// What stands near outside, by its edges.
+/// Draws the edges of nearby obstructions.
 fn around(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     for ends in outside::near(input).flat_map(|solid| solid.visible_edges(view.eye)) {
         line(painter, view, ends, Stroke::new(1.5, palette.weak));
     }
 }
 
-/// The sensor plane as an outline, listed sensors as dots.
+/// Draws the sensor plane as an outline, and listed sensor points as dots.
 fn sensors(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     let [w, d, _] = input.room;
     if let Some(z) = input.plane_z {
@@ -223,7 +223,7 @@ fn sensors(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette)
     }
 }
 
-/// A person, turned to the eye, who stands where little is hidden.
+/// Draws a person, turned to the viewer, at a place where little is hidden.
 fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     if room[2] < PERSON + 0.05 || room[0] < 1.0 || room[1] < 1.0 {
         return;
@@ -263,7 +263,7 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     }
 }
 
-/// What falls on the surface under the cursor.
+/// Returns the illuminance of the surface under the cursor as text.
 fn value(light: &SurfaceLight, wall: usize, place: DVec3) -> Foot {
     let Some((patch, diffuse, beam)) = lit::at(light, wall, place) else { return Foot::default() };
     if patch.patch.aperture.is_some() {
@@ -284,7 +284,7 @@ fn value(light: &SurfaceLight, wall: usize, place: DVec3) -> Foot {
     ])
 }
 
-/// All surfaces in a line.
+/// Returns the mean illuminances of all surfaces as one line.
 fn summary(light: &SurfaceLight) -> Foot {
     let mean = |wall: usize| {
         let own = light.patches.iter().filter(|one| one.patch.wall == wall && one.patch.aperture.is_none());
@@ -301,7 +301,7 @@ fn summary(light: &SurfaceLight) -> Foot {
     ])
 }
 
-/// Draws it; the value under the cursor.
+/// Draws the perspective. Returns the line with the value under the cursor.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (bool, bool), state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
     let legend_height = if input.look.as_seen { 0.0 } else { LEGEND_HEIGHT };

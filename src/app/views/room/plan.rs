@@ -12,17 +12,17 @@ use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
-/// An illuminance and its lines.
+/// Iso-lux level: an illuminance and its lines.
 type IsoLevel = (f64, Vec<IsoLine>);
 
-/// What is kept until it changes.
+/// Cached pictures of the floor plan.
 #[derive(Debug, Clone, Default)]
 pub struct Pictures {
     lines: Cache<(u64, [usize; 2], ColourScale), Vec<IsoLevel>>,
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
 }
 
-/// Draws the plan.
+/// Draws the floor plan.
 pub(super) fn show(
     ui: &Ui,
     plan: &Frame,
@@ -98,7 +98,7 @@ pub(super) fn show(
     outline(ui, plan, input, palette);
 }
 
-/// What stands on the picture beside lines: sensors with their values, rooflights.
+/// Returns the places of the other things on the picture: sensor points with their values, apertures.
 pub(super) fn things(frame: &Frame, input: &Input<'_>) -> Vec<Rect> {
     let sensor = |point: &[f64; 3]| {
         let at = frame.screen(point[1], if frame.side { point[2] } else { point[0] });
@@ -108,7 +108,7 @@ pub(super) fn things(frame: &Frame, input: &Input<'_>) -> Vec<Rect> {
     input.points.iter().map(sensor).chain(openings).collect()
 }
 
-/// The room with its apertures, whatever it holds.
+/// Draws the outline of the room with its apertures.
 pub(super) fn outline(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter();
     painter.rect_stroke(frame.area, 0, Stroke::new(1.5, palette.outline), StrokeKind::Outside);
@@ -136,7 +136,7 @@ pub(super) fn outline(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palet
     );
 }
 
-/// Listed sensors with their values.
+/// Draws listed sensor points with their values.
 pub(super) fn points(ui: &Ui, frame: &Frame, input: &Input<'_>, scale: &ColourScale, palette: &Palette) {
     for (number, point) in input.points.iter().enumerate() {
         let at = frame.screen(point[1], if frame.side { point[2] } else { point[0] });

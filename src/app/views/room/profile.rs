@@ -1,4 +1,4 @@
-//! Illuminance against the distance from the façade, in one row of sensors.
+//! Illuminance against the distance from the façade, in one row of sensor points.
 
 use super::input::{CellValue, Input, Quantity};
 use super::words::value_text;
@@ -11,7 +11,7 @@ use crate::drawing::ticks::number;
 use crate::texts::{Text, tiles as say};
 use egui::{Rect, Ui};
 
-/// Draws it; the value under the cursor.
+/// Draws the profile. Returns the line with the value under the cursor.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,

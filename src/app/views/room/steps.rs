@@ -1,9 +1,9 @@
-//! The steps in which things are moved by hand.
+//! Steps in which things are moved with pointer or keys.
 
-/// Steps of what is moved, and with Shift. \[m\]
+/// Step of a movement, and the step with Shift held. \[m\]
 pub(super) const STEPS: [f64; 2] = [0.05, 0.01];
 
-/// The nearest step, to the millimetre so that what is shown is what is meant.
+/// Returns the nearest multiple of a step, rounded to the millimetre so that the value shown is exact. \[m\]
 pub(super) fn snapped(value: f64, step: f64) -> f64 {
     let value = if step > 0.0 { (value / step).round() * step } else { value };
     // Nothing is at −0 m.

@@ -1,4 +1,4 @@
-//! What the room tile says, and its numbers.
+//! Text and numbers of the room tile.
 
 use super::input::{CellValue, Input, Quantity};
 use crate::app::paint::tile::Foot;
@@ -7,7 +7,8 @@ use crate::drawing::ticks::number;
 pub use crate::study::scene_words::error_words;
 use crate::texts::tiles as say;
 
-/// Mean of all values, and least over mean, with how far both may be off: every value by its own error at once.
+/// Returns the mean of all values and the uniformity U_o, with the errors that result if every value is off by its own
+/// at once.
 pub fn uniformity(cells: &[CellValue]) -> Option<(Estimate, Estimate)> {
     let least = cells.iter().min_by(|a, b| a.total.total_cmp(&b.total))?;
     let sum: Estimate = cells.iter().map(|cell| Estimate::new(cell.total, cell.error)).sum();
@@ -19,7 +20,7 @@ pub fn uniformity(cells: &[CellValue]) -> Option<(Estimate, Estimate)> {
     Some((mean, Estimate::new(ratio, ratio * mean.error / mean.value + least.error / mean.value)))
 }
 
-/// The value of one sensor.
+/// Returns the value of one sensor point as text.
 pub(super) fn value_text(v: &CellValue, quantity: Quantity) -> Foot {
     let unit = quantity.unit();
     let error = match (v.error, v.data_error) {
@@ -44,7 +45,7 @@ fn dark() -> Foot {
     Foot::from([say::NO_LIGHT_AT_SENSORS, say::NO_LIGHT].map(String::from))
 }
 
-/// All sensors together.
+/// Returns the summary of all sensor points as text.
 pub(super) fn summary(input: &Input<'_>) -> Foot {
     let told = |value| input.quantity.told(value);
     let totals = || input.cells.iter().map(|c| c.total);
@@ -72,7 +73,7 @@ pub(super) fn summary(input: &Input<'_>) -> Foot {
     ])
 }
 
-/// All sensors with position and parts.
+/// Returns all sensor points as CSV, with position and components.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let names = "x_m,y_m,z_m,total_lx,error_lx,direct_lx,interreflected_lx,error_data_lx,beam_lx\n";

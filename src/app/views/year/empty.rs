@@ -1,4 +1,4 @@
-//! The tile before there is a year: of which weather it would be, and the button that computes it.
+//! The year tile before there is a result: the weather that would be used, and the button that computes the year.
 
 use super::input::{Action, Input};
 use super::parts::{GAP, progress, weak};

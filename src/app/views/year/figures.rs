@@ -1,4 +1,5 @@
-//! The figures of a year as a table: value, error, spread over the sensors, what limits say; what each is, in its tip.
+//! The figures of a year as a table: value, error, spread over the sensor points, comparison with limits; the
+//! definition of each in its tooltip.
 
 use crate::app::paint::palette::Palette;
 use crate::study::year::Row;
@@ -6,12 +7,13 @@ use crate::texts::year as say;
 use egui::{Grid, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2, vec2};
 use std::fmt::Write as _;
 
-/// Width of a table whose rows stand in one line each; in less, what limits say stands under the figure. \[points\]
+/// Minimum width of a table whose rows stand in one line each; in a narrower one the comparison with limits stands
+/// under the figure. \[points\]
 const WIDE: f32 = 600.0;
 
 /// Height of a row with the space under it. \[points\]
 const PITCH: f32 = 26.0;
-/// Space between columns, and rows. \[points\]
+/// Space between columns, and between rows. \[points\]
 const SPACING: Vec2 = vec2(10.0, 4.0);
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
@@ -52,7 +54,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
     });
 }
 
-/// Section, name, value, error, lowest and highest of the sensors, unit, what limits say. Shares are 0 … 1.
+/// Returns section, name, value, error, lowest and highest value of the sensor points, unit, and comparison with
+/// limits, as CSV. Shares are 0 … 1.
 pub(super) fn csv(rows: &[Row]) -> String {
     let quoted = crate::texts::csv_cell;
     let mut out = String::from("section,figure,value,error,lowest,highest,unit,said\n");

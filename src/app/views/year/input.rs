@@ -1,65 +1,65 @@
-//! What the year tile draws, and what it is asked for.
+//! Input and actions of the year tile.
 
 use crate::app::paint::tile::Status;
 use crate::drawing::hour_map::HourMap;
 use crate::study::year::{Day, Look, Row, Year};
 use std::path::{Path, PathBuf};
 
-/// What the user did.
+/// Action of the user.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// Compute the year, or compute it anew.
+    /// Request to compute the year, or to compute it again.
     Compute,
-    /// Stop computing it.
+    /// Request to stop computing the year.
     Stop,
-    /// Look at something else of it.
+    /// New settings of the view.
     Look(Look),
-    /// Show a step everywhere; `true`: on a walk by keys.
+    /// Choice of a step that all tiles show; `true`: it was reached by arrow keys.
     Show(usize, bool),
-    /// Take another year of weather.
+    /// Choice of another year of weather.
     Weather(PathBuf),
-    /// Ask for a weather file.
+    /// Request to choose a weather file.
     Open,
 }
 
-/// A year, as it is drawn.
+/// Year as it is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
-    /// Hour by hour.
+    /// Result of the annual simulation, hour by hour.
     pub year: &'a Year,
-    /// Its hours as they are looked at.
+    /// Map of the hours, by the settings of the view.
     pub map: &'a HourMap,
-    /// Its figures.
+    /// Figures of the year.
     pub rows: &'a [Row],
-    /// The lamps on the day that is looked at; `None` without lamps.
+    /// Electric lighting on the day that is shown; `None` without electric lighting.
     pub day: Option<&'a Day>,
-    /// Energy by month and its error; `None` without lamps. \[kWh/m²\]
+    /// Lighting energy by month and its error; `None` without electric lighting. \[kWh/m²\]
     pub months: Option<&'a [(f64, f64); 12]>,
-    /// The step of the scene's moment.
+    /// Step of the scene's moment.
     pub now: Option<usize>,
-    /// Remark on the state of that step, or nothing.
+    /// Remark on the state of that step; empty without one.
     pub remark: &'a str,
 }
 
-/// What the tile draws.
+/// Input of the tile.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// The year; `None` before it was computed.
+    /// Year; `None` before it was computed.
     pub shown: Option<Shown<'a>>,
-    /// How it is looked at.
+    /// Settings of the view.
     pub look: Look,
-    /// The scene's month, 1 … 12.
+    /// Month of the scene, 1 … 12.
     pub month: u8,
-    /// What lights the room.
+    /// Name of the system that lights the room.
     pub name: &'a str,
-    /// The weather that the year is of, or would be of.
+    /// Weather that the year is of, or would be of.
     pub weather: &'a Path,
     /// Share done of the year that is being computed; `None` while none is.
     pub running: Option<f32>,
-    /// Why there is no year, or no newer one.
+    /// Error because of which there is no year, or no newer one.
     pub error: Option<&'a str>,
-    /// Changes with year and map.
+    /// Number that changes with year and map.
     pub revision: u64,
-    /// How far it is to be trusted.
+    /// Status of the content: preliminary, outdated or complete.
     pub status: Status<'a>,
 }

@@ -1,4 +1,4 @@
-//! The lamps over the sunniest day of a month, and by month: IEA SHC Task 31 report (2005), figure 18.
+//! The electric lighting over the sunniest day of a month, and by month: IEA SHC Task 31 report (2005), figure 18.
 
 use super::input::Shown;
 use super::parts::weak;
@@ -13,7 +13,7 @@ use egui::{Align2, Rect, Ui, vec2};
 use egui_plot::{Bar, BarChart};
 use std::fmt::Write as _;
 
-/// First days of the months of a common year, from 0, and its end.
+/// First days of the months of a common year, from 0, and the end of the year.
 const FIRST: [f64; 13] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0, 365.0];
 
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &Shown<'_>) -> String {
@@ -85,7 +85,7 @@ fn by_month(ui: &mut Ui, rect: Rect, months: &[(f64, f64); 12], year: &Year) {
     tile::name(ui, &drawn.response, say::MONTH_PLOT, &say::energy_of(fixed(total, 2), whole));
 }
 
-/// The day step by step, then the months.
+/// Returns the day step by step, then the months, as CSV.
 pub(super) fn csv(shown: &Shown<'_>) -> String {
     let mut out = String::from("from,to,value,low,high,unit\n");
     // Writing to a String cannot fail.

@@ -1,14 +1,14 @@
-//! What the pages of the year tile share.
+//! Parts shared by the pages of the year tile.
 
 use super::input::Action;
 use crate::app::paint::palette::Palette;
 use crate::texts::year as say;
 use egui::{ProgressBar, Ui, Vec2, vec2};
 
-/// Room between things.
+/// Space between widgets. \[points\]
 pub(super) const GAP: Vec2 = vec2(6.0, 4.0);
 
-/// How far the computation is, and a button that stops it.
+/// Draws the progress of the computation, and a button that stops it.
 pub(super) fn progress(ui: &mut Ui, share: f32, out: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         let width = (ui.available_width() - 80.0).max(40.0);
@@ -19,7 +19,7 @@ pub(super) fn progress(ui: &mut Ui, share: f32, out: &mut Vec<Action>) {
     });
 }
 
-/// A line of words in the weak colour.
+/// Draws a line of text in the weak colour.
 pub(super) fn weak(ui: &mut Ui, text: &str) {
     let colour = Palette::of(ui.visuals()).weak;
     ui.add(egui::Label::new(egui::RichText::new(text).size(13.0).color(colour)).wrap());

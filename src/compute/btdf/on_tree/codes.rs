@@ -1,4 +1,4 @@
-//! The order of values on the full grid of a tree.
+//! Order of values on the full grid of a tree.
 
 use super::shape::TreeShape;
 use crate::compute::btdf::tensor_tree::TensorTree;
@@ -31,7 +31,7 @@ impl Codes {
     }
 }
 
-/// The plain matrix behind cells or directions.
+/// Returns the plain matrix behind cells or directions.
 pub(super) fn matrix_of(scattered: &Scattered) -> Option<Cow<'_, CellMatrix>> {
     match scattered {
         Scattered::Cells(matrix) => Some(Cow::Borrowed(matrix)),
@@ -48,7 +48,7 @@ pub(super) fn to_flux(row: &mut [f64], tau: f64, projected_solid_angle: f64) {
     }
 }
 
-/// A tree's leaves on the full grid; finer ones averaged.
+/// Adds a tree's leaves to the values on the full grid; finer ones averaged.
 pub(super) fn spread_leaves(tree: &TensorTree, level: u32, codes: &Codes, values: &mut [f64]) {
     let dimensions = tree.rank().dimensions();
     tree.for_each_leaf(&mut |at, corner, q| {

@@ -1,4 +1,4 @@
-//! Merging boxes of a full grid into leaves, as many as a stated share of the light allows.
+//! Merging of boxes of a full grid into leaves, as many as a stated share of the light allows.
 
 use super::shape::{OnTree, OnTreeError, TreeShape};
 use crate::compute::basis::SquareGrid;
@@ -6,12 +6,12 @@ use crate::compute::btdf::tensor_tree::{TensorTree, TreeAxes, TreeNode, TreeRank
 use crate::compute::direction::{Dir, Incident};
 use rayon::prelude::*;
 
-/// Largest tree that the reader of files takes.
+/// Maximum number of nodes of a tree that the reader of files takes.
 const MOST_NODES: usize = 8 << 20;
-/// Boxes whose values differ by rounding alone, relative to their mean.
+/// Deviation in a box, relative to its mean, up to which its values differ by rounding alone.
 const ROUNDING: f64 = 1e-10;
 
-/// A box that could be a leaf.
+/// Box that could be a leaf.
 #[derive(Clone, Copy)]
 struct Merged {
     mean: f64,
@@ -54,8 +54,8 @@ pub(super) fn prune(values: Vec<f64>, axes: TreeAxes, shape: TreeShape, turned: 
     Ok(OnTree { tree, misplaced, tau_change, turned })
 }
 
-/// Weight of every step of sinθ: its share of the projected hemisphere. One step stands for all in rank 4, whose boxes
-/// are equal.
+/// Returns the weight of every step of sinθ: its share of the projected hemisphere. Empty in rank 4, whose boxes are
+/// equal.
 fn ring_weights(shape: TreeShape) -> Vec<f64> {
     match shape.rank {
         TreeRank::Four => Vec::new(),
@@ -94,7 +94,7 @@ fn levels(values: &[f64], shape: TreeShape, weights: &[f64]) -> Vec<Vec<Merged>>
 }
 
 impl Grid<'_> {
-    /// The box as a leaf, where it is one.
+    /// Returns the box as a leaf, where it may be one.
     fn leaf(&self, threshold: f64, level: usize, index: usize) -> Option<Merged> {
         let merged = self.levels.get(level)?[index];
         // The root of rank 3 has an unused half beside the used one.
@@ -102,7 +102,7 @@ impl Grid<'_> {
         (whole && merged.deviation <= threshold.max(ROUNDING * merged.mean)).then_some(merged)
     }
 
-    /// Light misplaced in a box, weighted.
+    /// Returns the light misplaced in a box, weighted.
     fn misplaced(&self, threshold: f64, level: usize, index: usize) -> f64 {
         if level == self.shape.level as usize {
             return 0.0;
@@ -143,7 +143,7 @@ impl Grid<'_> {
     }
 }
 
-/// Largest difference of τ between the tree and the grid it was made from.
+/// Returns the largest difference of τ between the tree and the grid it was made from.
 fn tau_change(tree: &TensorTree, axes: TreeAxes, shape: TreeShape, values: &[f64]) -> f64 {
     let Some(grid) = SquareGrid::new(shape.level) else { return 0.0 };
     let resolution = grid.resolution();

@@ -1,58 +1,58 @@
-//! How fine a tree is asked for, and what is told of one.
+//! Requested shape of a tree, and the report on the tree made.
 
 use crate::compute::basis::SquareGrid;
 use crate::compute::btdf::tensor_tree::{TensorTree, TreeError, TreeRank};
 use crate::compute::btdf::{Btdf, Scattered};
 
-/// Finest tree of rank 4: 2⁶ steps a coordinate, 16.8 million boxes before pruning.
+/// Level of the finest tree of rank 4: 2⁶ steps per coordinate, 16.8 million boxes before pruning.
 pub const MOST_LEVEL_4: u32 = 6;
-/// Finest tree of rank 3: 2⁸ steps a coordinate, as many boxes.
+/// Level of the finest tree of rank 3: 2⁸ steps per coordinate, 16.8 million boxes before pruning.
 pub const MOST_LEVEL_3: u32 = 8;
 
-/// The tree that is asked for.
+/// Requested shape of a tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreeShape {
-    /// Coordinates.
+    /// Rank: the number of coordinates.
     pub rank: TreeRank,
-    /// log₂ of the finest steps of a coordinate.
+    /// Number of finest steps of a coordinate, as log₂.
     pub level: u32,
     /// Largest share of the light that merging boxes may misplace, 0 … 1.
     pub tolerance: f64,
 }
 
-/// A tree and how it differs from its source.
+/// Tree, and its differences from its source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnTree {
-    /// The tree.
+    /// Tree that was made.
     pub tree: TensorTree,
-    /// Share of the light that merging boxes misplaced, of the grid before.
+    /// Share of the grid's light that merging boxes misplaced.
     pub misplaced: f64,
     /// Largest change of τ that merging made at any finest incident cell.
     pub tau_change: f64,
-    /// Rank 3: share of the light by which single azimuths of incidence differ from the mean that the tree keeps.
+    /// Share of the light by which single azimuths of incidence differ from the mean that a tree of rank 3 keeps.
     pub turned: f64,
 }
 
-/// Why there is no such tree.
+/// Reason why a function cannot be made a tree of the requested shape.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum OnTreeError {
-    /// Too coarse or too fine.
+    /// Level too coarse or too fine.
     #[error("a tree of level {level}; expected 1 … {most} for rank {rank}")]
     Level {
-        /// Asked for.
+        /// Requested level.
         level: u32,
-        /// Most for the rank.
+        /// Maximum level for the rank.
         most: u32,
-        /// Its coordinates.
+        /// Number of coordinates of the requested tree.
         rank: usize,
     },
-    /// No share.
+    /// Tolerance that is not a share.
     #[error("a tolerance of {0}; expected a share of the light, 0 … 1")]
     Tolerance(f64),
-    /// Larger than any reader takes.
+    /// Tree larger than any reader takes.
     #[error("a tree of more than {most} nodes; expected a coarser level or a larger tolerance")]
     Size {
-        /// Limit.
+        /// Maximum number of nodes.
         most: usize,
     },
     /// Values that no tree can hold.
@@ -61,7 +61,7 @@ pub enum OnTreeError {
 }
 
 impl TreeShape {
-    /// The finest level that is made for a rank.
+    /// Returns the finest level that is made for a rank.
     pub const fn most_level(rank: TreeRank) -> u32 {
         match rank {
             TreeRank::Four => MOST_LEVEL_4,
@@ -69,7 +69,7 @@ impl TreeShape {
         }
     }
 
-    /// The coarsest level whose cells are about a quarter of the source's, at most 6.
+    /// Returns the coarsest level whose cells are about a quarter of the source's, at most 6.
     pub fn level_for(btdf: &Btdf) -> u32 {
         let cells = match &btdf.scattered {
             Some(Scattered::Tree(tree)) => return tree.incident_grid().level().min(MOST_LEVEL_4),

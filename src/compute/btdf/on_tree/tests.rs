@@ -14,7 +14,7 @@ fn direction(theta_deg: f64, phi_deg: f64) -> Dir<Facade> {
     Dir::from_theta_phi(theta_deg.to_radians(), phi_deg.to_radians())
 }
 
-/// Without any symmetry, τ below 1.
+/// Returns a function without any symmetry, τ below 1.
 fn uneven(map: AzimuthMap) -> Btdf {
     let basis = RingBasis::klems_quarter(map);
     let n = basis.len();
@@ -72,7 +72,7 @@ fn merging_misplaces_no_more_light_than_stated() {
     let mut leaves = full.leaves();
     for tolerance in [0.003, 0.03, 0.2] {
         let made = tree_on(&source, TreeAxes::Front, shape(TreeRank::Four, 4, tolerance)).unwrap();
-        // Measured anew from the values of both trees at the centres of all boxes.
+        // Computed again from the values of both trees at the centres of all boxes.
         let grid = SquareGrid::new(4).unwrap();
         let (mut apart, mut all) = (0.0, 0.0);
         for (i, o) in grid.cells().flat_map(|i| grid.cells().map(move |o| (i, o))) {
@@ -130,7 +130,7 @@ fn a_turning_tree_stays_one_through_rank_4_and_back() {
             assert!((tree.q(from, out) / want - 1.0).abs() < 1e-6, "{} {want}", tree.q(from, out));
         }
     }
-    // Data that are not rotationally symmetric are told by how much.
+    // For data that are not rotationally symmetric, `turned` states by how much.
     assert!(
         tree_on(&uneven(AzimuthMap::KLEMS_FRONT), TreeAxes::Front, shape(TreeRank::Three, 4, 0.0)).unwrap().turned
             > 0.1

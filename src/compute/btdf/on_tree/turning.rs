@@ -1,4 +1,4 @@
-//! Rank 3: a function averaged over the azimuths of incidence, on an emergent square that turns with them.
+//! Grid of rank 3: a function averaged over the azimuths of incidence, on an emergent square that turns with them.
 
 use super::codes::{Codes, matrix_of, spread_leaves, to_flux};
 use crate::compute::basis::{RingBasis, SquareGrid, disk_from_square};
@@ -9,10 +9,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Azimuths of incidence over which rank 3 averages.
+/// Number of azimuths of incidence over which rank 3 averages.
 const AZIMUTHS: usize = 36;
 
-/// A function on the full grid of rank 3, and the share of its light that single azimuths place elsewhere.
+/// Returns a function on the full grid of rank 3, and the share of its light that single azimuths place elsewhere.
 pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> (Vec<f64>, f64) {
     let (resolution, area) = (grid.resolution(), grid.projected_solid_angle());
     let mut values = vec![0.0; codes.values];
@@ -51,7 +51,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
     (values, if all > 0.0 { apart / all } else { 0.0 })
 }
 
-/// q of the scattered part, with what is the same for all emergent directions found once.
+/// Source of q of the scattered part, with what is the same for all emergent directions found once.
 #[expect(clippy::large_enum_variant, reason = "one a block, never in a list")]
 enum Sampler<'a> {
     Cells { incident: RingBasis, emergent: RingBasis, values: Vec<f64> },
@@ -70,7 +70,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// q by the through-name of the emergent direction.
+    /// Returns q for the incident direction `from`, as a function of the through direction of emergence.
     fn from(&self, from: Dir<Facade>) -> impl Fn(Dir<Facade>) -> f64 {
         let start = match self {
             Self::Cells { incident, emergent, .. } => incident.index(from).map(|i| i * emergent.len()),
@@ -86,8 +86,8 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Mean over the azimuths of one ring of incidence, on the emergent square that turns with them; how much single
-/// azimuths differ from it, and the flux, both weighted by the ring.
+/// Computes the mean over the azimuths of one ring of incidence, on the emergent square that turns with them; how much
+/// single azimuths differ from it, and the flux, both weighted by the ring.
 fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGrid, at: usize) -> (Vec<f64>, f64, f64) {
     const RADII: usize = 3;
     let direction = |disk: [f64; 2]| -> Dir<Facade> {

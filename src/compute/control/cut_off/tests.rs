@@ -25,7 +25,7 @@ fn sections() -> Vec<SlatRow> {
     ]
 }
 
-/// A slat's section as many pieces, and what a ray across the blind meets.
+/// Section of a slat in many pieces, for tracing rays across the blind.
 struct Rays {
     points: Vec<[f64; 2]>,
     spacing: f64,
@@ -36,7 +36,7 @@ impl Rays {
         Self { points: section.profile.polyline(400), spacing: section.spacing }
     }
 
-    /// Does a ray from outside through (outward 0, upward `height`) along profile angle `psi` meet none of the slats?
+    /// Whether a ray from outside through (outward 0, upward `height`) at profile angle `psi` meets no slat.
     fn passes(&self, tilt: f64, psi: f64, height: f64) -> bool {
         let (sin, cos) = tilt.sin_cos();
         // β > 0 lowers the outer edge: (u, v) → (u cosβ + v sinβ, v cosβ − u sinβ).
@@ -56,7 +56,7 @@ impl Rays {
         })
     }
 
-    /// Rays that pass by the edges of the shadows at a distance \[m\], and some in between.
+    /// Returns rays that pass the edges of the shadows at a distance \[m\], and some in between.
     fn any_passes(&self, tilt: f64, psi: f64, distance: f64) -> bool {
         let (sin, cos) = tilt.sin_cos();
         let heights = self.points.iter().map(|[u, v]| (v * cos - u * sin) - psi.tan() * (u * cos + v * sin));
@@ -85,7 +85,7 @@ fn rays_agree_at_every_section_on_both_sides_of_the_limit() {
         for psi in (-60..=85).step_by(5).map(|k| f64::from(k).to_radians()) {
             for range in [[-1.4, 1.4], [0.0, 1.5], [-1.5, 0.0]] {
                 let Some(tilt) = section.cut_off(range, 0.0, [psi, psi]) else {
-                    // Nowhere in the range is light kept out.
+                    // No tilt of the range blocks the light.
                     for k in 0..=200 {
                         let tilt = range[0] + (range[1] - range[0]) * f64::from(k) / 200.0;
                         assert!(!section.blocks(tilt, 0.0, [psi, psi]));
@@ -205,7 +205,7 @@ fn thick_slats_shade_by_their_thickness_too() {
         assert!(tilt == 0.0 || (extent(tilt) - needed).abs() < 1e-6, "{psi}: {tilt}");
         assert!(tilt.abs() <= flat(width, spacing).cut_off([-FRAC_PI_2, FRAC_PI_2], 0.0, [psi, psi]).unwrap().abs());
     }
-    // Light of 38° is kept out by horizontal slats of this thickness, not by sheets.
+    // Light of 38° is blocked by horizontal slats of this thickness, not by sheets.
     let psi = f64::to_radians(38.0);
     assert!(section.blocks(0.0, 0.0, [psi, psi]) && !flat(width, spacing).blocks(0.0, 0.0, [psi, psi]));
 }

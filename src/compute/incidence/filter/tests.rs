@@ -25,12 +25,12 @@ fn report_grid() -> RingBasis {
     RingBasis::new("529 directions", rings.collect(), AzimuthMap::FACADE).expect("rows rise from 0 to 90°")
 }
 
-/// What was filtered, at the cell of `grid` that holds a direction.
+/// Returns the filtered luminance in the cell of `grid` that holds a direction.
 fn value(grid: &Grid, luminance: &[f64], d: DVec3) -> f64 {
     grid.basis().index(Dir::from_unit(d)).map_or(0.0, |k| luminance[k])
 }
 
-/// A pane that sends every direction straight on, into the one cell about it.
+/// Returns the model of a pane that transmits every direction undeviated, into the one cell about it.
 fn clear_opening() -> Model {
     let basis = RingBasis::tregenza();
     let weights = basis.projected_solid_angles();

@@ -1,17 +1,17 @@
-//! An indicatrix made of turned pieces of the data's own: what every scheme comes down to, drawn in one place.
+//! Indicatrix made of turned pieces of the data's own: the form that every scheme yields, drawn in one place.
 
 use crate::compute::direction::Dir;
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::{Model, Recipe};
 use glam::{DQuat, DVec3};
 
-/// The base or a lobe of an incident direction, where it goes and what it carries.
+/// Base or lobe of an incident direction, with its rotation and flux.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     vertex: usize,
-    /// `None` is the base.
+    /// Number of the lobe; `None` is the base.
     lobe: Option<usize>,
-    /// Turns it from its own place to where it goes.
+    /// Rotation from the piece's own place to where it goes.
     turn: DQuat,
     /// Share of the incident flux, kept exactly whatever is cut off at the horizon.
     flux: f64,
@@ -23,23 +23,24 @@ pub(super) struct Blend {
     pieces: Vec<Piece>,
 }
 
-/// Turns smaller than this are none. \[rad, about\]
+/// Rotation below which a piece stays where it is. \[rad, about\]
 const STILL: f64 = 1e-12;
 
 impl Piece {
-    /// Whether it stays where the data have it.
+    /// Whether the piece stays where the data have it.
     fn stays(&self) -> bool {
         self.turn.xyz().length() < STILL
     }
 
-    /// About where it is: of a lobe its centre, of a base the direction that its normal has been turned to.
+    /// Returns the approximate place of the piece: of a lobe its centre, of a base the direction that its normal has
+    /// been turned to.
     fn place(&self, model: &Model) -> DVec3 {
         self.turn * self.lobe.map_or(DVec3::Z, |lobe| model.lobes[self.vertex][lobe].centre)
     }
 }
 
 impl Blend {
-    /// The pieces of a recipe.
+    /// Creates the pieces of a recipe.
     pub(super) fn of_recipe(model: &Model, recipe: &Recipe) -> Self {
         let mut blend = Self::default();
         for base in &recipe.bases {
@@ -63,14 +64,14 @@ impl Blend {
         }
     }
 
-    /// Adds a piece that carries anything.
+    /// Adds a piece if it carries any flux.
     fn push(&mut self, vertex: usize, lobe: Option<usize>, turn: DQuat, flux: f64) {
         if flux > 0.0 {
             self.pieces.push(Piece { vertex, lobe, turn, flux });
         }
     }
 
-    /// The same shape with another flux; `None` when it carries nothing and should.
+    /// Returns the shape with the flux `tau`; `None` if it carries nothing and should.
     pub(super) fn with_flux(mut self, tau: f64) -> Option<Self> {
         if tau <= 0.0 {
             return Some(Self::default());
@@ -83,7 +84,7 @@ impl Blend {
         Some(self)
     }
 
-    /// q on the cells of `target`, lobes as means of `points`² directions a cell. \[1/sr\]
+    /// Returns q on the cells of `target`, lobes as means of `points`² directions per cell. \[1/sr\]
     pub(super) fn coefficient(&self, model: &Model, target: &Grid, points: usize) -> Vec<f64> {
         let mut sum = vec![0.0; target.basis().len()];
         let mut out = Vec::new();
@@ -112,7 +113,7 @@ fn deposit(out: &[(usize, f64)], (wanted, place): (f64, DVec3), target: &Grid, s
     }
 }
 
-/// Values of a base on the cells, not normalised.
+/// Draws the values of a base on the cells, not normalised.
 fn draw_base(model: &Model, piece: &Piece, target: &Grid, out: &mut Vec<(usize, f64)>) {
     let base = model.base(piece.vertex);
     if piece.stays() {
@@ -139,7 +140,7 @@ fn draw_base(model: &Model, piece: &Piece, target: &Grid, out: &mut Vec<(usize, 
     }
 }
 
-/// Values of a lobe on the cells that it reaches, not normalised.
+/// Draws the values of a lobe on the cells that it reaches, not normalised.
 fn draw_lobe(model: &Model, piece: &Piece, lobe: usize, (target, points): (&Grid, usize), out: &mut Vec<(usize, f64)>) {
     let own = &model.lobes[piece.vertex][lobe];
     // As in the data, to the last digit; the picture below is sampled and interpolated.

@@ -1,8 +1,8 @@
-//! The indicatrix of the sun's direction in four ways: lobes moved by their own responses, which is what the program
-//! does, and the report's three, its history, to be compared with.
+//! Indicatrix of the sun's direction by four schemes: lobes moved by their own responses, which is what the program
+//! does, and the report's three, to be compared with.
 //!
 //! Every scheme supplies a shape alone. τ is one scalar for all, interpolated by [`Model`] with its curvature, and
-//! imposed exactly. Beyond the border of the lattice, shapes stay as on the border (lobes with responses go on moving).
+//! imposed exactly. Beyond the border of the lattice, shapes stay as on the border (lobes with responses keep moving).
 
 mod blend;
 mod words;
@@ -16,15 +16,15 @@ use glam::{DQuat, DVec3};
 pub use words::{DiffuseScheme, SunScheme};
 
 impl SunScheme {
-    /// q of an incident direction on the cells of `target`, lobes as means of `points`² directions a cell; its flux is
-    /// the interpolated τ. \[1/sr\]
+    /// Returns q of an incident direction on the cells of `target`, lobes as means of `points`² directions per cell;
+    /// its flux is the interpolated τ. \[1/sr\]
     pub fn coefficient(self, model: &Model, incident: Dir<Facade>, target: &Grid, points: usize) -> Vec<f64> {
         let place = model.lattice.locate(incident);
         Between::new(model, &place, model.recipe(incident), incident).coefficient(self, target, points)
     }
 }
 
-/// A direction between directions of the data, as every scheme needs it.
+/// Direction between directions of the data, as every scheme needs it.
 pub(super) struct Between<'a> {
     model: &'a Model,
     /// Data directions and their barycentric weights, above 0 and of sum 1.
@@ -36,7 +36,7 @@ pub(super) struct Between<'a> {
 }
 
 impl<'a> Between<'a> {
-    /// `place` and `recipe` may be those of the same data with a direction left out.
+    /// Creates the direction; `place` and `recipe` may be those of the same data with a direction left out.
     pub(super) fn new(model: &'a Model, place: &Place, recipe: Recipe, direction: Dir<Facade>) -> Self {
         let mut used: Vec<(usize, f64)> = Vec::with_capacity(3);
         for (&v, w) in place.vertices.iter().zip(place.weights).filter(|(_, w)| *w > 1e-12) {
@@ -50,7 +50,7 @@ impl<'a> Between<'a> {
         Self { model, used, direction: direction.vector(), recipe, tau }
     }
 
-    /// q on the cells of `target`, τ imposed. \[1/sr\]
+    /// Returns q on the cells of `target`, τ imposed. \[1/sr\]
     pub(super) fn coefficient(&self, scheme: SunScheme, target: &Grid, points: usize) -> Vec<f64> {
         let shape = match scheme {
             SunScheme::Responses => Blend::of_recipe(self.model, &self.recipe),
@@ -63,7 +63,7 @@ impl<'a> Between<'a> {
         shape.with_flux(self.tau).unwrap_or_else(own).coefficient(self.model, target, points)
     }
 
-    /// The indicatrix of the nearest direction that lets anything through; `displaced`: turned so that its flux
+    /// Returns the indicatrix of the nearest direction that lets anything through; `displaced`: turned so that its flux
     /// centroid comes to the interpolated one.
     fn nearest(&self, displaced: bool) -> Blend {
         let cosine = |v: usize| self.model.lattice.points()[v].dot(self.direction);
@@ -77,7 +77,7 @@ impl<'a> Between<'a> {
         blend
     }
 
-    /// Every indicatrix around turned to the interpolated centroid, superposed with its barycentric weight. Right for
+    /// Superposes every indicatrix around, turned to the interpolated centroid, with its barycentric weight. Right for
     /// one lobe; between two, the centroid lies where no light is.
     fn superposed(&self) -> Blend {
         let to = self.common_centroid();
@@ -88,14 +88,14 @@ impl<'a> Between<'a> {
         blend
     }
 
-    /// Mean direction of an indicatrix by flux; `None` where nothing gets through.
+    /// Returns the mean direction of an indicatrix by flux; `None` where nothing gets through.
     fn centroid(&self, vertex: usize) -> Option<DVec3> {
         let (row, grid) = (self.model.data.row(vertex), &self.model.grid);
         let cells = row.iter().zip(&grid.projected).zip(&grid.centre);
         cells.map(|((q, w), centre)| *centre * (q * w)).sum::<DVec3>().try_normalize()
     }
 
-    /// Weighted mean of the flux centroids; `None` where they cancel.
+    /// Returns the weighted mean of the flux centroids; `None` where they cancel.
     fn common_centroid(&self) -> Option<DVec3> {
         let sum: DVec3 = self.used.iter().filter_map(|&(v, w)| self.centroid(v).map(|c| c * w)).sum();
         sum.try_normalize().filter(|_| sum.length() > 1e-9)

@@ -1,27 +1,28 @@
-//! The schemes by name.
+//! Schemes of interpolation and their keys.
 
-/// How to find the indicatrix of a direction between the data's directions.
+/// Scheme that finds the indicatrix of a direction between the data's directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum SunScheme {
-    /// Bases blended, lobes moved by their own responses: what the program does unless asked.
+    /// Bases blended, lobes moved by their own responses: the default.
     #[default]
     Responses,
-    /// The report's first: that of the nearest direction. Jumps half way.
+    /// First scheme of the report: the indicatrix of the nearest direction. Jumps half way.
     Nearest,
-    /// Its second: the nearest, moved as a whole to the interpolated centroid. Jumps half way.
+    /// Second scheme of the report: the nearest indicatrix, moved as a whole to the interpolated centroid. Jumps half
+    /// way.
     DisplacedNearest,
-    /// Its third: three, each moved as a whole to the interpolated centroid.
+    /// Third scheme of the report: three indicatrices, each moved as a whole to the interpolated centroid.
     Superposed,
 }
 
 impl SunScheme {
-    /// All, in the order that lists show.
+    /// All schemes, in the order that lists show.
     pub const ALL: [Self; 4] = [Self::Responses, Self::Nearest, Self::DisplacedNearest, Self::Superposed];
 
-    /// What scenes say for the default, beside its own word.
+    /// Key of the default in scenes, beside the default's own key.
     pub const AUTO: &'static str = "auto";
 
-    /// The word for it in scenes.
+    /// Returns the key in scenes.
     pub fn key(self) -> &'static str {
         match self {
             Self::Responses => "responses",
@@ -31,7 +32,7 @@ impl SunScheme {
         }
     }
 
-    /// The scheme of a word.
+    /// Returns the scheme of a key.
     pub fn from_key(key: &str) -> Option<Self> {
         if key == Self::AUTO {
             return Some(Self::default());
@@ -39,34 +40,34 @@ impl SunScheme {
         Self::ALL.into_iter().find(|scheme| scheme.key() == key)
     }
 
-    /// Whether its result moves smoothly with the sun.
+    /// Whether the result moves smoothly with the sun.
     pub fn is_continuous(self) -> bool {
         !matches!(self, Self::Nearest | Self::DisplacedNearest)
     }
 }
 
-/// How diffuse light goes through indicatrices known at single directions.
+/// Scheme by which diffuse light passes through indicatrices known at single directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum DiffuseScheme {
-    /// The program chooses.
+    /// Choice by the program.
     #[default]
     Auto,
     /// Sub-patches finer than the lattice, each with its own interpolated indicatrix.
     Shift,
-    /// Every direction stands for its patch as it is.
+    /// Indicatrix of every direction, used as given for its patch.
     Patch,
     /// The report's mean filter (eq 13), half as wide as patches.
     FilterNarrow,
-    /// The same, as wide as patches.
+    /// The report's mean filter (eq 13), as wide as patches.
     FilterMatched,
-    /// The same, twice as wide.
+    /// The report's mean filter (eq 13), twice as wide as patches.
     FilterWide,
-    /// The filter with the shape of every patch itself, on the sharp part alone.
+    /// Filter with the shape of every patch itself, on the sharp part alone.
     FilterPatch,
 }
 
 impl DiffuseScheme {
-    /// All, in the order that lists show.
+    /// All schemes, in the order that lists show.
     pub const ALL: [Self; 7] = [
         Self::Auto,
         Self::Shift,
@@ -77,7 +78,7 @@ impl DiffuseScheme {
         Self::FilterPatch,
     ];
 
-    /// The word for it in scenes and on the command line.
+    /// Returns the key in scenes and on the command line.
     pub fn key(self) -> &'static str {
         match self {
             Self::Auto => "auto",
@@ -90,7 +91,7 @@ impl DiffuseScheme {
         }
     }
 
-    /// The scheme of a word.
+    /// Returns the scheme of a key.
     pub fn from_key(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|scheme| scheme.key() == key)
     }

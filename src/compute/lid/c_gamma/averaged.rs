@@ -17,21 +17,21 @@ pub struct Averaged {
     node_flux: Vec<f64>,
     /// Flux of the whole aperture without its beams. \[lm\]
     pub flux: Estimate,
-    /// What the quadrature found of the flux, and what it is.
+    /// Flux per area by quadrature, and corrected to the known flux. \[lm/m²\]
     found: [f64; 2],
-    /// What it is of.
+    /// Distribution that is averaged.
     lid: Lid,
-    /// The table without beams.
+    /// Table without beams.
     scattered: OnceLock<CGammaTable>,
-    /// Where light in it is narrow.
+    /// Nodes of `scattered` round which light is narrow.
     steep: OnceLock<Vec<usize>>,
 }
 
 impl Averaged {
     /// Averages all but the beams.
     ///
-    /// Functions are integrated by adaptive Gauss points, cells and bands by sub-sampling; both split at the façade's plane
-    /// and at the horizon. Negative luminances count as they are.
+    /// Functions are integrated by adaptive Gauss points, cells and bands by sub-sampling; both split at the façade's
+    /// plane and at the horizon. Negative luminances count as they are.
     pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
         let grid = Grid { aim, step };
         let area = lid.area();
@@ -75,7 +75,7 @@ impl Averaged {
         }
     }
 
-    /// The table of the whole aperture with every beam spread over the four nodes round it.
+    /// Returns the table of the whole aperture with every beam spread over the four nodes round it.
     pub fn table(&self) -> CGammaTable {
         self.with(&self.lid.beams)
     }
@@ -118,9 +118,10 @@ impl Averaged {
         table
     }
 
-    /// The table of a tile, `share` of the aperture, whose beams are as wide as what they light from there: nodes lie close
-    /// where they go, and scattered light between the regular nodes is what a reader makes of these. `narrow`: so is
-    /// scattered light that is narrower than the tile is seen.
+    /// Returns the table of a tile, `share` of the aperture, whose beams are as wide as what they light from there:
+    /// nodes lie close in their directions, and scattered light between the regular nodes is interpolated as a reader
+    /// does.
+    /// `narrow`: scattered light that is narrower than the tile is seen is widened, too.
     pub fn tile(&self, panel: &Panel, share: f64, narrow: bool) -> CGammaTable {
         let scattered = self.scattered.get_or_init(|| self.with(&[]));
         let mut table = scattered.clone();
@@ -139,14 +140,14 @@ impl Averaged {
         table
     }
 
-    /// Are the tables of all tiles of one size the same?
+    /// Whether the tables of all tiles of one size are the same.
     pub fn same_for_all(&self, narrow: bool) -> bool {
         let steep = || narrow::nodes(self.scattered.get_or_init(|| self.with(&[])));
         self.lid.beams.iter().all(|beam| beam.flux == 0.0) && (!narrow || self.steep.get_or_init(steep).is_empty())
     }
 }
 
-/// What the quadrature may assume inside a cell.
+/// Assumption of the quadrature on light inside a cell.
 #[derive(Clone, Copy, PartialEq)]
 enum Rule {
     /// Smooth nearly everywhere: Gauss points, refined where two orders disagree.
@@ -194,7 +195,7 @@ impl Grid {
         (0..self.angles()).map(|angle| angle as f64 * self.step.radians()).collect()
     }
 
-    /// ∫ L cosθ dω over the cell of every node, plane by plane.
+    /// Integrates L cosθ dω over the cell of every node, plane by plane.
     fn collect(self, luminance: &(dyn Fn(Dir<Facade>) -> f64 + Sync), rule: Rule) -> Vec<Estimate> {
         let delta = self.step.radians();
         let angles = self.angles();
@@ -246,7 +247,8 @@ impl Grid {
         }
     }
 
-    /// Mean intensities from the fluxes of the cells. The cells at nadir and zenith are one direction in all planes.
+    /// Computes mean intensities from the fluxes of the cells. The cells at nadir and zenith are one direction in all
+    /// planes.
     fn averages(self, node_flux: &[f64]) -> Vec<f64> {
         let delta = self.step.radians();
         let (planes, angles) = (self.planes(), self.angles());
@@ -282,7 +284,7 @@ fn gauss(density: &impl Fn(f64, f64) -> f64, patch: Patch, rule: &[(f64, f64)]) 
     sum * (c[1] - c[0]) * (gamma[1] - gamma[0])
 }
 
-/// Gauss points of third order, refined where the second order disagrees by more than 0.1 %.
+/// Integrates by Gauss points of third order, refined where the second order disagrees by more than 0.1 %.
 fn adaptive(density: &impl Fn(f64, f64) -> f64, patch: Patch, depth: usize) -> Estimate {
     let fine = gauss(density, patch, &GAUSS_3);
     let error = (fine - gauss(density, patch, &GAUSS_2)).abs();

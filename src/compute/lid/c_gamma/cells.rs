@@ -1,10 +1,10 @@
-//! The cells round the nodes of a table, and what they count for.
+//! Cells round the nodes of a table, and their weights in a zonal sum.
 
 use super::{Aim, weights};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Points a side of a cell, for its mean.
+/// Points per side of a cell, for its mean.
 const POINTS: usize = 4;
 
 /// Nodes and the cells round them.
@@ -12,7 +12,7 @@ pub(super) struct Cells<'a> {
     pub aim: Aim,
     pub c: &'a [f64],
     pub gamma: &'a [f64],
-    /// For a zonal sum.
+    /// Weights of the planes and of the angles in a zonal sum.
     pub weights: (Vec<f64>, Vec<f64>),
 }
 
@@ -21,7 +21,7 @@ impl<'a> Cells<'a> {
         Self { aim, c, gamma, weights: weights(c, gamma) }
     }
 
-    /// Limits of a plane's cell, unwrapped.
+    /// Returns the limits of a plane's cell in C, unwrapped. \[rad\]
     pub fn c_cell(&self, plane: usize) -> [f64; 2] {
         let (turn, count) = (2.0 * PI, self.c.len());
         let before = if plane > 0 { self.c[plane - 1] } else { self.c[count - 1] - turn };
@@ -36,12 +36,12 @@ impl<'a> Cells<'a> {
         [0.5 * (before + own), 0.5 * (own + after)]
     }
 
-    /// What a node counts for in a zonal sum; `node` counts plane by plane. \[sr\]
+    /// Returns the weight of a node in a zonal sum; `node` counts plane by plane. \[sr\]
     pub fn weight(&self, node: usize) -> f64 {
         self.weights.0[node / self.gamma.len()] * self.weights.1[node % self.gamma.len()]
     }
 
-    /// Mean over a cell, by solid angle.
+    /// Returns the mean of an intensity over a cell, by solid angle.
     pub fn mean(&self, intensity: &dyn Fn(DVec3) -> f64, c: [f64; 2], gamma: [f64; 2]) -> f64 {
         let at = |range: [f64; 2], k: usize| range[0] + (range[1] - range[0]) * (k as f64 + 0.5) / POINTS as f64;
         let (mut sum, mut weight) = (0.0, 0.0);

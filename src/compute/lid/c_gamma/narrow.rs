@@ -1,5 +1,6 @@
-//! Scattered light that is narrower than a tile is seen: from one point it lights as narrow a spot as it is, where the tile
-//! lights a spot as wide as itself. Round such light a table holds what the tile does on the room's surfaces.
+//! Scattered light that is narrower than a tile is seen: sent from one point it lights a spot as narrow as itself,
+//! where the tile lights a spot as wide as the tile. Round such light a table holds what the tile does on the room's
+//! surfaces.
 
 use super::cells::Cells;
 use super::spots::MOST;
@@ -8,16 +9,16 @@ use crate::compute::lid::Lid;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Light that differs from node to node by so much of the larger ...
+/// Relative difference between neighbouring nodes above which light counts as narrow.
 const STEEP: f64 = 0.3;
-/// ... and is brighter than this share of the brightest is narrow.
+/// Share of the largest intensity up to which light never counts as narrow.
 const DIM: f64 = 0.02;
-/// Points a side of the tile, for a mean over it and over the node's cell.
+/// Points per side of the tile, for a mean over it and over the node's cell.
 const POINTS: usize = 8;
-/// The regular step is divided by so many there.
+/// Maximum number of parts into which the regular step is divided where light is narrow.
 const FINER: usize = 3;
 
-/// Nodes round which light is narrow.
+/// Returns the nodes round which light is narrow.
 pub(super) fn nodes(table: &CGammaTable) -> Vec<usize> {
     let (planes, angles) = (table.planes(), table.angles());
     let brightest = table.intensity.iter().copied().fold(0.0, f64::max);
@@ -33,8 +34,9 @@ pub(super) fn nodes(table: &CGammaTable) -> Vec<usize> {
     (0..planes * angles).filter(around).collect()
 }
 
-/// Puts what a tile, `share` of the aperture, does on the room's surfaces in the place of the mean intensity, round these
-/// nodes and as far from them as the tile is seen wide; nodes lie closer there. Their flux stays, and so does that of the table.
+/// Replaces the mean intensity round the nodes `steep`, as far from them as the tile is seen wide, by what a tile,
+/// `share` of the aperture, does on the room's surfaces; nodes lie closer there. The flux there and that of the table
+/// stay.
 pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: &Panel, share: f64) {
     if steep.is_empty() {
         return;
@@ -48,7 +50,7 @@ pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: 
     let gamma_finer = finer(&gamma, &angles_near, PI, MOST[1]);
     table.at_nodes(c_finer, gamma_finer);
     let cells = Cells::new(table.aim, &table.c, &table.gamma);
-    // Of a node that is no regular one, both regular neighbours count.
+    // Between regular nodes, both regular neighbours count.
     let is_near = |node: &usize| {
         let (own_c, own_gamma) = (table.c[node / table.gamma.len()], table.gamma[node % table.gamma.len()]);
         let (i, j) = (c.partition_point(|c| *c <= own_c) - 1, gamma.partition_point(|gamma| *gamma <= own_gamma) - 1);
@@ -67,7 +69,7 @@ pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: 
     table.close();
 }
 
-/// Regular nodes that are no farther from a steep one than the tile is seen wide.
+/// Marks the regular nodes that are no farther from a steep one than the tile is seen wide.
 fn near(table: &CGammaTable, steep: &[usize], panel: &Panel) -> Vec<bool> {
     let (planes, angles) = (table.planes(), table.angles());
     let step = table.step.degrees().to_radians();
@@ -89,7 +91,7 @@ fn near(table: &CGammaTable, steep: &[usize], panel: &Panel) -> Vec<bool> {
     near
 }
 
-/// Nodes between neighbours that are both marked, as many as there is room for.
+/// Adds nodes between neighbours that are both marked, as many as there is room for.
 fn finer(nodes: &[f64], marked: &[bool], end: f64, most: usize) -> Vec<f64> {
     let pairs = nodes.iter().zip(nodes.iter().skip(1).chain([&end]));
     let both = marked.iter().zip(marked.iter().cycle().skip(1)).map(|(a, b)| *a && *b);
@@ -107,7 +109,7 @@ fn finer(nodes: &[f64], marked: &[bool], end: f64, most: usize) -> Vec<f64> {
     list
 }
 
-/// Mean over a node's cell of what the tile does, as an intensity from its middle. \[cd\]
+/// Returns the mean over a node's cell of what the tile does, as an intensity from its middle. \[cd\]
 fn mean(cells: &Cells<'_>, node: usize, lid: &Lid, panel: &Panel) -> f64 {
     let (plane, angle) = (node / cells.gamma.len(), node % cells.gamma.len());
     let (away, _) = panel.reach(cells.aim.direction(cells.c[plane], cells.gamma[angle]).0.vector());

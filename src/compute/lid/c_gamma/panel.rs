@@ -1,45 +1,48 @@
-//! A rectangle of the aperture in its room: what its light does on the surfaces that it reaches.
+//! Rectangle of the aperture in its room: illuminance of its light on the surfaces that it reaches.
 
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use crate::compute::lid::tiling::{landing, parts};
 use crate::compute::lid::{Lid, SunBeam};
 use glam::DVec3;
 
-/// The sun's disc: no beam lights less. \[rad\]
+/// Angular diameter of the sun's disc: minimum angular width of what a beam lights. \[rad\]
 const DISC: f64 = 9.3e-3;
 
-/// Of a side's length, how far on both sides of it a beam fades where another tile or part goes on. Readers interpolate
-/// between nodes and cannot follow a sharp edge: two of them side by side leave gaps and ridges that a host's grid of
-/// points may meet again and again; two slopes that add up to one leave none. Slopes so long meet three nodes or more.
+/// Distance over which a beam fades on both sides of an edge where another tile or part continues, as a share of the
+/// side's length. Readers interpolate between nodes and cannot follow a sharp edge: two of them side by side leave gaps
+/// and ridges that a host program's grid of points may meet again and again; two slopes that add up to one leave none.
+/// Slopes of this length meet three nodes or more.
 const FADE: f64 = 1.0 / 6.0;
 
-/// A rectangle of the aperture.
+/// Rectangle of the aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Panel {
-    /// Its middle, room axes. \[m\]
+    /// Centre in room axes. \[m\]
     pub centre: DVec3,
-    /// Along x_F and y_F. \[m\]
+    /// Size along x_F and y_F. \[m\]
     pub size: [f64; 2],
-    /// The surface that it lies in.
+    /// Surface that the rectangle lies in.
     pub surface: Surface,
     /// Width, depth and height of the room. \[m\]
     pub room: DVec3,
-    /// Its sides, from and to along x_F and y_F: where does the aperture end?
+    /// Whether the aperture ends at a side: first and last side along x_F, first and last side along y_F.
     pub rim: [[bool; 2]; 2],
 }
 
 impl Panel {
-    /// How far light from its middle goes, and across which axis the surface lies. The direction is in façade axes.
+    /// Returns the distance \[m\] that light from the centre travels in a direction of façade axes, and the axis across
+    /// which the surface lies that it meets.
     pub(super) fn reach(&self, direction: DVec3) -> (f64, usize) {
         landing(self.room, self.centre, self.surface.room_from_facade(direction))
     }
 
-    /// How far a beam goes. \[m\]
+    /// Returns the distance from the centre to the place that a beam lights. \[m\]
     pub(super) fn distance(&self, beam: &SunBeam) -> f64 {
         self.reach(beam.direction.0.vector()).0
     }
 
-    /// One of the parts, about the same middle, into which a host cuts it from a distance. \[m\]
+    /// Returns one of the parts, about the same centre, into which a host program cuts the rectangle at `distance`.
+    /// \[m\]
     pub(super) fn part(&self, distance: f64) -> Self {
         let count = parts(self.size, distance);
         // All parts share a distribution: none of its sides ends the aperture for all of them.
@@ -47,12 +50,12 @@ impl Panel {
         Self { size: self.size.map(|side| side / count as f64), rim, ..*self }
     }
 
-    /// How far beyond each of its sides its beams reach. \[m\]
+    /// Returns how far beyond each side of the rectangle its beams reach. \[m\]
     pub(super) fn beyond(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| self.rim[axis].map(|ends| if ends { 0.0 } else { FADE * self.size[axis] }))
     }
 
-    /// The same, but with sides no narrower than the sun's disc makes what a beam through it lights.
+    /// Returns the rectangle with sides widened to what the sun's disc lights by a beam through one point, if narrower.
     pub(super) fn under(&self, beam: &SunBeam) -> Self {
         let (way, distance) = (beam.direction.0.vector(), self.distance(beam));
         let across = |along: f64| (1.0 - along * along).max(1e-6).sqrt();
@@ -60,9 +63,9 @@ impl Panel {
         Self { size: [side(0, way.x), side(1, way.y)], ..*self }
     }
 
-    /// Luminous intensity that, sent from the middle, lights the room's surfaces as a beam through the rectangle does:
-    /// alike all over its outline, and fading across sides beyond which the aperture goes on, so that what neighbours do
-    /// there adds up. \[cd\] The direction is in façade axes.
+    /// Returns the luminous intensity that, sent from the centre, lights the room's surfaces as a beam through the
+    /// rectangle does: alike all over its outline, and fading across sides beyond which the aperture continues, so that
+    /// the light of neighbours there adds up. \[cd\] The direction is in façade axes.
     pub(super) fn of_beam(&self, beam: &SunBeam, direction: DVec3) -> f64 {
         if direction.z >= 0.0 {
             return 0.0;
@@ -89,8 +92,8 @@ impl Panel {
         share * beam.flux * away * away * across(way) / (w * h * -way.z * across(direction))
     }
 
-    /// The same for scattered light that leaves one point of the rectangle, `x` and `y` beside its middle \[m\], as if all
-    /// of the rectangle did as that point does. \[cd\]
+    /// Returns the luminous intensity that, sent from the centre, lights the room's surfaces as scattered light from
+    /// the point (`x`, `y`) \[m\] beside the centre does, if the whole rectangle emitted from that point. \[cd\]
     pub(super) fn of_point(&self, lid: &Lid, [x, y]: [f64; 2], direction: DVec3) -> f64 {
         if direction.z >= 0.0 {
             return 0.0;
@@ -105,7 +108,8 @@ impl Panel {
         lid.luminance(Emergent(own)) * -own.vector().z * self.size[0] * self.size[1] * nearer
     }
 
-    /// Where a beam through a point of the rectangle lands, seen from the middle.
+    /// Returns the direction from the centre to the place that a beam through the point (`x`, `y`) \[m\] beside it
+    /// lights.
     pub(super) fn landing_of(&self, beam: &SunBeam, [x, y]: [f64; 2]) -> Emergent {
         let way = beam.direction.0.vector();
         let from = self.surface.room_from_facade(DVec3::new(x, y, 0.0));

@@ -1,11 +1,11 @@
-//! Beams in a table, as wide as what they light: seen from one point, a beam as narrow as the sun lights a spot where the
-//! area that it leaves lights its own outline.
+//! Beams in a table, as wide as what they light: seen from one point, a beam as narrow as the sun lights a spot where
+//! the area that it leaves lights its own outline.
 //!
-//! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, alike on each of them.
-//! From the rectangle's middle that is a spot of directions whose intensity is what makes it so there. Where the aperture
-//! ends, its edges are sharp; where another tile goes on, it fades across them ([`Panel`]). Nodes of C and γ lie so close
-//! round it that what a reader interpolates between them is the spot, its sharp edges blurred by an eighth of its width at
-//! most.
+//! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, alike on each of
+//! them. From the rectangle's middle that is a spot of directions whose intensity is what makes it so there. Where the
+//! aperture ends, its edges are sharp; where another tile continues, it fades across them ([`Panel`]). Nodes of C and γ
+//! lie so close round it that what a reader interpolates between them is the spot, its sharp edges blurred by an eighth
+//! of its width at most.
 
 use super::cells::Cells;
 use super::{Aim, CGammaTable, Panel, Widened};
@@ -16,19 +16,19 @@ use std::f64::consts::PI;
 
 /// A beam that leaves a rectangle.
 pub(super) struct Spot {
-    /// Where it goes, and its flux.
+    /// Direction and flux of the beam.
     pub beam: SunBeam,
-    /// The rectangle.
+    /// Rectangle that the beam leaves.
     pub panel: Panel,
 }
 
-/// Nodes across the narrower side of a spot ...
+/// Number of nodes across the narrower side of a spot, within the limits of [`STEPS`].
 const ACROSS: f64 = 12.0;
-/// ... but no closer and no farther apart. \[°\]
+/// Minimum and maximum distance of the nodes across a spot. \[°\]
 const STEPS: [f64; 2] = [0.1, 0.5];
-/// Nodes on either side of an edge are so close to it, of that step.
+/// Distance of the nodes on either side of an edge from it, as a share of the step.
 const EDGE: f64 = 0.2;
-/// Planes and angles that every reader of EULUMDAT takes.
+/// Maximum number of planes and of angles that every reader of EULUMDAT accepts.
 pub(super) const MOST: [usize; 2] = [720, 361];
 /// Points along a side of a spot, for its limits.
 const ALONG: usize = 8;
@@ -38,8 +38,8 @@ impl Spot {
         self.panel.of_beam(&self.beam, direction)
     }
 
-    /// Limits in C (from … to, from below 0 where it lies across C0; a whole turn where the pole is inside) and γ, its
-    /// narrower side as it is seen, and the largest sine of γ.
+    /// Returns the limits in C (from … to, from below 0 where the spot lies across C0; a whole turn where the pole is
+    /// inside) and in γ, the narrower side as it is seen, and the largest sine of γ. \[rad\]
     fn limits(&self, aim: Aim) -> ([f64; 2], [f64; 2], f64, f64) {
         let beyond = self.panel.beyond();
         let reach = |axis: usize, at: f64| at * (0.5 * self.panel.size[axis] + beyond[axis][usize::from(at > 0.0)]);
@@ -65,8 +65,8 @@ impl Spot {
     }
 }
 
-/// Adds nodes at most `step` apart between two edges, and two close to each edge, one on either side, so that it is sharp
-/// and where it belongs. Inside, none comes nearer than half a step to one that is there.
+/// Adds nodes at most `step` apart between two edges, and two close to each edge, one on either side, so that it is
+/// sharp and where it belongs. Inside, none comes nearer than half a step to one that is there.
 fn add_nodes(list: &mut Vec<f64>, [from, to]: [f64; 2], step: f64, place: &dyn Fn(f64) -> Option<f64>) {
     let count = ((to - from) / step).ceil().max(1.0);
     let step = (to - from) / count;

@@ -1,27 +1,27 @@
-//! A function of direction of which only means over cells are known: the smoothest that gives these means, and how far
-//! the means leave it open. Gaussian-process regression with integrals as observations (Rasmussen & Williams 2006, ch. 2,
-//! 4 and 5).
+//! Function of direction of which only means over cells are known: the smoothest that gives these means, and its
+//! uncertainty. Gaussian-process regression with integrals as observations (Rasmussen & Williams 2006, ch. 2, 4 and 5).
 //!
-//! What lets light through unscattered is mostly simple: slats know the profile angle alone, panes the angle of incidence,
-//! holes both. The covariance is a product over the two profile angles and θ, each with its own length, and the data
-//! choose the lengths by their likelihood: an endless length makes a function that does not depend on that angle, and
-//! then 145 cells that overlap in the other angles resolve the one that matters far below their own width.
+//! What lets light through unscattered is mostly simple: slats know the profile angle alone, panes the angle of
+//! incidence, holes both. The covariance is a product over the two profile angles and θ, each with its own length, and
+//! the data choose the lengths by their likelihood: an endless length makes a function that does not depend on that
+//! angle, and then 145 cells that overlap in the other angles resolve the one that matters far below their own width.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::quadrature::gauss_legendre;
 use rayon::prelude::*;
 
-/// Lengths on trial, in radians; 0 stands for an endless one.
+/// Correlation lengths that are tried, in radians; 0 stands for an infinite one.
 const LENGTHS: [f64; 6] = [0.0, 3.0, 1.5, 0.75, 0.4, 0.2];
-/// Where the search begins: by the one profile angle, the other, θ, and mixtures. Numbers of [`LENGTHS`].
+/// Starting points of the search for lengths: one profile angle, the other, θ, and mixtures. Indices of [`LENGTHS`].
 const STARTS: [[usize; 3]; 7] = [[3, 0, 0], [0, 3, 0], [0, 0, 2], [3, 3, 0], [3, 0, 2], [0, 3, 2], [2, 1, 2]];
-/// Variances of the function itself on trial.
+/// Variances of the function itself that are tried.
 const VARIANCES: [f64; 7] = [3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0];
-/// Points across and along a cell for its mean; more in cells wider than this, over which profile angles go far. \[rad\]
+/// Points across and along a cell for its mean; more in cells wider than this, over which profile angles go far.
+/// \[rad\]
 const POINTS: [([usize; 2], f64); 3] = [([4, 8], 0.45), ([3, 5], 0.3), ([2, 3], 0.0)];
 
-/// A weighted direction, by its profile angles and θ.
+/// Weighted direction with its profile angles and θ.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub(super) direction: Dir<Facade>,
@@ -30,24 +30,24 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// Its share of the cell.
+    /// Returns the point's share of the cell.
     pub(super) fn weight(&self) -> f64 {
         self.weight
     }
 
-    /// All by itself.
+    /// Returns the point with weight 1.
     pub(super) fn whole(self) -> Self {
         Self { weight: 1.0, ..self }
     }
 }
 
-/// The angles that the covariance knows: profile angles about x and about y, and θ. \[rad\]
+/// Returns the angles that the covariance depends on: profile angles about x and about y, and θ. \[rad\]
 fn angles(direction: Dir<Facade>) -> [f64; 3] {
     let v = direction.vector();
     [v.y.atan2(v.z), v.x.atan2(v.z), direction.theta()]
 }
 
-/// Points of a cell whose weights add up to 1, even in projected solid angle.
+/// Returns points of a cell whose weights add up to 1, by projected solid angle.
 pub(super) fn points(basis: &RingBasis, cell: usize) -> Vec<Point> {
     let own = basis.cell(cell);
     let width = own.width * own.theta().sin();
@@ -67,13 +67,13 @@ pub(super) fn points(basis: &RingBasis, cell: usize) -> Vec<Point> {
     list
 }
 
-/// What is known of the functions: the sum of their integrals over points, with an error.
+/// Observation of the functions: the sum of their integrals over points, with an error.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observation {
-    /// By function.
+    /// Points of each function.
     pub(super) points: [Vec<Point>; 2],
     pub(super) value: f64,
-    /// Standard error.
+    /// Standard error of `value`.
     pub(super) noise: f64,
 }
 
@@ -102,7 +102,7 @@ impl Covariance {
         a.iter().map(|p| p.weight * b.iter().map(|q| q.weight * self.between(&p.at, &q.at)).sum::<f64>()).sum()
     }
 
-    /// By the likelihood of what is known of one function (its number `of`), alone.
+    /// Finds the most likely covariance for the observations of one function (its number `of`), alone.
     pub(super) fn most_likely(observations: &[Observation], of: usize) -> Self {
         let judge = |pick: [usize; 3]| -> (f64, Self) {
             let own = Self { lengths: pick.map(|k| LENGTHS[k]), variance: 1.0 };
@@ -135,7 +135,7 @@ impl Covariance {
     }
 }
 
-/// Symmetric matrix over the observations, row by row.
+/// Returns a symmetric matrix over the observations, row by row.
 fn gram(observations: &[Observation], entry: impl Fn(&Observation, &Observation) -> f64 + Sync) -> Vec<f64> {
     let n = observations.len();
     let rows: Vec<Vec<f64>> =
@@ -149,7 +149,8 @@ fn gram(observations: &[Observation], entry: impl Fn(&Observation, &Observation)
     all
 }
 
-/// Lower triangle L of the matrix and the observations' noise, LLᵀ; `None` where rounding leaves it indefinite.
+/// Returns the lower triangle L of the matrix plus the observations' noise, LLᵀ; `None` where rounding leaves it
+/// indefinite.
 fn factor(observations: &[Observation], mut matrix: Vec<f64>) -> Option<Vec<f64>> {
     let n = observations.len();
     for (i, one) in observations.iter().enumerate() {
@@ -196,7 +197,7 @@ fn backward(factor: &[f64], x: &mut [f64]) {
     }
 }
 
-/// Logarithm of the likelihood but for a constant.
+/// Returns the logarithm of the likelihood but for a constant.
 fn likelihood(observations: &[Observation], matrix: Vec<f64>) -> Option<f64> {
     let n = observations.len();
     let factor = factor(observations, matrix)?;
@@ -206,27 +207,27 @@ fn likelihood(observations: &[Observation], matrix: Vec<f64>) -> Option<f64> {
     Some(-0.5 * x.iter().map(|x| x * x).sum::<f64>() - log)
 }
 
-/// The functions, as far as the observations tell.
+/// Functions, as far as the observations determine them.
 pub(super) struct MeanField {
     observations: Vec<Observation>,
     covariances: [Covariance; 2],
     factor: Vec<f64>,
-    /// How far each observation is off what all the others say, squared, in units of what they should know it to.
+    /// Squared deviation of each observation from what all others predict, in units of the expected deviation.
     surprise: Vec<f64>,
 }
 
-/// Value at a direction.
+/// Value of a function at a direction.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct At {
     pub(super) value: f64,
-    /// Standard error.
+    /// Standard error of `value`.
     pub(super) error: f64,
     /// Weights of the observations in the value.
     pub(super) weights: Vec<f64>,
 }
 
 impl MeanField {
-    /// `None` where the observations contradict each other beyond arithmetic.
+    /// Creates the functions; `None` where the observations contradict each other beyond arithmetic.
     pub(super) fn new(observations: Vec<Observation>, covariances: [Covariance; 2]) -> Option<Self> {
         let n = observations.len();
         let entry = |a: &Observation, b: &Observation| {
@@ -249,7 +250,7 @@ impl MeanField {
         Some(Self { observations, covariances, factor, surprise })
     }
 
-    /// One of the functions at a direction.
+    /// Computes function number `of` at a direction.
     pub(super) fn at(&self, of: usize, direction: Dir<Facade>) -> At {
         let (here, covariance) = (angles(direction), &self.covariances[of]);
         let covered = |one: &Observation| -> f64 {

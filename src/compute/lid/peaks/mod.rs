@@ -1,9 +1,10 @@
-//! The sun through data on cells. A Klems cell is 10–15° wide, and what a file keeps of a beam is the mean over an incident
-//! cell of its strength, lying in the emergent cell that it leads to. From these means, all of them together, comes the
-//! beam for this very sun, as sharp as the disc, with how far the data leave its strength open; the rest stays on cells.
+//! Sharp beams of direct sun from patch-averaged data. A Klems cell is 10–15° wide, and what a file keeps of a beam is
+//! the mean over an incident cell of its strength, lying in the emergent cell that it leads to. From all these means
+//! together the beam for the actual sun is computed, as sharp as the disc, with the uncertainty of its strength; the
+//! rest stays on cells.
 //!
-//! After Radiance's `aBSDF`, which takes the peak straight on out of the data; that it is a mean, and what may be said of
-//! its strength between the cells, is not in there.
+//! The method follows Radiance's `aBSDF`, which extracts the undeviated peak from the data; that it is a mean, and what
+//! may be said of its strength between the cells, is not in there.
 
 mod mean_field;
 mod separation;
@@ -15,73 +16,74 @@ use crate::compute::direction::{Dir, Facade};
 use mean_field::{Covariance, MeanField, Observation, Point};
 use separation::{Path, Reached, Separation};
 
-/// A cell stands out when it holds this much of what surrounds it: as Radiance has it.
+/// Ratio to its surroundings above which a cell stands out, as in Radiance.
 const STANDS_OUT: f64 = 1.5;
-/// Of the flux in peaks, what the cells around them hold above their own surroundings: from here on it is a wide lobe
-/// and no beam.
+/// Largest flux that the cells around the peaks hold above their own surroundings, as a share of the flux in the peaks;
+/// with more the light is a wide lobe and not a beam.
 const LOBE: f64 = 0.5;
-/// What a beam's flux in a cell is known to: digits of the data, a share of the strongest, which stands for what few points
-/// in a cell miss, a share of its own, and a share of the background taken off.
+/// Errors of a beam's flux in a cell: digits of the data, a share of the strongest flux (for what few points in a cell
+/// miss), a share of its own flux, and a share of the subtracted background.
 const NOISE: [f64; 4] = [2e-4, 2e-3, 0.01, 0.3];
-/// Flux of a beam's cell up to which it counts as none beside the background taken off, and the most of that with which it
-/// may. How well a point is then known, as a share of the strongest.
+/// Limits of a dark beam cell: flux up to which it counts as none beside the subtracted background, largest background
+/// with which it may, and error of a point that is then known to be dark, as a share of the strongest flux.
 const DARK: [f64; 3] = [3e-4, 0.02, 1e-3];
-/// The same for the background itself, relative.
+/// Relative error of the light beside beams, per incident cell.
 const ROUGH: f64 = 0.02;
-/// Standard errors that are stated of a strength or a transmittance; with the doubts beside it more than 95 % of sensors
-/// are held, as `tests/scenes/beams_in_cells` counts.
+/// Number of standard errors that are stated for a strength or a transmittance; with the other uncertainties more than
+/// 95 % of sensors are covered, as `tests/scenes/beams_in_cells` counts.
 const ERRORS: f64 = 1.6;
-/// Strengths below this share of the strongest may be a cut-off that is rounded off; seen on flat and curved slats.
+/// Share of the strongest strength below which a strength may be a rounded-off cut-off; seen on flat and curved slats.
 const CUT_OFF: f64 = 0.03;
-/// Share of two beams together that either may be wrong by where the data hold them in one cell.
+/// Share of the sum of two beams that either may be wrong by where the data hold them in one cell.
 const MIXED: f64 = 0.5;
-/// Least relative doubt of anything that comes out of cells.
+/// Minimum relative uncertainty of anything that is extracted from cells.
 const LEAST: f64 = 0.01;
-/// Beams of incident cells beyond this number are looked for among the nearest alone: finer cells need no farther help.
+/// Maximum number of incident cells in which beams are looked for, the nearest to the sun: finer cells need no farther
+/// ones.
 pub const MOST_CELLS: usize = 200;
-/// Strength of a beam that is nothing but doubted: a doubt is a share of it.
+/// Strength of a beam that is nothing but uncertain, since an uncertainty is a share of the strength.
 const NOTHING: f64 = 1e-9;
 const LEFT: &str = "sun: the beam is left on the data's cells";
 
-/// The sun through data on cells: beams, the rest on cells, and what was done.
+/// Direct sun through patch-averaged data: beams, the rest on cells, and a note on the method.
 pub struct SunOnCells {
-    /// The beams.
+    /// Beams separated from the cells.
     pub beams: Vec<BeamLight>,
-    /// Luminance by emergent cell. \[cd/m²\]
+    /// Luminance of the rest by emergent cell. \[cd/m²\]
     pub luminance: Vec<f64>,
-    /// Doubts of it, as in [`super::CellLight::doubts`].
+    /// Uncertainties of `luminance`, as in [`super::CellLight::doubts`].
     pub doubts: Vec<Vec<f64>>,
-    /// What was done, a sentence.
+    /// Sentence on what was done.
     pub note: String,
 }
 
-/// What of a matrix is beams, and what is not.
+/// Beams in a matrix, and the rest of its light.
 pub struct Peaks {
     matrix: CellMatrix,
     around: Neighbours,
     paths: Vec<Path>,
     beams: Option<MeanField>,
-    /// The strongest mean: strengths in `beams` are shares of it.
+    /// Strongest mean; strengths in `beams` are shares of it.
     strongest: f64,
-    /// What is not beams, row by row: even light, and what stands out of it in single cells. \[1/sr\]
+    /// Light that is not in beams, row by row: smooth light, and what stands out of it in single cells. \[1/sr\]
     rest: Vec<Rest>,
-    /// Transmittance of the even part.
+    /// Transmittance of the smooth part.
     even: Option<MeanField>,
-    /// Incident cells that the fields stand for.
+    /// Incident cells that the fields are fitted to.
     used: Vec<usize>,
-    /// How much of the peaks' flux leaks into the cells around them.
+    /// Share of the peaks' flux that leaks into the cells around them.
     leak: f64,
-    /// How far the peaks stand out of their surroundings.
+    /// Ratio of the peaks to their surroundings.
     contrast: f64,
 }
 
-/// The part of a row that is no beam.
+/// Part of a row that is not in beams.
 struct Rest {
     even: Vec<f64>,
     uneven: Vec<f64>,
 }
 
-/// That a path sends nothing from the ends of the rows of a cell's points.
+/// Returns the observations that a path sends nothing from the ends of the rows of a cell's points.
 fn dark_points(path: usize, points: &[Point], noise: f64) -> Vec<Observation> {
     let row_ends = |k: &usize| {
         let other_theta =
@@ -99,7 +101,7 @@ fn dark_points(path: usize, points: &[Point], noise: f64) -> Vec<Observation> {
 }
 
 impl Peaks {
-    /// Looks for beams in a matrix. `sun`: where it stands, should there be too many cells to look at all of them.
+    /// Looks for beams in a matrix. `sun`: its direction, should there be too many cells to look at all of them.
     pub fn new(matrix: &CellMatrix, sun: Dir<Facade>) -> Self {
         let parts = Separation::new(matrix);
         let n = matrix.incident().len();
@@ -141,7 +143,7 @@ impl Peaks {
         own
     }
 
-    /// Sets up what the beams' cells hold above their surroundings.
+    /// Fits the beams to what their cells hold above the surroundings.
     fn find_beams(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
         let (mut observations, mut backgrounds): (Vec<Observation>, Vec<f64>) = (Vec::new(), Vec::new());
         let (mut above, mut below, mut leaked, mut held) = (0.0, 0.0, 0.0, 0.0);
@@ -207,13 +209,13 @@ impl Peaks {
             observations.iter().filter(pure).cloned().collect()
         };
         let covariances = [0, 1].map(|of| Covariance::most_likely(&alone(of), of));
-        // No light goes backwards: where a mean is nothing, the beam is nothing all over the cell. That tells where a cut-off
-        // lies far better than the means do.
+        // No light goes backwards: where a mean is nothing, the beam is nothing all over the cell. That tells where a
+        // cut-off lies far better than the means do.
         let sharper: Vec<Observation> = lit.into_iter().map(|i| observations[i].clone()).chain(dark).collect();
         self.beams = MeanField::new(sharper, covariances);
     }
 
-    /// Splits what is no beam into even light and what stands out of it.
+    /// Splits the light that is not in beams into smooth light and what stands out of it.
     fn split_rest(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
         let n = self.matrix.incident().len();
         self.rest = (0..n)
@@ -244,12 +246,12 @@ impl Peaks {
         self.even = MeanField::new(observations, [covariance; 2]);
     }
 
-    /// Emergent cells.
+    /// Returns the emergent cells.
     pub fn basis(&self) -> &RingBasis {
         self.matrix.emergent()
     }
 
-    /// What the sun makes behind it; `None` where it is in no incident cell.
+    /// Computes the sun's light behind the system; `None` where the sun lies in none of the incident cells.
     pub fn sun(&self, facing: &Facing<'_>) -> Option<SunOnCells> {
         let incident = facing.sun_illuminance();
         let (light, sun) = (facing.sun?, facing.sun_entering().filter(|_| incident > 0.0)?);
@@ -313,7 +315,8 @@ impl Peaks {
             smooth.iter().map(|q| incident * relative.max(LEAST) * q).collect(),
             smooth.iter().zip(&own.even).map(|(a, b)| incident * (a - b)).collect(),
             smooth.iter().enumerate().map(|(o, q)| incident * (q - surroundings(o))).collect(),
-            // Light that stands out and is followed nowhere: a beam or a fan of beams that may be anywhere in its cells.
+            // Light that stands out and is followed nowhere: a beam or a fan of beams that may be anywhere in its
+            // cells.
             own.uneven.iter().map(|q| incident * q).collect(),
             spread,
         ];
@@ -332,7 +335,7 @@ impl Peaks {
 }
 
 impl SunOnCells {
-    /// The same light with its beams left on cells: what they are is then a doubt.
+    /// Returns this light with its beams left on the cells; the beams then count as uncertainty.
     fn on_cells(mut self, row: &[f64]) -> Self {
         for beam in &mut self.beams {
             let whole = 1.0 + beam.doubt;
@@ -348,8 +351,8 @@ impl SunOnCells {
 }
 
 impl Emission {
-    /// Puts the sun through data on cells in the place of the stored row of its cell. `sharp`: its beams are taken out of
-    /// the cells; else they are only doubted.
+    /// Replaces the stored row of the sun's cell by the sun's light that `peaks` gives. `sharp`: its beams are
+    /// extracted from the cells; else they only count as uncertainty.
     pub fn take_peaks(&mut self, peaks: &Peaks, facing: &Facing<'_>, sharp: bool) {
         let (Some(sun), Some(light)) = (peaks.sun(facing), self.cells.first_mut()) else { return };
         let found = !sun.beams.is_empty();

@@ -1,5 +1,5 @@
-//! What in the rows of a matrix is a beam: flux of the cells that a beam through an incident cell can reach, above what
-//! surrounds them.
+//! Separation of beams in the rows of a matrix: flux of the cells that a beam through an incident cell can reach, above
+//! what surrounds them.
 
 use super::mean_field::{Point, points};
 use crate::compute::basis::Neighbours;
@@ -8,17 +8,17 @@ use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Where a beam goes, by through-names.
+/// Path of a beam, between through directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Path {
-    /// Straight on.
+    /// Undeviated path.
     Straight,
-    /// By mirrors with this normal: faces of slats, cuts of a panel.
+    /// Reflection by mirrors with this normal: faces of slats, cuts of a panel.
     Mirrored(DVec3),
 }
 
 impl Path {
-    /// Where light of a direction goes; `None` where it would not come through.
+    /// Returns the through direction in which light from `from` leaves; `None` where it would not come through.
     pub(super) fn of(self, from: Dir<Facade>) -> Option<Dir<Facade>> {
         match self {
             Self::Straight => Some(from),
@@ -31,20 +31,20 @@ impl Path {
     }
 }
 
-/// Tilts of mirrors on trial, in steps of this. \[rad\]
+/// Step of the tilts of mirrors that are tried. \[rad\]
 const STEP: f64 = 2.5 * PI / 180.0;
 /// Number of steps to both sides.
 const STEPS: i32 = 20;
-/// Share of all the light that stands out beside the straight beam that mirrors must explain to be believed: curved ones
-/// spread it over a fan.
+/// Share of all the light that stands out beside the straight beam that mirrors must explain to be believed: curved
+/// ones spread it over a fan.
 const EXPLAINED: f64 = 0.7;
-/// As good as the best: then the rounder number is taken.
+/// Ratio of two explained shares above which they count as equal; the rounder tilt is then taken.
 const EQUAL: f64 = 0.98;
 
-/// Directions a side by which the cells that a path reaches are found.
+/// Number of directions per side of a cell by which the cells that a path reaches are found.
 const FINE: usize = 8;
 
-/// The beams of one path through every incident cell.
+/// Beams of one path through an incident cell.
 #[derive(Debug, Clone)]
 pub(super) struct Reached {
     /// Points of the incident cell with the emergent cell that each goes to.
@@ -53,7 +53,7 @@ pub(super) struct Reached {
     pub(super) cells: Vec<usize>,
 }
 
-/// What a matrix holds, cell by cell, when beams are looked for.
+/// Matrix with the cells, weights and points that the search for beams needs.
 pub(super) struct Separation<'a> {
     pub(super) matrix: &'a CellMatrix,
     /// Emergent cells that touch each emergent cell.
@@ -74,7 +74,7 @@ impl<'a> Separation<'a> {
         }
     }
 
-    /// Do incident and emergent cells have the same borders? Else a beam's cell does not hold all of it.
+    /// Whether incident and emergent cells have the same borders. Otherwise a beam's cell does not hold all of it.
     pub(super) fn aligned(&self) -> bool {
         let emergent = self.matrix.emergent();
         self.points.iter().zip(&self.incident_weight).all(|(points, weight)| {
@@ -84,7 +84,7 @@ impl<'a> Separation<'a> {
         })
     }
 
-    /// Emergent cells that a path leads to from an incident cell.
+    /// Returns the emergent cells that a path leads to from an incident cell.
     pub(super) fn reached(&self, path: Path, incident: usize) -> Reached {
         let emergent = self.matrix.emergent();
         let to = |p: &Point| Some((*p, emergent.index(path.of(p.direction)?)?));
@@ -105,12 +105,12 @@ impl<'a> Separation<'a> {
         Reached { points, cells }
     }
 
-    /// Luminance coefficient that surrounds emergent cells, `but` left out. \[1/sr\]
+    /// Returns the luminance coefficient that surrounds emergent cells, `but` left out. \[1/sr\]
     pub(super) fn background(&self, row: &[f64], cells: &[usize], but: &[usize]) -> f64 {
         self.around.level(row, cells, but)
     }
 
-    /// The mirrors that best explain what stands out beside the straight beam, if any do.
+    /// Returns the mirrors that best explain what stands out beside the straight beam, if any do.
     pub(super) fn mirrors(&self, straight: &[Reached]) -> Option<Path> {
         let n = straight.len();
         let mut excess: Vec<Vec<f64>> = Vec::with_capacity(n);

@@ -1,4 +1,4 @@
-//! From which distance an aperture with a visible structure (slats, cuts) may be taken for homogeneous: the report's
+//! Distance from which an aperture with a visible structure (slats, cuts) may be taken for homogeneous: the report's
 //! Figure 20 as a number to print with every result.
 //!
 //! BTDF data describe one luminance for the whole area. A blind is bright lines, and a sensor close to it sees lines.
@@ -6,20 +6,22 @@
 //! lie as often above as below their mean. Where the first line lies half a period off (a slat just at the sill), the
 //! aperture is as if moved by that much, which no distance heals.
 
-/// Periods from which on the deviation of centred lines is below 1 %.
+/// Number of periods of distance beyond which the deviation of centred lines is below 1 %.
 const PERIODS: f64 = 3.0;
 
-/// Distance from the aperture from which on its structure of this period may be neglected. \[m\]
+/// Returns the distance from the aperture beyond which its structure of this period may be neglected. \[m\]
 pub fn distance(period: f64) -> f64 {
     PERIODS * period
 }
 
-/// Relative deviation of horizontal Lambertian lines from a homogeneous area of the same flux and height, at a horizontal
-/// sensor at sill height, `distance` before the area. The lines lie at (k + `phase`) · `period` up to the height; phase
-/// 0.5 centres them. \[m\] `None` without room for a single line or for lengths that are not above 0.
+/// Returns the relative deviation of horizontal Lambertian lines from a homogeneous area of the same flux and height,
+/// at a horizontal sensor at sill height, `distance` in front of the area \[m\]. The lines lie at (k + `phase`) ·
+/// `period` up to the height; phase 0.5 centres them. `None` without room for a single line or for lengths that are not
+/// above 0.
 ///
-/// In the vertical section, from points on the lines opposite the sensor (nearer to it than the rest, so that the whole
-/// lines deviate less): E of one at height y goes with y d/(y² + d²)², of the area with h²/(2 d (h² + d²)).
+/// The deviation is computed in the vertical section, from points on the lines opposite the sensor (nearer to it than
+/// the rest, so that the whole lines deviate less): E of one at height y goes with y d/(y² + d²)², of the area with
+/// h²/(2 d (h² + d²)).
 pub fn deviation(period: f64, height: f64, distance: f64, phase: f64) -> Option<f64> {
     let lines = (height / period).round();
     if !(period > 0.0 && distance > 0.0 && (1.0..1e6).contains(&lines) && (0.0..=1.0).contains(&phase)) {
@@ -53,7 +55,7 @@ mod tests {
 
     #[test]
     fn below_one_per_cent_from_the_stated_distance_on() {
-        // Up to a tenth of the height: five lines are no fine structure.
+        // Up to a tenth of the height: five lines are not a fine structure.
         for period in [0.01, 0.05, 0.072, 0.1] {
             let from = distance(period);
             for step in 0..200 {

@@ -1,10 +1,10 @@
-//! Ways to integrate an aperture's light at a sensor (eq 17), to choose from and to compare.
+//! Methods that integrate an aperture's light at a sensor (eq 17), to choose from and to compare.
 //!
-//! The ordinary way is [`NearField::SolidAngle`]: [`super::direct`] with the closed forms of [`super::cell_weights`] and
-//! the error-controlled cubature of [`super::through`]. The others are what programs commonly do, kept so that their
-//! error and their run time can be seen beside it: point luminaires ([`subdivision`]), Monte Carlo ([`monte_carlo`]) and
-//! summed-area tables over two profile angles ([`profile_table`]). They integrate the diffuse light and the scattered
-//! sun; the sun's unscattered beam has no luminance that could be sampled and goes the exact way in all of them.
+//! The default method is [`NearField::SolidAngle`]: [`super::direct`] with the closed forms of [`super::cell_weights`]
+//! and the error-controlled cubature of [`super::through`]. The others are common in other programs, included so that
+//! their error and run time can be compared with it: point luminaires ([`subdivision`]), Monte Carlo ([`monte_carlo`])
+//! and summed-area tables over two profile angles ([`profile_table`]). They integrate the diffuse light and the
+//! scattered sun; direct sun has no luminance that could be sampled and is computed exactly in all of them.
 
 pub mod homogeneity;
 mod kernel;
@@ -23,23 +23,23 @@ use crate::compute::quadrature::Tolerance;
 use glam::DVec3;
 use profile_table::ProfileTable;
 
-/// How eq 17 is integrated.
+/// Method by which eq 17 is integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum NearField {
-    /// Exact on cells, error-controlled where the outside is seen through.
+    /// Closed forms for light on cells, error-controlled cubature where the outside is seen through.
     #[default]
     SolidAngle,
-    /// Point luminaires, `Some([m, n])` of them along x_F and y_F; `None`: parts cut until each is nearer to a point
-    /// than the photometric distance asks for, five times its largest dimension.
+    /// Point luminaires, `Some([m, n])` of them along x_F and y_F. `None`: the aperture is cut until every part is at
+    /// least five times its largest dimension (the photometric distance) away.
     Subdivision(Option<[usize; 2]>),
-    /// So many random points, drawn evenly over the solid angle of the aperture.
+    /// Monte Carlo with this number of random points, uniform over the solid angle of the aperture.
     MonteCarlo(usize),
-    /// Tables with so many cells along each of two profile angles.
+    /// Tables with this number of cells along each of two profile angles.
     ProfileTable(usize),
 }
 
 impl NearField {
-    /// The word used in scenes and results.
+    /// Returns the keyword of the method in scenes and results.
     pub const fn word(self) -> &'static str {
         match self {
             Self::SolidAngle => "solid-angle",
@@ -49,7 +49,7 @@ impl NearField {
         }
     }
 
-    /// The effort in words.
+    /// Returns a description of the method's effort.
     pub fn effort(self) -> String {
         match self {
             Self::SolidAngle => "closed forms on cells, adaptive cubature where the outside is seen through".into(),
@@ -61,22 +61,23 @@ impl NearField {
     }
 }
 
-/// A method made ready for the light of one aperture under one outside.
+/// A method prepared for the light of one aperture under one outside.
 pub struct Integrator<'a> {
     method: NearField,
     aperture: &'a Aperture,
     emission: &'a Emission,
     facing: &'a Facing<'a>,
     lid: Lid,
-    /// Relative error of the light itself.
+    /// Relative error of the emitted light.
     relative_error: f64,
-    /// Of the resolution asked for and of half of it.
+    /// Tables of the full and of half the resolution, for [`NearField::ProfileTable`] alone.
     tables: Option<[ProfileTable; 2]>,
     tolerance: Tolerance,
 }
 
 impl<'a> Integrator<'a> {
-    /// What a method prepares once for all sensors. `tolerance` is for [`NearField::SolidAngle`] alone.
+    /// Creates an integrator with all that a method prepares once for all sensors. `tolerance` is for
+    /// [`NearField::SolidAngle`] alone.
     pub fn new(
         method: NearField,
         aperture: &'a Aperture,
@@ -96,7 +97,8 @@ impl<'a> Integrator<'a> {
         Self { method, aperture, emission, facing, lid, relative_error, tables, tolerance }
     }
 
-    /// Illuminance at a sensor, sun included. \[lx\] The error is what the method itself can tell; see its module.
+    /// Computes the illuminance at a sensor, sun included. \[lx\] The error is the method's own estimate; see its
+    /// module.
     pub fn illuminance(&self, sensor: &Sensor) -> DirectLight {
         if self.method == NearField::SolidAngle {
             let on = |basis: Option<&RingBasis>| Reception::new(sensor, self.aperture, basis);

@@ -1,5 +1,5 @@
-//! Monte Carlo over the aperture with importance sampling: points are drawn with the density cosθ_F/r² on the area,
-//! which is evenly over its solid angle, so that grazing and near sensors have a finite variance. What remains is the
+//! Monte Carlo over the aperture with importance sampling. Points are drawn with the density cosθ_F/r² on the area,
+//! which is uniform over its solid angle, so that grazing and near sensors have a finite variance. What remains is the
 //! variance of the luminance and of the sensor's cosine.
 //!
 //! The error is the standard error of the mean: two of three results lie within it. A lobe that no point hits is not
@@ -16,18 +16,18 @@ use crate::compute::sequence::{Random, mixed};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Below this solid angle \[sr\] its closed form loses digits; points are then drawn evenly over the area, which from so
-/// far is the same.
+/// Solid angle \[sr\] below which its closed form loses digits. Points are then drawn uniformly over the area, which
+/// from such a distance is equivalent.
 const SMALL: f64 = 1e-7;
 
-/// A seed of its own for each sensor and aperture, the same on every run and for any number of threads.
+/// Returns a seed that differs by sensor and aperture and is the same on every run and for any number of threads.
 pub fn seed(sensor: &Sensor, aperture: &Aperture) -> u64 {
     let [p, n, c] = [sensor.position, sensor.normal, aperture.corner].map(|v: DVec3| v.to_array());
     mixed(0x5EED, p.into_iter().chain(n).chain(c).chain(aperture.size).map(f64::to_bits))
 }
 
-/// Mean over `samples` points and its standard error. `luminance` is asked with vectors towards the aperture, façade
-/// frame, of any length. \[lx\]
+/// Computes the mean over `samples` points and its standard error. \[lx\] `luminance` is called with vectors towards
+/// the aperture, façade frame, of any length.
 pub fn illuminance(view: &View, samples: usize, seed: u64, luminance: impl Fn(DVec3) -> f64) -> Estimate {
     // Points behind the sensor's plane give nothing: only the box round what lies before it is sampled.
     let mut seen = Vec::with_capacity(6);
@@ -61,7 +61,7 @@ pub fn illuminance(view: &View, samples: usize, seed: u64, luminance: impl Fn(DV
     Estimate::new(mean, (squares / (count * (count - 1.0).max(1.0))).sqrt())
 }
 
-/// The rectangle x × y at z = distance, seen from the origin, parametrised by its solid angle.
+/// Rectangle x × y at z = distance, seen from the origin, parametrised by its solid angle.
 struct SphericalRectangle {
     x: [f64; 2],
     y: [f64; 2],

@@ -1,9 +1,9 @@
-//! Summed-area tables over two profile angles a = atan(x/z), b = atan(y/z) of the through-name: an aperture is a
+//! Summed-area tables over two profile angles a = atan(x/z), b = atan(y/z) of the through direction. An aperture is a
 //! rectangle in them for every sensor, so that the light of all full cells is four look-ups, and cells that its border
 //! cuts have closed forms. Exact for a luminance that is constant on the table's cells.
 //!
-//! The error is the distance from the table of half the resolution, and all light within the outermost cells: within a
-//! few degrees of grazing a cell is much wider than what it stands for, and both tables are wrong alike.
+//! The error is the difference from the table of half the resolution, plus all light within the outermost cells: within
+//! a few degrees of grazing a cell is much wider than the light's detail, and both tables are wrong alike.
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Estimate;
@@ -13,19 +13,19 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Luminances on n × n cells with their running sums.
+/// Luminances on n × n cells of two profile angles with their running sums.
 pub struct ProfileTable {
     n: usize,
-    /// tan of the n + 1 borders; the outermost are infinite.
+    /// Tangents of the n + 1 borders; the outermost are infinite.
     borders: Vec<f64>,
-    /// By row of b, then column of a. \[cd/m²\]
+    /// Luminances by row of b, then column of a. \[cd/m²\]
     luminance: Vec<f64>,
-    /// Σ L ∫ω dω over all cells left of and below a node, (n + 1)² nodes; the outermost cells left out.
+    /// Σ L ∫ω dω over all cells left of and below a node, at (n + 1)² nodes, without the outermost cells.
     sums: Vec<DVec3>,
 }
 
 impl ProfileTable {
-    /// Cells of equal angle, each with the luminance at its middle.
+    /// Creates a table of cells of equal angle, each with the luminance at its middle.
     pub fn new(n: usize, luminance: impl Fn(Dir<Facade>) -> f64 + Sync) -> Self {
         let angle = |i: f64| i * PI / n as f64 - FRAC_PI_2;
         let borders: Vec<f64> = (0..=n)
@@ -52,12 +52,12 @@ impl ProfileTable {
         Self { n, borders, luminance, sums }
     }
 
-    /// The cell that holds a gnomonic coordinate.
+    /// Returns the index of the cell that holds a gnomonic coordinate.
     fn cell(&self, x: f64) -> usize {
         (self.borders.partition_point(|border| *border <= x).max(1) - 1).min(self.n - 1)
     }
 
-    /// Σ L ∫ω dω over a rectangle in gnomonic coordinates, and the part of it that lies in the outermost cells.
+    /// Returns Σ L ∫ω dω over a rectangle in gnomonic coordinates, and the part of it in the outermost cells.
     fn rectangle(&self, x: [f64; 2], y: [f64; 2]) -> [DVec3; 2] {
         let [i0, i1] = x.map(|x| self.cell(x));
         let [j0, j1] = y.map(|y| self.cell(y));
@@ -92,7 +92,7 @@ impl ProfileTable {
         [sum, outermost]
     }
 
-    /// The same over any polygon, cell by cell.
+    /// Returns Σ L ∫ω dω over any polygon, cell by cell, and the part of it in the outermost cells.
     fn polygon(&self, corners: &[DVec3]) -> [DVec3; 2] {
         let (mut sum, mut outermost) = (DVec3::ZERO, DVec3::ZERO);
         let (mut column, mut rest) = (Vec::new(), Vec::new());
@@ -117,26 +117,26 @@ impl ProfileTable {
     }
 }
 
-/// Keeps what lies between two planes through the point: `limits` in gnomonic coordinates along an axis.
+/// Clips a polygon to the strip between two planes through the point: `limits` in gnomonic coordinates along an axis.
 fn strip(corners: &[DVec3], axis: DVec3, limits: [f64; 2], rest: &mut Vec<DVec3>, kept: &mut Vec<DVec3>) {
     let side = |limit: f64, sign: f64| if limit.is_finite() { sign * (axis - limit * DVec3::Z) } else { DVec3::Z };
     clip(corners, side(limits[0], 1.0), rest);
     clip(rest, side(limits[1], -1.0), kept);
 }
 
-/// ∫ ω dω over a rectangle in gnomonic coordinates, by differences of corner functions.
+/// Returns ∫ ω dω over a rectangle in gnomonic coordinates, by differences of corner functions.
 fn weight(x: [f64; 2], y: [f64; 2]) -> DVec3 {
     corner(x[1], y[1]) - corner(x[0], y[1]) - corner(x[1], y[0]) + corner(x[0], y[0])
 }
 
-/// Functions whose mixed derivative is {x, y, 1}/(1 + x² + y²)².
+/// Returns the three functions whose mixed derivatives are {x, y, 1}/(1 + x² + y²)².
 fn corner(x: f64, y: f64) -> DVec3 {
     let (u, v) = (x.hypot(1.0), y.hypot(1.0));
     let (p, q) = ((y / u).atan(), (x / v).atan());
     0.5 * DVec3::new(-p / u, -q / v, x / u * p + y / v * q)
 }
 
-/// Illuminance from the table, its error by a table of half the resolution. \[lx\]
+/// Computes the illuminance from the table, with its error by a table of half the resolution. \[lx\]
 pub fn illuminance(view: &View, fine: &ProfileTable, coarse: &ProfileTable) -> Estimate {
     let mut seen = Vec::with_capacity(6);
     clip(&view.corners(), view.normal, &mut seen);

@@ -1,20 +1,21 @@
-//! The aperture as point luminaires (eq 17 and 18): each part shines from its middle with the aperture's own
-//! distribution. Good at a distance; near the aperture and for narrow lobes it fails, and its error estimate sees that
-//! only as long as the points are not much further apart than the light's own detail.
+//! The aperture as point luminaires (eq 17 and 18): each part emits from its middle with the aperture's own
+//! distribution. Good at a distance; near the aperture and for narrow lobes it fails, and its error estimate covers
+//! that only as long as the points are not much further apart than the light's own detail.
 
 use super::kernel::kernel;
 use crate::compute::estimate::Estimate;
 use crate::compute::room::aperture::View;
 use glam::DVec3;
 
-/// Least distance of a part in units of its largest dimension: the photometric distance that keeps a Lambertian part
+/// Minimum distance of a part in units of its largest dimension: the photometric distance that keeps a Lambertian part
 /// within 1 % of a point.
 pub const PHOTOMETRIC_DISTANCE: f64 = 5.0;
-/// Most parts that the distance rule cuts; reached by sensors nanometres before the aperture.
+/// Maximum number of parts that the distance rule cuts; reached by sensors nanometres from the aperture.
 const MOST_PARTS: usize = 1 << 16;
 
-/// `[m, n]` equal parts along x_F and y_F. The error is the distance from half as many along each side (from twice as
-/// many for a single part). `luminance` is asked with vectors towards the part, façade frame, of any length. \[lx\]
+/// Computes the illuminance from `[m, n]` equal parts along x_F and y_F. \[lx\] The error is the difference from half
+/// as many along each side (from twice as many for a single part). `luminance` is called with vectors towards the part,
+/// façade frame, of any length.
 pub fn fixed(view: &View, parts: [usize; 2], luminance: impl Fn(DVec3) -> f64) -> Estimate {
     let value = sum(view, parts, &luminance);
     let error = if parts == [1, 1] {
@@ -44,8 +45,8 @@ fn sum(view: &View, [m, n]: [usize; 2], luminance: &impl Fn(DVec3) -> f64) -> f6
     total * step[0] * step[1]
 }
 
-/// Parts cut in halves until each is at least [`PHOTOMETRIC_DISTANCE`] times its largest dimension away. The error is
-/// the distance from half that rule. \[lx\]
+/// Computes the illuminance from parts cut in halves until each is at least [`PHOTOMETRIC_DISTANCE`] times its largest
+/// dimension away. \[lx\] The error is the difference from half that distance.
 pub fn by_distance(view: &View, luminance: impl Fn(DVec3) -> f64) -> Estimate {
     let value = cut(view, PHOTOMETRIC_DISTANCE, &luminance);
     Estimate::new(value, (cut(view, 0.5 * PHOTOMETRIC_DISTANCE, &luminance) - value).abs())

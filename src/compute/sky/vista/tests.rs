@@ -1,4 +1,4 @@
-//! What is gathered at a point against sums over directions.
+//! Light gathered at a point against sums over directions.
 
 use super::*;
 use crate::compute::angle::Bearing;
@@ -9,7 +9,7 @@ use crate::compute::surroundings::skyline::Skyline;
 use crate::compute::surroundings::solid::Face;
 use std::sync::Arc;
 
-/// Boxes of one reflectance above the ground, the first of them with the point that looks.
+/// Boxes of one reflectance above the ground, the first of them with the viewpoint.
 fn scenery<'a>(open: &'a Outside, skyline: Option<&'a Skyline>, bodies: &[Solid], reflectance: f64) -> Scenery<'a> {
     let surface = |face: Face| Surface { face, reflectance, stated: None, sun: 0.0, shadows: Vec::new() };
     let faces = bodies.iter().flat_map(|solid| (0..6).map(|number| solid.face(number)));
@@ -17,7 +17,7 @@ fn scenery<'a>(open: &'a Outside, skyline: Option<&'a Skyline>, bodies: &[Solid]
     Scenery { open, skyline, bodies: bodies.to_vec(), from_ground: bodies.len(), surfaces }
 }
 
-/// Sums over directions before a plane, alike by projected solid angle.
+/// Returns sums over directions in front of a plane, uniform by projected solid angle.
 fn by_rays(normal: DVec3, of: impl Fn(DVec3) -> f64) -> f64 {
     let (x, y) = normal.any_orthonormal_pair();
     let n = 500;

@@ -1,4 +1,4 @@
-//! What a beam meets first, and how far across it goes on meeting the same.
+//! First border that a beam meets, and the width over which it meets the same one.
 //!
 //! A border is met from its region exactly when its start lies to the left of its end across the beam, so that
 //! nothing needs to be said of the border that a beam has just left. Borders do not cross: which one is nearest
@@ -8,42 +8,43 @@ use super::beam::{Axes, Front};
 use super::section::{Edge, Plane, Region};
 use glam::DVec2;
 
-/// Places closer than this are the same. \[periods\]
+/// Distance below which places are the same. \[periods\]
 const SLACK: f64 = 1e-10;
-/// Periods that grazing light is followed along before it is given up.
+/// Maximum number of periods along which grazing light is followed before it is given up.
 const MOST_PERIODS: i64 = 20_000;
 
-/// Ranges of more copies are not gone through one by one.
+/// Number of copies of an edge above which they are not tested one by one.
 const MANY_COPIES: i64 = 12;
 
-/// What was met.
+/// Border that a beam meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hit {
-    /// Distance along the beam at both ends of `Self::range` is linear: value at c = 0, slope.
+    /// Distance along the beam to the border, linear across it: value at c = 0, slope.
     line: [f64; 2],
-    /// Where across the beam the border ends.
+    /// End of the border across the beam.
     end: f64,
-    /// Unit normal against the beam (outward, upward).
+    /// Unit normal of the border, against the beam (outward, upward).
     pub normal: DVec2,
-    /// Region behind.
+    /// Index of the region behind the border.
     pub beyond: usize,
     /// Period of the border that was met.
     pub copy: i64,
 }
 
 impl Hit {
-    /// On a copy of an edge that ends at these places across the beam; distance at its start, and slope.
+    /// Creates the hit on a copy of an edge with ends `ca` and `cb` across the beam, the distance `ta` at its start,
+    /// and a slope.
     fn new(edge: &Edge, [ca, cb]: [f64; 2], ta: f64, slope: f64, copy: i64) -> Self {
         Self { line: [ta - ca * slope, slope], end: cb, normal: DVec2::from(edge.normal), beyond: edge.beyond, copy }
     }
 
-    /// Distance along the beam at c.
+    /// Returns the distance along the beam at c.
     pub fn at(&self, c: f64) -> f64 {
         self.line[0] + self.line[1] * c
     }
 }
 
-/// Range of copies of the region's edges that light can meet between the given heights.
+/// Returns the range of copies of the region's edges that light can meet between the given heights.
 fn copies(region: &Region, low: f64, high: f64) -> (i64, i64) {
     let (first, last) = ((low - region.high[1]).ceil(), (high - region.low[1]).floor());
     let bound = MOST_PERIODS as f64;
@@ -52,7 +53,7 @@ fn copies(region: &Region, low: f64, high: f64) -> (i64, i64) {
     (clip(first), clip(last))
 }
 
-/// Part of the ray at c, from t on, at the depths of the region's edges.
+/// Returns the part of the ray at c, from t on, at the depths of the region's edges.
 fn inside(region: &Region, axes: &Axes, c: f64, t: f64) -> Option<[f64; 2]> {
     let z0 = c * axes.across.x;
     let dz = axes.along.x;
@@ -67,7 +68,7 @@ fn inside(region: &Region, axes: &Axes, c: f64, t: f64) -> Option<[f64; 2]> {
     (from <= to).then_some([from, to])
 }
 
-/// First border that the ray at c meets behind the front.
+/// Returns the first border that the ray at c meets behind the front.
 pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Option<Hit> {
     let start = front.at(c) - SLACK;
     let mut best: Option<(f64, Hit)> = None;
@@ -138,8 +139,8 @@ pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Op
     best.map(|(_, hit)| hit)
 }
 
-/// The first copy of an edge, of those in a range, that the ray at c meets behind `start`: the copies in its way follow
-/// one another evenly, so that they need not be tried one by one.
+/// Returns the first copy of an edge, of those in a range, that the ray at c meets behind `start`: the copies in its
+/// way follow one another at equal distances, so that they need not be tried one by one.
 fn first_copy(edge: &Edge, axes: &Axes, c: f64, start: f64, range: [i64; 2]) -> Option<(f64, Hit)> {
     let across = |p: [f64; 2]| p[0] * axes.across.x + p[1] * axes.across.y;
     let along = |p: [f64; 2]| p[0] * axes.along.x + p[1] * axes.along.y;
@@ -171,7 +172,7 @@ fn first_copy(edge: &Edge, axes: &Axes, c: f64, start: f64, range: [i64; 2]) -> 
     })
 }
 
-/// Those copies of a range that lie across the beam within the given distances of copy 0, one more at either end.
+/// Returns the copies of a range that lie across the beam within the given distances of copy 0, one more at either end.
 fn sideways(range: [i64; 2], axes: &Axes, distances: [f64; 2]) -> [f64; 2] {
     let [first, last] = range.map(|copy| copy as f64);
     let step = axes.across.y;
@@ -182,7 +183,7 @@ fn sideways(range: [i64; 2], axes: &Axes, distances: [f64; 2]) -> [f64; 2] {
     [first.max(a.min(b).floor()), last.min(a.max(b).ceil())]
 }
 
-/// The hit on a flat face, if light of this direction sees it.
+/// Returns the hit on a flat face; `None` if light of this direction does not meet it.
 fn plane_hit(plane: &Plane, axes: &Axes) -> Option<Hit> {
     let dz = axes.along.x;
     (dz * plane.seen_along > 1e-14).then(|| Hit {
@@ -194,7 +195,7 @@ fn plane_hit(plane: &Plane, axes: &Axes) -> Option<Hit> {
     })
 }
 
-/// How far from c on the beam meets what it meets there, up to the end of the front.
+/// Returns the place across the beam, from c on, up to which it meets the same border, at most the end of the front.
 pub(super) fn extent(region: &Region, axes: &Axes, front: &Front, c: f64, hit: Option<&Hit>) -> f64 {
     let mut end = front.ends[1][0].min(hit.map_or(f64::INFINITY, |hit| hit.end));
     if region.edges.is_empty() || end <= c {

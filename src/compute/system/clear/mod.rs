@@ -7,10 +7,10 @@
 //! there is one index: dispersion is left out.
 //!
 //! A beam is a parallel bundle of finite width. It is cut exactly where the edges of the bodies cut it, and divides at
-//! every surface into what is thrown back and what passes, so that no part of the answer is drawn at random until its
+//! every surface into a reflected and a transmitted part, so that no part of the result is drawn at random until its
 //! share is small.
 
-/// How data of clear bodies are computed, in words.
+/// Method by which data of clear bodies are computed, in words.
 const METHOD: &str = "section of endless clear bodies, beams followed with their polarisation, both sides averaged by \
                       reciprocity, no dispersion, no interference";
 

@@ -1,71 +1,71 @@
-//! What makes outlines the border of a body: closed or periodic, not crossing themselves, each other or their
-//! neighbours one period up.
+//! Outlines of bodies and their checks: closed or periodic, not crossing themselves, each other or their neighbours one
+//! period up.
 
 /// Border of a body in the section: points (outward, upward). \[m\]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outline {
-    /// A closed polygon, either way round; it may be higher than a period as long as its copies stay apart.
+    /// Closed polygon, either way round; it may be higher than a period as long as its copies do not touch.
     Closed(Vec<[f64; 2]>),
-    /// A sheet that goes on over all periods, between two faces that each rise by one period from their first to
-    /// their last point.
+    /// Sheet that extends over all periods, between two faces that each rise by one period from their first to their
+    /// last point.
     Sheet {
-        /// Towards outside.
+        /// Face towards the outside.
         outer: Vec<[f64; 2]>,
-        /// Towards the room.
+        /// Face towards the room.
         inner: Vec<[f64; 2]>,
     },
 }
 
-/// Why outlines are no bodies. Numbers of bodies count from 0.
+/// Error in the outlines of bodies. Indices of bodies count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// The period is no length.
+    /// Period that is not a positive length. \[m\]
     #[error("a period of {0} m: above 0 is needed")]
     Period(f64),
     /// Refractive index out of range.
     #[error("body {body}: refractive index {index}: 1 to 4 is needed")]
     Index {
-        /// The body.
+        /// Index of the body.
         body: usize,
-        /// Its index.
+        /// Refractive index of the body.
         index: f64,
     },
-    /// Negative or not finite.
+    /// Absorption coefficient that is negative or not finite.
     #[error("body {body}: absorption of {absorption} 1/m: 0 or more is needed")]
     Absorption {
-        /// The body.
+        /// Index of the body.
         body: usize,
-        /// Its coefficient.
+        /// Absorption coefficient of the body. \[1/m\]
         absorption: f64,
     },
-    /// Too few or too many points, or coordinates that are no numbers.
+    /// Too few or too many points, or coordinates that are not numbers.
     #[error(
         "body {body}: {points} points (3 to 2000 finite ones that enclose an area; 2 and more for the faces of a sheet)"
     )]
     Points {
-        /// The body.
+        /// Index of the body.
         body: usize,
-        /// How many it has.
+        /// Number of points of the body.
         points: usize,
     },
-    /// A face of a sheet does not reach one period up, or not at the same depth.
+    /// Face of a sheet that does not end one period up at the same depth.
     #[error("body {body}: a face of a sheet must end one period above its beginning, at the same depth")]
     Face {
-        /// The body.
+        /// Index of the body.
         body: usize,
     },
-    /// Two edges cross or overlap.
+    /// Two edges that cross or overlap.
     #[error("bodies {0} and {1}: edges cross or touch (a body and its neighbours one period away included)")]
     Crossing(usize, usize),
     /// One body inside another, or a sheet whose outer face lies inside.
     #[error("bodies {0} and {1}: one lies inside the other, or the faces of a sheet are exchanged")]
     Nested(usize, usize),
-    /// A prism without area.
+    /// Flank angles that give a prism without area.
     #[error("flank angles of {0}° and {1}°: above 0, at most 90, not both 90")]
     Flanks(f64, f64),
 }
 
-/// Edges of a body within one period, (outward, upward).
+/// Returns the edges of a body within one period, (outward, upward).
 pub(super) fn edges(outline: &Outline) -> Vec<[[f64; 2]; 2]> {
     let open = |points: &[[f64; 2]]| points.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
     match outline {
@@ -78,7 +78,7 @@ pub(super) fn edges(outline: &Outline) -> Vec<[[f64; 2]; 2]> {
     }
 }
 
-/// Twice the signed area of a closed outline, > 0 where (outward, upward) run counter-clockwise.
+/// Returns twice the signed area of a closed outline, > 0 where (outward, upward) run counter-clockwise.
 pub(super) fn area2(points: &[[f64; 2]]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum()
@@ -88,7 +88,7 @@ fn side(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-/// Do two edges have more in common than an end of both?
+/// Whether two edges have more in common than a shared end.
 fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2], slack: f64) -> bool {
     let apart = |axis: usize| {
         let range = |e: [[f64; 2]; 2]| (e[0][axis].min(e[1][axis]), e[0][axis].max(e[1][axis]));
@@ -115,7 +115,7 @@ fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2], slack: f64) -> bool {
     inside(b[0], a, d0, la) || inside(b[1], a, d1, la) || inside(a[0], b, e0, lb) || inside(a[1], b, e1, lb)
 }
 
-/// Is a point inside a closed outline?
+/// Whether a point is inside a closed outline.
 fn holds(points: &[[f64; 2]], p: [f64; 2]) -> bool {
     let next = points.iter().cycle().skip(1);
     let crossed = points
@@ -125,7 +125,7 @@ fn holds(points: &[[f64; 2]], p: [f64; 2]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Depth of a periodic face at the height of a point; the outermost where it has several.
+/// Returns the depth of a periodic face at the height of a point; the outermost where it has several.
 fn depth(face: &[[f64; 2]], y: f64, period: f64) -> f64 {
     let y = face[0][1] + (y - face[0][1]).rem_euclid(period);
     let crossing = face.windows(2).filter(|e| (e[0][1].min(e[1][1])..=e[0][1].max(e[1][1])).contains(&y));
@@ -137,7 +137,7 @@ fn depth(face: &[[f64; 2]], y: f64, period: f64) -> f64 {
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Is a point inside a body or one of its copies next to it?
+/// Whether a point is inside a body or one of its neighbouring copies.
 fn within(outline: &Outline, p: [f64; 2], period: f64) -> bool {
     match outline {
         Outline::Closed(points) => {
@@ -193,7 +193,7 @@ pub(super) fn check(outlines: &[&Outline], period: f64) -> Result<(), OutlineErr
     Ok(())
 }
 
-/// No edge may cross or overlap another one, or a copy of any.
+/// Checks that no edge crosses or overlaps another one, or a copy of any.
 fn crossings(outlines: &[&Outline], period: f64, slack: f64) -> Result<(), OutlineError> {
     let all: Vec<(usize, [[f64; 2]; 2])> = outlines
         .iter()

@@ -8,34 +8,35 @@ use glam::DVec3;
 /// U + iV = 2 E_s E_p*.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stokes {
-    /// Flux.
+    /// Flux I of the light.
     pub i: f64,
-    /// Excess of the field along s.
+    /// Excess Q of the field along s.
     pub q: f64,
-    /// Excess of the field at 45°.
+    /// Excess U of the field at 45°.
     pub u: f64,
-    /// Excess of circular light.
+    /// Excess V of circular light.
     pub v: f64,
 }
 
 impl Stokes {
-    /// Unpolarised light of a flux.
+    /// Creates unpolarised light of a flux.
     pub const fn unpolarised(flux: f64) -> Self {
         Self { i: flux, q: 0.0, u: 0.0, v: 0.0 }
     }
 
-    /// All four by one factor.
+    /// Returns the parameters multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Self { i: self.i * factor, q: self.q * factor, u: self.u * factor, v: self.v * factor }
     }
 
-    /// The same light in a frame turned by an angle of the given cosine and sine: s′ = c s + s p.
+    /// Returns the parameters in a frame rotated by an angle of the given cosine and sine: s′ = c s + s p.
     fn turned(self, cos: f64, sin: f64) -> Self {
         let (cos2, sin2) = (cos * cos - sin * sin, 2.0 * cos * sin);
         Self { i: self.i, q: cos2 * self.q + sin2 * self.u, u: cos2 * self.u - sin2 * self.q, v: self.v }
     }
 
-    /// After a surface with the given shares of s and p, and the complex product r_s r_p* (or t_s t_p*).
+    /// Returns the parameters after a surface with the given shares of s and p, and the complex product r_s r_p* (or
+    /// t_s t_p*).
     fn through(self, s: f64, p: f64, product: [f64; 2]) -> Self {
         let (half, gap) = (0.5 * (s + p), 0.5 * (s - p));
         let [re, im] = product;
@@ -48,22 +49,22 @@ impl Stokes {
     }
 }
 
-/// Polarised light on its way: Stokes parameters with the direction of s.
+/// Polarised light: Stokes parameters with the direction of s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PolarisedLight {
     pub stokes: Stokes,
-    /// Unit vector across the wave vector.
+    /// Unit vector s, across the wave vector.
     pub s: DVec3,
 }
 
 impl PolarisedLight {
-    /// Unpolarised light of flux 1 along `k`.
+    /// Creates unpolarised light of flux 1 along `k`.
     pub fn unpolarised(k: DVec3) -> Self {
         Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize_or(DVec3::X) }
     }
 
-    /// In the frame of a surface with normal ν: s across the plane of incidence. At normal incidence every frame will
-    /// do.
+    /// Returns the light in the frame of a surface with normal ν: s across the plane of incidence. At normal incidence
+    /// any frame is right.
     fn in_frame_of(self, k: DVec3, normal: DVec3) -> Self {
         let across = k.cross(normal);
         let length2 = across.length_squared();
@@ -76,11 +77,11 @@ impl PolarisedLight {
     }
 }
 
-/// A wave at a surface: wave vectors and light, thrown back and passed on.
+/// Light divided at a surface into a reflected and a transmitted part, with the wave vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Divided {
     pub reflected: PolarisedLight,
-    /// Without light where the reflection is total.
+    /// Transmitted light; `None` where the reflection is total.
     pub transmitted: Option<PolarisedLight>,
     /// Normal components of the wave vector before the surface and behind it (0 where the reflection is total).
     pub normal: [f64; 2],
@@ -120,8 +121,8 @@ pub(super) fn divide(light: PolarisedLight, k: DVec3, normal: DVec3, n2: f64, be
     }
 }
 
-/// What a plane-parallel pane in air does with polarised light, all its inner reflections summed: shares of s and p
-/// and the product of the fields, transmitted and reflected.
+/// Computes the effect of a plane-parallel pane in air on polarised light, all its inner reflections summed: shares of
+/// s and p and the product of the fields, transmitted and reflected.
 ///
 /// On every path the fields gather factors t_s t_p or r_s r_p that are real, so that the product sums as the shares
 /// do, by the same geometric series.
@@ -146,7 +147,7 @@ fn pane(pane: &Pane, theta: f64) -> [[f64; 3]; 2] {
     ]
 }
 
-/// Light passed and thrown back by a pane across the z axis.
+/// Returns the light transmitted and reflected by a pane across the z axis.
 pub(super) fn at_pane(light: PolarisedLight, k: DVec3, sheet: &Pane) -> [PolarisedLight; 2] {
     let normal = DVec3::new(0.0, 0.0, -k.z.signum());
     let light = light.in_frame_of(k, normal);

@@ -7,33 +7,33 @@ use crate::compute::system::family::{Family, NoSpecimen, Polygons};
 use crate::compute::system::measure::Specimen;
 use std::f64::consts::FRAC_PI_2;
 
-/// A sheet with prisms of two flanks.
+/// Sheet with prisms of two flanks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prisms {
-    /// What it is made of.
+    /// Material of the sheet.
     pub material: Material,
     /// Angles of the upper and of the lower flank of a ridge against the sheet's plane; the upper one is the one whose
     /// outward normal rises. \[rad\]
     pub angles: [f64; 2],
     /// Distance between ridges. \[m\]
     pub pitch: f64,
-    /// Sheet under the prisms: flat face to valley. \[m\]
+    /// Thickness of the sheet under the prisms: flat face to valley. \[m\]
     pub base: f64,
-    /// True: prisms outside, the flat face towards the room. False: the other way round.
+    /// Whether the prisms are outside and the flat face is towards the room; otherwise the other way round.
     pub flipped: bool,
 }
 
 impl Prisms {
-    /// Height of a ridge over its valleys. \[m\]
+    /// Returns the height of a ridge over its valleys. \[m\]
     pub fn height(&self) -> f64 {
         let [upper, lower] = self.angles.map(|angle| if angle >= FRAC_PI_2 { 0.0 } else { 1.0 / angle.tan() });
         self.pitch / (upper + lower)
     }
 
-    /// The section of the sheet; its flat face at depth 0.
+    /// Creates the section of the sheet, its flat face at depth 0.
     ///
     /// # Errors
-    /// Flanks that make no ridge, lengths or materials out of range.
+    /// Returns an error if the flanks form no ridge, or lengths or materials are out of range.
     pub fn section(&self) -> Result<ClearSection, OutlineError> {
         let [upper, lower] = self.angles;
         let flank = |angle: f64| angle > 0.0 && angle <= FRAC_PI_2 + 1e-12;

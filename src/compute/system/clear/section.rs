@@ -1,9 +1,9 @@
-//! The section that light is traced through: bodies of one period as borders of regions, between flat panes.
+//! Section through which light is traced: bodies of one period as borders of regions, between flat panes.
 
 use super::outline::{Outline, OutlineError, area2, check, edges};
 use crate::compute::system::panes::glazing::Pane;
 
-/// Clear material.
+/// Clear material: refractive index and absorption.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Refractive index, 1 to 4.
@@ -12,12 +12,12 @@ pub struct Material {
     pub absorption: f64,
 }
 
-/// A body of one period.
+/// Body of clear material within one period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Its border.
+    /// Border of the body.
     pub outline: Outline,
-    /// What it is made of.
+    /// Material of the body.
     pub material: Material,
 }
 
@@ -28,16 +28,16 @@ pub struct ClearSection {
     pub(super) period: f64,
     /// Panes outside and inside, at a distance from the bodies that does not matter.
     pub(super) panes: [Option<Pane>; 2],
-    /// Region 0 is the air; then one a body. Lengths in periods.
+    /// Regions of the section: 0 is the air, then one per body. Lengths in periods.
     pub(super) regions: Vec<Region>,
     /// Depths between which the bodies lie. \[periods\]
     pub(super) depth: [f64; 2],
 }
 
-/// A part of the section with one index.
+/// Part of the section with one refractive index.
 #[derive(Debug, Clone)]
 pub(super) struct Region {
-    /// Square of the index.
+    /// Square of the refractive index.
     pub n2: f64,
     /// Absorption over one period.
     pub absorption: f64,
@@ -45,14 +45,14 @@ pub(super) struct Region {
     pub edges: Vec<Edge>,
     /// Flat faces of sheets.
     pub planes: Vec<Plane>,
-    /// Box around the edges of one period: least and greatest (outward, upward).
+    /// Box around the edges of one period: `low` and `high` are its least and greatest (outward, upward).
     pub low: [f64; 2],
     pub high: [f64; 2],
-    /// Light inside meets the borders of its own copy only.
+    /// Whether light inside meets the borders of its own copy only.
     pub confined: bool,
 }
 
-/// A straight border from a to b, its region on the left, another one beyond.
+/// Straight border from a to b, with its region on the left and another one beyond.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edge {
     pub a: [f64; 2],
@@ -70,7 +70,7 @@ impl Edge {
     }
 }
 
-/// A flat face at one depth. It is seen from its region by light that travels with this sign along z.
+/// Flat face at one depth. It is met from its region by light that travels with the sign `seen_along` along z.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
     pub z: f64,
@@ -102,10 +102,10 @@ impl Region {
 }
 
 impl ClearSection {
-    /// Bodies repeated upwards every `period` metres; panes outside and inside.
+    /// Creates a section of bodies repeated upwards every `period` metres, between panes outside and inside.
     ///
     /// # Errors
-    /// Outlines that cross, are nested or enclose nothing; materials out of range.
+    /// Returns an error if outlines cross, are nested or enclose nothing, or if materials are out of range.
     pub fn new(period: f64, bodies: Vec<Body>, panes: [Option<Pane>; 2]) -> Result<Self, OutlineError> {
         check(&bodies.iter().map(|body| &body.outline).collect::<Vec<_>>(), period)?;
         let air = Material { index: 1.0, absorption: 0.0 };
@@ -140,8 +140,8 @@ impl ClearSection {
         Ok(Self { bodies, period, panes, regions, depth })
     }
 
-    /// Closed polygons of one period as (outward, upward), for drawings: the bodies, a sheet as the piece of one
-    /// period, and the panes at a small distance. \[m\]
+    /// Returns the closed polygons of one period as (outward, upward), for drawings: the bodies, a sheet as the piece
+    /// of one period, and the panes at a small distance. \[m\]
     pub fn outline(&self) -> Vec<Vec<[f64; 2]>> {
         let mut list: Vec<Vec<[f64; 2]>> = self.bodies.iter().map(|body| polygon(&body.outline)).collect();
         let floor = list.iter().flatten().map(|point| point[1]).fold(f64::INFINITY, f64::min);
@@ -157,7 +157,7 @@ impl ClearSection {
         list
     }
 
-    /// The same section mirrored in its plane: outside and inside exchanged.
+    /// Returns the section mirrored in its plane: outside and inside exchanged.
     #[must_use]
     pub fn flipped(&self) -> Self {
         let mirror = |points: &[[f64; 2]]| points.iter().map(|[z, y]| [-z, *y]).collect::<Vec<_>>();
@@ -180,7 +180,8 @@ fn polygon(outline: &Outline) -> Vec<[f64; 2]> {
     }
 }
 
-/// Edges with the body on their left. Flat faces of sheets come as whole planes, told by whether they look outside.
+/// Returns the edges with the body on their left. Flat faces of sheets come as whole planes, with whether they look
+/// outside.
 fn borders(outline: &Outline) -> Vec<([[f64; 2]; 2], Option<bool>)> {
     let turned = |[a, b]: [[f64; 2]; 2]| [b, a];
     match outline {

@@ -1,4 +1,4 @@
-//! Clear bodies in section as specimens: prismatic sheets, light-redirecting glass.
+//! Optical model of clear bodies in section: prismatic sheets, light-redirecting glass.
 
 use super::section::ClearSection;
 use super::trace::Emission;
@@ -8,7 +8,7 @@ use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, S
 use std::cell::RefCell;
 
 thread_local! {
-    /// Emission that is filled again and again.
+    /// Emission that is reused from trace to trace.
     static EMISSION: RefCell<Emission> = RefCell::default();
 }
 
@@ -18,7 +18,7 @@ impl Beams for ClearSection {
     }
 
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
-        // Light from outside travels against its name, light from inside along it; so does what it becomes.
+        // Light from outside travels against its through direction, light from inside along it; so do its beams.
         let sign = if side == Side::Front { -1.0 } else { 1.0 };
         out.beams.clear();
         EMISSION.with_borrow_mut(|emission| {
@@ -35,7 +35,7 @@ impl Beams for ClearSection {
 }
 
 impl ClearSection {
-    /// As a specimen of the goniophotometer.
+    /// Creates the optical model of the section for the virtual goniophotometer.
     pub const fn specimen(self) -> SharpBeams<Self> {
         SharpBeams(self)
     }

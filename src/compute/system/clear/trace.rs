@@ -1,4 +1,4 @@
-//! Following all beams that one incident direction becomes.
+//! Tracing of all beams that one incident direction becomes.
 
 use super::beam::{Axes, Front, WideBeam};
 use super::hit::{Hit, extent, nearest};
@@ -8,32 +8,32 @@ use crate::compute::sequence::Random;
 use crate::compute::system::measure::beams::Effort;
 use glam::{DVec2, DVec3};
 
-/// A beam that leaves the section.
+/// Beam that leaves the section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leaving {
     /// Share of the incident flux.
     pub share: f64,
-    /// Direction of travel: cosines along y (upward) and z (outward); the one along x is that of the incident light.
+    /// Direction cosine of travel along y (upward); the one along x is that of the incident light.
     pub y: f64,
-    /// Cosine along z. \[> 0 outwards\]
+    /// Direction cosine of travel along z. \[> 0 outwards\]
     pub z: f64,
     /// Change of `y` with the incident direction cosines along x and y.
     pub change: [f64; 2],
 }
 
-/// What becomes of light of one direction, averaged over where it meets the section.
+/// Light of one direction after the section, averaged over the places where it meets the section.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Emission {
     /// Beams that leave, in no particular order.
     pub leaving: Vec<Leaving>,
-    /// Share that is absorbed, what was given up included.
+    /// Share that is absorbed, including the share that was given up.
     pub absorbed: f64,
-    /// Share that was given up: light still caught between total reflections after very many surfaces, which the
-    /// least absorption would take; slips of rounding at corners. An error of all shares.
+    /// Share that was given up: light still caught between total reflections after very many surfaces, which the least
+    /// absorption would take; rounding errors at corners. It counts as an error of all shares.
     pub lost: f64,
-    /// Surfaces that were looked for, of all beams together: what the trace took.
+    /// Number of surfaces looked for, of all beams together: the cost of the trace.
     pub surfaces: u32,
-    /// Room for the beams still to be followed; empty between traces.
+    /// Buffer for beams still to be followed; empty between traces.
     waiting: Vec<WideBeam>,
 }
 
@@ -44,23 +44,25 @@ impl Emission {
     }
 }
 
-/// How much longer than usual the beams of one direction are followed, each on its own.
+/// Factor on the maximum number of surfaces of [`Effort`] up to which the beams of one direction are followed
+/// separately.
 const PATIENCE: u32 = 10;
-/// Surfaces after which light is given up.
+/// Number of surfaces after which light is given up.
 const MOST_SURFACES: u32 = 2000;
-/// Light left of a beam that absorption takes, caught between total reflections: all of it is absorbed in the end.
+/// Flux below which a beam counts as absorbed: caught between total reflections in absorbing material, all of it is
+/// absorbed in the end.
 const FAINT: f64 = 1e-14;
-/// A part of less than this share of the least is followed only now and then, with more flux.
+/// Fraction of the least divided share below which a part is followed only at random, with more flux then.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// In 0 … 1, from all 64 bits: stored results hang on these very numbers.
+/// Returns a random number in 0 … 1, from all 64 bits: stored results depend on these exact numbers.
 const fn drawn(random: &mut Random) -> f64 {
     random.bits() as f64 / (1_u128 << 64) as f64
 }
 
 impl ClearSection {
-    /// Follows unpolarised light that travels along `direction` (x, y, z; unit length, z not 0) into `out`, which is
-    /// emptied before.
+    /// Traces unpolarised light that travels along `direction` (x, y, z; unit length, z not 0) into `out`, which is
+    /// emptied first.
     pub fn trace(&self, direction: DVec3, effort: Effort, out: &mut Emission) {
         out.clear();
         let stack = std::mem::take(&mut out.waiting);
@@ -77,7 +79,7 @@ impl ClearSection {
         out.waiting = stack;
     }
 
-    /// Light before the section, one period high.
+    /// Returns the incident light in front of the section, one period high.
     fn incident(&self, k: DVec3) -> WideBeam {
         let axes = Axes::new(k);
         let z = if k.z < 0.0 { self.depth[1] + 0.5 } else { self.depth[0] - 0.5 };
@@ -87,14 +89,14 @@ impl ClearSection {
     }
 }
 
-/// Parts of a beam that are too small to be followed each on its own: one of them, chosen at random in proportion to
-/// its flux, stands for all. Their flux is kept exactly.
+/// Parts of a beam that are too small to be followed separately: one of them, chosen at random in proportion to its
+/// flux, represents all. Their flux is kept exactly.
 #[derive(Default)]
 struct Handful {
-    /// What the chosen part meets, and where across the beam it is.
+    /// Border that the chosen part meets; `range` is its extent across the beam.
     hit: Option<Hit>,
     range: [f64; 2],
-    /// Flux of all.
+    /// Flux of all parts.
     flux: f64,
 }
 
@@ -109,7 +111,7 @@ impl Handful {
 
 struct Work<'a> {
     section: &'a ClearSection,
-    /// The least share that is divided at present.
+    /// Minimum share that is divided at present.
     share: f64,
     random: Random,
     stack: Vec<WideBeam>,
@@ -117,7 +119,7 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// One of all beams that are left, with the flux of all of them, no more to be divided.
+    /// Returns one of all remaining beams, with the flux of all of them; it is not divided any more.
     fn one_of_all(&mut self, last: WideBeam) -> WideBeam {
         self.share = f64::INFINITY;
         let (mut chosen, mut flux) = (last, last.light.stokes.i);
@@ -130,7 +132,7 @@ impl Work<'_> {
         whole(chosen, flux)
     }
 
-    /// Passes a beam on to all surfaces that it meets.
+    /// Follows a beam to all surfaces that it meets.
     fn follow(&mut self, mut beam: WideBeam) {
         let section = self.section;
         let region = &section.regions[beam.region];
@@ -181,14 +183,14 @@ impl Work<'_> {
         self.one_of(&beam, &axes, region, &mut small);
     }
 
-    /// A single ray for all parts of a handful.
+    /// Follows a single ray for all parts of a handful.
     fn one_of(&mut self, beam: &WideBeam, axes: &Axes, region: &Region, small: &mut Handful) {
         let Handful { hit, range, flux } = std::mem::take(small);
         let c = range[0] + (range[1] - range[0]) * drawn(&mut self.random);
         self.surface(beam, axes, region, hit.as_ref(), [c, c], flux);
     }
 
-    /// The part of a beam between two places across it, at what it meets there.
+    /// Divides the part of a beam between two places across it at the surface that it meets there.
     fn surface(
         &mut self,
         beam: &WideBeam,
@@ -224,7 +226,7 @@ impl Work<'_> {
         let divided = divide(light, beam.k, normal, region.n2, beyond2);
         let [before, behind] = divided.normal;
         let places = range.map(|c| axes.place([c, hit.at(c)]) - DVec2::new(0.0, hit.copy as f64));
-        // Sheets go on for ever; keep near the origin.
+        // Sheets extend without end; keep near the origin.
         let floor = places[0].y.floor();
         let confined = self.section.regions[hit.beyond].confined || region.confined;
         let places = if confined { places } else { places.map(|place| place - DVec2::new(0.0, floor)) };
@@ -254,8 +256,8 @@ impl Work<'_> {
         }
     }
 
-    /// Flux with which two parts of a beam are followed; one of them for both where they are small. On average both keep
-    /// theirs.
+    /// Returns the flux with which two parts of a beam are followed; one of them with the flux of both where they are
+    /// small. On average both keep theirs.
     fn followed(&mut self, [a, b]: [f64; 2]) -> [f64; 2] {
         let total = a + b;
         let least = NEGLIGIBLE * self.share;
@@ -271,7 +273,7 @@ impl Work<'_> {
         }
     }
 
-    /// A beam in the air at the pane of a side (0 outside, 1 inside), on its way in or out.
+    /// Divides a beam in the air at the pane of a side (0 outside, 1 inside), on its way in or out.
     fn meet_pane(&mut self, beam: WideBeam, side: usize, inwards: bool) {
         let Some(pane) = self.section.panes[side] else {
             if inwards {
@@ -285,7 +287,7 @@ impl Work<'_> {
         let [through, back] = at_pane(beam.light, beam.k, &pane);
         self.out.absorbed += before - through.stokes.i - back.stokes.i;
         let through = WideBeam { light: through, surfaces: beam.surfaces + 1, ..beam };
-        // Thrown back at a distance that does not matter: on average every height is as likely.
+        // Reflected at a distance that does not matter: on average every height is as likely.
         let k = DVec3::new(beam.k.x, beam.k.y, -beam.k.z);
         let axes = Axes::new(beam.k);
         let places = beam.front.ends.map(|end| axes.place(end));
@@ -301,7 +303,7 @@ impl Work<'_> {
             self.leave(&back);
             self.stack.push(through);
         } else if before < self.share {
-            // Weak light does one of both, or weaker and weaker parts would go on between two panes.
+            // Weak light takes one of both ways, or weaker and weaker parts would travel between two panes.
             let total = through.light.stokes.i + back.light.stokes.i;
             if drawn(&mut self.random) * total < through.light.stokes.i {
                 self.leave(&whole(through, total));
@@ -314,7 +316,7 @@ impl Work<'_> {
         }
     }
 
-    /// A beam that a pane throws back to the bodies, from beyond their depths.
+    /// Returns a beam that a pane reflects to the bodies, from beyond their depths.
     fn behind(&self, beam: WideBeam) -> WideBeam {
         let axes = Axes::new(beam.k);
         let [low, high] = self.section.depth;
@@ -346,7 +348,7 @@ impl Work<'_> {
     }
 }
 
-/// A beam that carries this flux, so as to stand for others.
+/// Returns a beam with the given flux, so that it represents others.
 fn whole(mut beam: WideBeam, flux: f64) -> WideBeam {
     if beam.light.stokes.i <= 0.0 {
         return beam;
@@ -355,9 +357,9 @@ fn whole(mut beam: WideBeam, flux: f64) -> WideBeam {
     beam
 }
 
-/// Mean internal transmittance over a beam whose ends travel the given lengths in the section.
+/// Returns the mean internal transmittance over a beam whose ends travel the given lengths in the section.
 ///
-/// What is left is taken as evenly spread, which is exact for weak absorption or parallel borders.
+/// The light that is left is taken as uniformly distributed, which is exact for weak absorption or parallel borders.
 fn mean_transmittance(region: &Region, beam: &WideBeam, lengths: [f64; 2]) -> f64 {
     // The true way is longer than its section.
     let slant = region.n2.sqrt() / DVec2::new(beam.k.y, beam.k.z).length();

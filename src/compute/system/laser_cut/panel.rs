@@ -1,4 +1,4 @@
-//! Laser-cut panels as specimens: Edmonds' shares, with a loss at the cuts.
+//! Optical model of laser-cut panels: Edmonds' shares, with a loss at the cuts.
 
 use super::shares::LaserCutPanel;
 use crate::compute::direction::{Dir, Facade};
@@ -6,7 +6,7 @@ use crate::compute::system::family::{Family, NoSpecimen, Polygons, rectangle};
 use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, SharpBeams};
 use crate::compute::system::measure::{Side, Specimen};
 
-/// A panel with cuts that do not reflect all light.
+/// Panel with cuts that do not reflect all light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutPanel {
     /// Sheet and spacing.
@@ -28,7 +28,7 @@ impl Family for CutPanel {
         Some(self.panel.spacing)
     }
 
-    /// The piece of the sheet between two cuts, its outer face at depth 0.
+    /// Returns the piece of the sheet between two cuts, its outer face at depth 0.
     fn drawing(&self, _: &str) -> Polygons {
         let (depth, height) = (self.panel.sheet.thickness, self.panel.spacing);
         // Cuts are as wide as a laser beam; shown as a fiftieth.
@@ -46,7 +46,7 @@ impl Beams for CutPanel {
         out.beams.clear();
         let shares = self.panel.shares(name, self.cut_loss);
         let y = name.vector().y;
-        // The panel is the same from both sides; a turned beam has its vertical component turned round.
+        // The panel is the same from both sides; a redirected beam has its vertical component reversed.
         for (share, transmitted, sign) in [
             (shares.straight, true, 1.0),
             (shares.deflected, true, -1.0),

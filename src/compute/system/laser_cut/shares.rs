@@ -2,40 +2,40 @@
 //! totally reflected (Edmonds, Solar Energy Materials and Solar Cells 29, 1993).
 //!
 //! Inside the sheet a ray climbs t = (D/s)·|y′|/z′ spacings on one passage. Averaged over where it enters, the share
-//! f(t) = 1 − |1 − (t mod 2)| leaves with its vertical component turned round. A path of k passages has f(k t), so
-//! light that the faces throw back inside the sheet is followed exactly as well.
+//! f(t) = 1 − |1 − (t mod 2)| leaves with its vertical component reversed. A path of k passages has f(k t), so light
+//! that the faces reflect inside the sheet is followed exactly as well.
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::panes::glazing::{Pane, fresnel};
 
-/// The panel: cuts horizontal, light from either side.
+/// Laser-cut panel with horizontal cuts, for light from either side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaserCutPanel {
-    /// The sheet. Total reflection at the cuts for all incidence needs an index ≥ √2.
+    /// Sheet of the panel. Total reflection at the cuts for all incidence needs an index ≥ √2.
     pub sheet: Pane,
     /// Distance between cuts. \[m\]
     pub spacing: f64,
 }
 
-/// Shares of the light of one direction; straight and deflected (vertical component turned round).
+/// Shares of the light of one direction. Deflected light has its vertical component reversed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PanelShares {
-    /// Transmitted, direction kept.
+    /// Share transmitted undeviated.
     pub straight: f64,
-    /// Transmitted, turned up or down.
+    /// Share transmitted with the vertical component reversed.
     pub deflected: f64,
-    /// Mirrored as by a pane.
+    /// Share mirrored as by a pane.
     pub mirrored: f64,
-    /// Thrown back with the vertical component turned round.
+    /// Share reflected with the vertical component reversed.
     pub returned: f64,
 }
 
-/// Share that leaves with its vertical component turned round after climbing `t` spacings.
+/// Returns the share that leaves with its vertical component reversed after climbing `t` spacings.
 pub fn deflected_share(t: f64) -> f64 {
     1.0 - (1.0 - t.rem_euclid(2.0)).abs()
 }
 
-/// Shares that keep and that turn their vertical component after climbing `t` spacings.
+/// Returns the shares that keep and that reverse their vertical component after climbing `t` spacings.
 fn after_cuts(t: f64, cut_loss: f64) -> [f64; 2] {
     if cut_loss == 0.0 {
         let turned = deflected_share(t);
@@ -48,8 +48,9 @@ fn after_cuts(t: f64, cut_loss: f64) -> [f64; 2] {
 }
 
 impl LaserCutPanel {
-    /// Shares for light from one direction (façade frame), where every reflection at a cut loses the share `cut_loss`. A path that climbs t spacings meets ⌊t⌋ cuts,
-    /// or one more for the part t − ⌊t⌋ of the places where it may have begun; an odd number turns it.
+    /// Returns the shares for light from one direction (façade frame), where every reflection at a cut loses the share
+    /// `cut_loss`. A path that climbs t spacings meets ⌊t⌋ cuts, or one more for the part t − ⌊t⌋ of the places where
+    /// it may have begun; an odd number reverses its vertical component.
     pub fn shares(&self, d: Dir<Facade>, cut_loss: f64) -> PanelShares {
         let theta = d.theta();
         let (surface, inner) = fresnel(self.sheet.index, theta);

@@ -1,10 +1,11 @@
-//! Systems that turn one direction into a few sharp beams: means over the incident cells, flux into emergent cells.
+//! Systems that divide light of one direction into a few sharp beams: means over incident cells, flux into emergent
+//! cells.
 //!
 //! An incident cell is cut into parts of equal projected solid angle. The beams of one direction of each part are
-//! found; where the rest of the part goes follows from how the beams turn with the incident direction, so that flux is
-//! laid into the emergent cells at the fineness of those and not of the parts. The flux of every part is kept exactly.
-//! The directions are a scrambled net: every power of two of them has one direction in every part.
-//! Their number is doubled, what was found before being kept, until the totals stand.
+//! computed; those of the rest of the part follow from the change of the beams with the incident direction, so that
+//! flux is distributed at the resolution of the emergent cells and not of the parts. The flux of every part is kept
+//! exactly. The directions are a scrambled net: every power of two of them has one direction in every part. Their
+//! number is doubled, earlier results being kept, until the totals are within the allowed error.
 
 use super::cells::CellFinder;
 use super::merged::{merged, without_faint};
@@ -19,39 +20,40 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A sharp beam that a direction becomes. All systems here are endless along x, which keeps the x of the name.
+/// Sharp beam that leaves a system. All systems here are endless along x, so that light keeps the x of its through
+/// direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SharpBeam {
     /// Share of the incident flux.
     pub share: f64,
-    /// Transmitted, or thrown back.
+    /// Whether the beam is transmitted; otherwise it is reflected.
     pub transmitted: bool,
-    /// The name's direction cosine along y.
+    /// Direction cosine along y of the beam's through direction.
     pub y: f64,
-    /// Change of `y` with the incident name's direction cosines x and y.
+    /// Change of `y` with the direction cosines x and y of the incident through direction.
     pub change: [f64; 2],
 }
 
-/// All that light of one direction becomes.
+/// Beams, absorbed and lost light of one incident direction.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shares {
-    /// The beams.
+    /// Beams that leave the system.
     pub beams: Vec<SharpBeam>,
-    /// Share that is absorbed, what was given up included.
+    /// Share that is absorbed, including the share that was given up.
     pub absorbed: f64,
-    /// Share that was given up, as an error.
+    /// Share that was given up; it counts as an error.
     pub lost: f64,
-    /// Surfaces that light was followed to; 0 for closed forms.
+    /// Number of surfaces that light was followed to; 0 for closed forms.
     pub surfaces: u32,
 }
 
-/// How closely light is followed.
+/// Effort with which light is followed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Beams with less than this share of the incident flux are no longer divided: one part, chosen at random in
     /// proportion to its flux, stands for the whole.
     pub share: f64,
-    /// Seed of that choice.
+    /// Seed of the random choice of parts.
     pub seed: u64,
     /// Surfaces, counted over all beams together, up to which `share` holds. From there on it grows with their number,
     /// and after ten times as many, one of the beams that are left, chosen at random in proportion to its
@@ -60,10 +62,10 @@ pub struct Effort {
 }
 
 impl Effort {
-    /// Surfaces that are enough for usual sections.
+    /// Number of surfaces that is enough for common sections.
     pub const SURFACES: u32 = 1000;
 
-    /// The least share that is divided after so many surfaces.
+    /// Returns the least share that is divided after `surfaces` surfaces.
     pub fn share_after(&self, surfaces: u32) -> f64 {
         if surfaces > self.surfaces {
             self.share * f64::from(surfaces) / f64::from(self.surfaces.max(1))
@@ -73,54 +75,56 @@ impl Effort {
     }
 }
 
-/// A system made of sharp beams, endless along x and the same from left and right.
+/// System that divides light into sharp beams, endless along x and symmetric left to right.
 pub trait Beams: Send + Sync {
-    /// The beams of light of the given name from a side, into `out`, which is to be emptied first. `effort` is for
-    /// systems that follow very many beams.
+    /// Computes the beams of light of a through direction from a side into `out`, which is emptied first. `effort` is
+    /// for systems that follow very many beams.
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
 
-    /// Is a direction answered in microseconds? Not where light is followed from surface to surface.
+    /// Whether a direction takes microseconds; `false` where light is followed from surface to surface.
     fn is_quick(&self) -> bool {
         true
     }
 
-    /// Half of the fewest parts along either side of an incident cell; a power of two.
+    /// Returns half of the minimum number of parts along either side of an incident cell; a power of two.
     fn fewest_parts(&self) -> usize {
         8
     }
 }
 
-/// Most directions of an incident cell, as a power of two.
+/// Maximum number of directions of an incident cell, as a power of two.
 const MOST_DOUBLINGS: u32 = 20;
-/// Groups of directions from which the error is estimated; a power of two.
+/// Number of groups of directions from which the error is estimated; a power of two.
 const GROUPS: usize = 8;
-/// Standard errors that an error is stated as: nearly all true errors are smaller.
+/// Number of standard errors that are stated as the error: nearly all true errors are smaller.
 const SURE: f64 = 3.0;
-/// The share of the allowed error that is aimed at. Directions stop where the estimate happens to be small, and the
-/// largest error among hundreds of cells is to be within.
+/// Share of the allowed error at which no more directions are added. Below 1 because directions stop where the estimate
+/// happens to be small, while the largest error among hundreds of cells is to be within the allowed one.
 const AIM: f64 = 0.5;
-/// Surfaces for one incident cell at an error of 0.01 and above, after which it gets no more directions.
+/// Maximum number of surfaces for one incident cell at an allowed error of 0.01 and above; beyond it the cell gets no
+/// more directions.
 const MOST_SURFACES: f64 = 3e5;
-/// Directions from which it is found how many surfaces a ray meets.
+/// Number of directions from which the mean number of surfaces that a ray meets is found.
 const PILOTS: u32 = 32;
-/// Light is divided down to a share of the incident flux that goes with the root of the allowed error and the square of
-/// the number of surfaces that a ray meets on average: where they are many, following more directions teaches more than
-/// dividing the light of each. The factor was found by trial.
+/// Factor of the least share that is divided. That share is proportional to the root of the allowed error and to the
+/// square of the mean number of surfaces that a ray meets: where they are many, following more directions reduces the
+/// error more than dividing the light of each. The factor was found by trial.
 const DIVIDED: f64 = 5.5e-3;
-/// Places along either side of a square of the size of an emergent cell that a strong beam is laid to.
+/// Number of places along either side of a square of the size of an emergent cell over which a strong beam is
+/// distributed.
 const PLACES: f64 = 96.0;
-/// Most places along either side of a part.
+/// Maximum number of places along either side of a part.
 const MOST_PLACES: usize = 24;
-/// Share from which a beam is laid to all of the places of its part; weaker ones to fewer in proportion.
+/// Share from which a beam is distributed over all places of its part; weaker beams over fewer in proportion.
 const STRONG: f64 = 0.2;
-/// How closely the light of a single direction is followed: strong beams to 1e-4 in a few milliseconds.
+/// Effort for a single direction: strong beams to 1e-4 in a few milliseconds.
 const FINE: Effort = Effort { share: 1e-5, seed: 1, surfaces: 10_000 };
-/// Where neighbours may share an answer, the parts of a disc, it is enough to know the strong ones to 1e-3 of the light.
+/// Effort where neighbouring directions share a result, as the parts of a disc do: strong beams to 1e-3 of the light.
 const COARSE: Effort = Effort { share: 1e-4, seed: 1, surfaces: 2000 };
-/// Share of the incident flux that may be left out of the beams of a single direction, for each of these.
+/// Share of the incident flux that may be dropped from the beams of a single direction, for [`FINE`] and [`COARSE`].
 const FAINT: [f64; 2] = [1e-6, 1e-5];
 
-/// A specimen of sharp beams.
+/// Optical model of a system of sharp beams.
 #[derive(Debug, Clone)]
 pub struct SharpBeams<B>(pub B);
 
@@ -145,7 +149,7 @@ impl<B: Beams> Specimen for SharpBeams<B> {
         self.0.is_quick()
     }
 
-    /// Nothing: all of the light stays in beams.
+    /// Returns no light: all of it stays in beams.
     fn scattered(&self, _: Dir<Facade>, _: Side, _: &RingBasis) -> ScatteredLight {
         ScatteredLight::default()
     }
@@ -163,10 +167,10 @@ fn beams_of(system: &impl Beams, name: Dir<Facade>, side: Side, effort: Effort, 
     without_faint(merged(beams), faint)
 }
 
-/// The four functions of a system of sharp beams.
+/// Computes transmission and reflection of both sides of a system of sharp beams.
 ///
 /// # Errors
-/// [`Cancelled`] when `progress` says so.
+/// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
     let bench = Bench::new(system, setting);
     let n = setting.incident.len();
@@ -209,8 +213,8 @@ pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progre
     Ok(measured)
 }
 
-/// Which cell is the mirror image of which, `turned` giving a direction's azimuth after the exchange of left and right
-/// or of up and down; `None` where the cells do not mirror.
+/// Returns the index of the mirror image of every cell; `None` if the cells are not symmetric. `turned` gives the
+/// azimuth of a direction after the exchange of left and right or of up and down.
 pub fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<Vec<usize>> {
     let image = |cell: Cell| {
         let other = basis.index(Dir::from_theta_phi(cell.theta(), turned(cell.phi)))?;
@@ -222,7 +226,7 @@ pub fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<V
     basis.cells().map(image).collect()
 }
 
-/// What one incident cell becomes.
+/// Scattering of one incident cell, summed over its directions.
 struct Row {
     /// Flux into the emergent cells, summed over directions of unit flux; 1/sr when it is finished.
     transmitted: Vec<f64>,
@@ -230,9 +234,9 @@ struct Row {
     absorbed: f64,
     lost: f64,
     error: f64,
-    /// τ and ρ of all directions, as found one after the other.
+    /// τ and ρ of all directions, in the order in which they were computed.
     totals: Vec<[f64; 2]>,
-    /// Surfaces that light was followed to.
+    /// Number of surfaces that light was followed to.
     surfaces: f64,
 }
 
@@ -249,8 +253,8 @@ impl Row {
         }
     }
 
-    /// Error of τ or ρ, the larger one: [`SURE`] standard errors, as if the groups of directions, each of them a net of
-    /// its own all over the cell, were drawn independently. Together they lie more evenly still.
+    /// Returns the larger error of τ and ρ: [`SURE`] standard errors, as if the groups of directions, each of them a
+    /// net all over the cell, were drawn independently. Together they are distributed more uniformly still.
     fn doubt(&self) -> f64 {
         let groups = GROUPS as f64;
         let size = (self.totals.len() / GROUPS).max(1);
@@ -263,7 +267,7 @@ impl Row {
         SURE * one(0).max(one(1))
     }
 
-    /// From sums over directions to means.
+    /// Converts sums over directions to means.
     fn finish(&mut self, weights: &[f64]) {
         let each = 1.0 / self.totals.len() as f64;
         for values in [&mut self.transmitted, &mut self.reflected] {
@@ -284,7 +288,7 @@ impl Row {
     }
 }
 
-/// What all cells share.
+/// Computation of all cells: system, settings and cell tables.
 struct Bench<'a, B> {
     system: &'a B,
     setting: &'a Setting<'a>,
@@ -292,9 +296,9 @@ struct Bench<'a, B> {
     weights: Vec<f64>,
     /// Typical width of an emergent cell as a direction cosine.
     fineness: f64,
-    /// The incident cells are the emergent ones.
+    /// Whether the incident cells are the emergent ones.
     same: bool,
-    /// The mirror image of every cell, up and down exchanged, where the cells have them and `same` holds.
+    /// Mirror image of every cell, up and down exchanged, where the cells have them and `same` holds.
     below: Option<Vec<usize>>,
 }
 
@@ -307,7 +311,7 @@ impl<'a, B: Beams> Bench<'a, B> {
         Self { system, setting, finder: CellFinder::new(setting.emergent), weights, fineness, same, below }
     }
 
-    /// Directions are doubled until the shares of the cell stand, or its light has met too many surfaces.
+    /// Computes a cell: directions are doubled until its error is met, or its light has met too many surfaces.
     fn row(&self, side: Side, index: usize) -> Row {
         let fewest = (2 * self.system.fewest_parts()).next_power_of_two().ilog2();
         let most = MOST_SURFACES * (0.01 / self.setting.error).max(1.0).powf(1.5);
@@ -323,12 +327,12 @@ impl<'a, B: Beams> Bench<'a, B> {
         row
     }
 
-    /// Seed of a direction of a cell, whatever thread works on it; number 0 is for the directions themselves.
+    /// Returns the seed of a direction of a cell, on any thread; number 0 is for the directions themselves.
     fn seed(&self, side: Side, index: usize, number: u64) -> u64 {
         mixed(self.setting.seed, [u64::from(side == Side::Back), index as u64, number])
     }
 
-    /// The share of the incident flux down to which the light of a cell is divided.
+    /// Returns the share of the incident flux down to which the light of a cell is divided.
     fn share(&self, side: Side, index: usize) -> f64 {
         let cell = self.setting.incident.cell(index);
         let base = self.seed(side, index, 0);
@@ -375,7 +379,7 @@ impl<'a, B: Beams> Bench<'a, B> {
             for (number, beam) in shares.beams.iter().enumerate() {
                 let to = if beam.transmitted { &mut row.transmitted } else { &mut row.reflected };
                 if self.same && beam.y == y {
-                    // Light that keeps its name keeps its cell.
+                    // Light that keeps its through direction keeps its cell.
                     to[index] += beam.share;
                     continue;
                 }
@@ -401,7 +405,7 @@ impl<'a, B: Beams> Bench<'a, B> {
         }
     }
 
-    /// Where light goes that comes from a little beside the middle of its part.
+    /// Returns the emergent cell of light from a direction that lies (`dx`, `dy`) beside the middle of its part.
     fn target(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2], beam: &SharpBeam) -> Option<usize> {
         let x = x + dx;
         // The slope holds near the middle only: no farther than light can go.
@@ -412,7 +416,7 @@ impl<'a, B: Beams> Bench<'a, B> {
     }
 }
 
-/// The middles of parts of a cell, so many rows and columns.
+/// Middles of the parts of a cell, in rows and columns.
 struct Places {
     /// sinθ of the rows.
     radii: Vec<f64>,
@@ -434,20 +438,20 @@ impl Places {
         }
     }
 
-    /// Direction cosines (x, y).
+    /// Returns the direction cosines (x, y) of a place.
     fn at(&self, [row, column]: [usize; 2]) -> [f64; 2] {
         self.turns[column].map(|turn| self.radii[row] * turn)
     }
 }
 
-/// A direction of a cell: both coordinates 0 … 1, rising in sin²θ and in φ.
+/// Returns a direction of a cell; both coordinates from 0 to 1, rising in sin²θ and in φ.
 fn point(cell: &Cell, row: f64, column: f64) -> Dir<Facade> {
     let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     let sin2 = low + (high - low) * row;
     Dir::from_theta_phi(sin2.sqrt().asin(), cell.phi + cell.width * (column - 0.5))
 }
 
-/// No common divisor but 1.
+/// Whether two numbers have no common divisor but 1.
 fn coprime(a: usize, b: usize) -> bool {
     let (mut a, mut b) = (a, b);
     while b > 0 {

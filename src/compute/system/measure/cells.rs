@@ -1,12 +1,12 @@
-//! Finding the cell of very many directions.
+//! Search for the cells of very many directions.
 
 use crate::compute::basis::RingBasis;
 use std::f64::consts::PI;
 
-/// Slots of the table over sin²θ.
+/// Number of slots of the table over sin²θ.
 const SLOTS: usize = 4096;
 
-/// The cells of a basis by lateral direction cosines.
+/// Table of the cells of a basis by lateral direction cosines.
 pub(super) struct CellFinder {
     rings: Vec<RingOfCells>,
     /// First ring (by rising θ) that may hold a slot of sin²θ.
@@ -14,10 +14,10 @@ pub(super) struct CellFinder {
 }
 
 struct RingOfCells {
-    /// Limits of sin²θ.
+    /// Lower limit of sin²θ; `to` is the upper one.
     from: f64,
     to: f64,
-    /// Where sectors begin, on the diamond of [`diamond`], rising, with their cells.
+    /// Starts of the sectors, in rising values of [`diamond`], with their cells.
     sectors: Vec<(f64, usize)>,
 }
 
@@ -41,7 +41,7 @@ impl CellFinder {
         Self { rings, slots }
     }
 
-    /// The cell that holds (x, y); `None` in gaps between rings.
+    /// Returns the cell that contains (x, y); `None` in gaps between rings.
     pub fn find(&self, x: f64, y: f64) -> Option<usize> {
         let sin2 = (x * x + y * y).min(1.0);
         let slot = ((sin2 * SLOTS as f64) as usize).min(SLOTS - 1);
@@ -66,14 +66,14 @@ impl CellFinder {
             k += 1;
         }
         if at < ring.sectors[k].0 {
-            // Before the first border: the last sector goes on across 0.
+            // Before the first border: the last sector extends across 0.
             k = count - 1;
         }
         Some(ring.sectors[k].1)
     }
 }
 
-/// A measure of azimuth that rises with it from 0 to 4, without an arc tangent.
+/// Returns a measure of azimuth that rises with it from 0 to 4, without an arc tangent.
 fn diamond(x: f64, y: f64) -> f64 {
     let sum = x.abs() + y.abs();
     if sum == 0.0 {
@@ -87,7 +87,7 @@ fn diamond(x: f64, y: f64) -> f64 {
     }
 }
 
-/// Borders of the sectors of a ring where they begin, façade azimuth rising.
+/// Returns the starts of the sectors of a ring with their cells, façade azimuth rising.
 fn sectors(basis: &RingBasis, first_cell: usize, count: usize) -> Vec<(f64, usize)> {
     let mut list: Vec<(f64, usize)> = (first_cell..first_cell + count)
         .map(|index| {

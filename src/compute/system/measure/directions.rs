@@ -1,5 +1,5 @@
-//! What light of single incident directions becomes, on emergent cells: what a goniophotometer finds at the directions
-//! of its list, not means over incident cells.
+//! Scattering of single incident directions on emergent cells, as a goniophotometer finds it for the directions of its
+//! list; not means over incident cells.
 
 use super::cells::CellFinder;
 use super::fan::{middle, pieces};
@@ -12,14 +12,14 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Width of the parts of a fan that are laid into a cell each. \[rad\]
+/// Width of the parts into which a fan is divided, each in one cell. \[rad\]
 const PIECE: f64 = 0.002;
 
-/// Rows for light of the given names from a side: q of every emergent cell, beams laid into the cells that they fall in.
-/// What is neither transmitted nor thrown back counts as absorbed.
+/// Computes q of every emergent cell for light of the given through directions from a side; beams count in the cells
+/// that they fall in. Light that is neither transmitted nor reflected counts as absorbed.
 ///
 /// # Errors
-/// [`Cancelled`] when `progress` says so.
+/// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn at_directions(
     specimen: &dyn Specimen,
     side: Side,
@@ -51,10 +51,10 @@ pub fn at_directions(
     Ok(made)
 }
 
-/// The four functions at the centres of the incident cells of a setting.
+/// Computes transmission and reflection of both sides at the centres of the incident cells of a setting.
 ///
 /// # Errors
-/// [`Cancelled`] when `progress` says so.
+/// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn measured_at_directions(
     specimen: &dyn Specimen,
     setting: &Setting<'_>,
@@ -67,7 +67,7 @@ pub fn measured_at_directions(
 }
 
 impl Measured {
-    /// The four functions as the rest of the program holds them, known at the centres of the incident cells alone.
+    /// Returns the data as a band of single incident directions, the centres of the incident cells.
     pub fn band_at_directions(&self) -> Band {
         let incident: Vec<Incident> = self.incident.cells().map(|cell| Incident(cell.centre())).collect();
         let mut band = Band::default();
@@ -84,7 +84,7 @@ impl Measured {
     }
 }
 
-/// The row of one direction.
+/// Computes the scattering of one direction.
 fn row(
     specimen: &dyn Specimen,
     side: Side,

@@ -1,13 +1,13 @@
-//! Pieces of a fan: the light of a curved mirror, which lies evenly between two names.
+//! Pieces of a fan: the light of a curved mirror, uniformly distributed between two directions.
 
 use super::parallel::Beam;
 use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 
-/// Direction cosines that are taken for equal.
+/// Difference below which direction cosines are equal.
 const EQUAL: f64 = 1e-9;
 
-/// Equal parts of a fan, none wider than `step` \[rad\]; a parallel beam is a part by itself.
+/// Divides a fan into equal parts, none wider than `step` \[rad\]; a parallel beam stays one part.
 pub fn pieces(beam: &Beam, step: f64) -> impl Iterator<Item = Beam> {
     let beam = *beam;
     let parallel = beam.names[0] == beam.names[1];
@@ -17,19 +17,19 @@ pub fn pieces(beam: &Beam, step: f64) -> impl Iterator<Item = Beam> {
     (0..count).map(move |k| if count == 1 { beam } else { Beam { names: [at(k), at(k + 1)], share, ..beam } })
 }
 
-/// The name in the middle.
+/// Returns the through direction in the middle of a fan.
 pub fn middle(beam: &Beam) -> Dir<Facade> {
     if beam.names[0] == beam.names[1] { beam.names[0] } else { between(beam, 0.5) }
 }
 
-/// The angle between the ends. \[rad\]
+/// Returns the angle between the ends of a fan. \[rad\]
 pub fn wide(beam: &Beam) -> f64 {
     let [a, b] = beam.names.map(|name| name.vector());
     a.cross(b).length().atan2(a.dot(b))
 }
 
-/// The name at a part 0 … 1 of the way. What is endless along an axis keeps the direction cosine along it, and turns the
-/// light evenly about it.
+/// Returns the through direction at a share from 0 to 1 between the ends. Systems that are endless along an axis keep
+/// the direction cosine along it and distribute light uniformly in the angle about it.
 fn between(beam: &Beam, part: f64) -> Dir<Facade> {
     let [a, b] = beam.names.map(|name| name.vector());
     let axis = if (a.x - b.x).abs() < EQUAL {

@@ -1,16 +1,16 @@
-//! What is made once and kept for the next direction.
+//! Caches of results that are computed once and reused for the next direction.
 //!
-//! Making it is parallel work, and so may be asking for it. A thread of the common pool that waits for its parts takes up
-//! other work meanwhile: perhaps another direction, which would wait for what this very thread is making. So it is made
-//! in a pool of its own, while the thread that asked for it rests.
+//! The computation is parallel, and so may be the calls for it. A thread of the common pool that waits for its parts
+//! takes up other work meanwhile: perhaps another direction, which would wait for the result that this thread is
+//! computing. So the result is computed in a separate pool, while the calling thread rests.
 
 use crate::compute::basis::RingBasis;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Divisions of the hemisphere that are kept; the oldest goes first.
+/// Maximum number of bases whose results are cached; the oldest is dropped first.
 const MOST: usize = 8;
 
-/// Something made once.
+/// Result that is computed once.
 #[derive(Debug)]
 pub struct Once<T>(OnceLock<T>);
 
@@ -21,13 +21,13 @@ impl<T> Default for Once<T> {
 }
 
 impl<T: Send> Once<T> {
-    /// What was made. Others wait while it is.
+    /// Returns the result, computed by the first call. Other threads wait for it.
     pub fn get(&self, make: impl FnOnce() -> T + Send) -> &T {
         self.0.get_or_init(|| apart(make))
     }
 }
 
-/// Things made for some cells, each with its cells.
+/// Cache of results by basis.
 pub struct Kept<T>(Mutex<Vec<(RingBasis, Arc<T>)>>);
 
 impl<T> Default for Kept<T> {
@@ -37,16 +37,16 @@ impl<T> Default for Kept<T> {
 }
 
 impl<T> Kept<T> {
-    /// Nothing yet.
+    /// Creates an empty cache.
     pub const fn new() -> Self {
         Self(Mutex::new(Vec::new()))
     }
 }
 
 impl<T: Send> Kept<T> {
-    /// What belongs to these cells. Others wait while it is made.
+    /// Returns the result for a basis, computed by the first call. Other threads wait for it.
     pub fn get(&self, cells: &RingBasis, make: impl FnOnce() -> T + Send) -> Arc<T> {
-        // What is kept is whole even if another thread has failed while it held the lock.
+        // Cached results are complete even if another thread has failed while it held the lock.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, found)) = kept.iter().find(|(known, _)| known == cells) {
             return found.clone();
@@ -60,12 +60,12 @@ impl<T: Send> Kept<T> {
     }
 }
 
-/// Makes something in threads of its own.
+/// Computes a result in a separate thread pool.
 fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     let threads = rayon::current_num_threads();
     let work = move || match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(make),
-        // No more threads to be had: one has to do.
+        // No more threads available: one has to do.
         Err(_) => make(),
     };
     let made = std::thread::scope(|scope| scope.spawn(work).join());

@@ -1,12 +1,11 @@
-//! Beams of equal names as one.
+//! Merging of beams of equal directions.
 
 use super::parallel::Beam;
 
-/// Direction cosines within which names are taken for the same.
+/// Difference up to which direction cosines are the same.
 pub const SAME: f64 = 1e-9;
 
-/// Beams that go the same way, from and to, as one with the sum of their shares. In an order that depends on the names
-/// alone.
+/// Merges beams of equal directions, their shares summed. The order depends on the directions only.
 pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
     let beams: Vec<Beam> = beams.into_iter().collect();
     if beams.len() < 2 {
@@ -31,13 +30,14 @@ pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
     placed.into_iter().map(|(_, beam)| beam).collect()
 }
 
-/// Direction cosines of one place are taken for the same.
+/// Returns the number of the interval of width [`SAME`] that a direction cosine lies in; those of one interval are the
+/// same.
 pub fn place(cosine: f64) -> i64 {
     let scaled = cosine / SAME;
     (scaled + 0.5_f64.copysign(scaled)) as i64
 }
 
-/// The beams without the faintest, which together carry no more than this share.
+/// Returns the beams, strongest first, without the faintest ones, which together carry at most `share`.
 pub fn without_faint(mut beams: Vec<Beam>, share: f64) -> Vec<Beam> {
     beams.sort_by(|a, b| b.share.total_cmp(&a.share));
     let mut left = share;

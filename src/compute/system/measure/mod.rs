@@ -1,15 +1,15 @@
-//! The numerical goniophotometer: BTDF and BRDF of a described system, from both sides, as means over the incident
-//! **and** the emergent cells.
+//! Virtual goniophotometer: BTDF and BRDF of a described system, from both sides, as means over the incident **and**
+//! the emergent cells.
 //!
-//! # Names of directions
-//! Every direction is named by a vector on the outward half (z > 0 in the façade frame), so that light that goes
-//! straight through keeps its name, and so does a mirror image:
-//! * light from outside: lateral part of the name = −(x, y) of the direction in which light **travels**, before and
-//!   after the system, transmitted or thrown back (an incident name is the direction towards the source);
+//! # Through directions
+//! Every direction, also a reflected one, is given by its through direction, a vector on the outward half (z > 0 in the
+//! façade frame). Undeviated light keeps its through direction, and so does a mirror image:
+//! * light from outside: lateral part = −(x, y) of the direction in which light **travels**, before and after the
+//!   system, transmitted or reflected (for incident light it is the direction towards the source);
 //! * light from inside: lateral part = +(x, y) of the direction in which light travels.
 //!
-//! In these names reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side, the bar
-//! turning a name by 180° about the normal.
+//! By through directions reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side,
+//! where the bar rotates a direction by 180° about the normal.
 
 pub mod beams;
 mod cells;
@@ -30,81 +30,81 @@ use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 
-/// The cells that computed systems are given on: LBNL/Klems Full, as light from outside names them.
+/// Returns the cells of data of computed systems: LBNL/Klems Full, numbered as for light from outside.
 pub fn front_basis() -> RingBasis {
     RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
 }
 
-/// The side that light comes from.
+/// Side that light comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// Outside.
+    /// Light from outside.
     Front,
-    /// The room.
+    /// Light from the room.
     Back,
 }
 
 impl Side {
-    /// Both, front first.
+    /// Both sides, front first.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
 }
 
-/// What is asked of a measurement.
+/// Settings of a computation of scattering: cells, allowed error, seed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting<'a> {
-    /// Incident cells, in through-names.
+    /// Incident cells, by through direction.
     pub incident: &'a RingBasis,
-    /// Emergent cells, in through-names.
+    /// Emergent cells, by through direction.
     pub emergent: &'a RingBasis,
-    /// Absolute error that is allowed in the directional-hemispherical transmittance and reflectance of any incident
-    /// cell. The program chooses its effort by it.
+    /// Allowed absolute error of the direct-hemispherical transmittance and reflectance of any incident cell. The
+    /// program chooses its effort by it.
     pub error: f64,
-    /// Seed of whatever is drawn at random. The same seed gives the same values on any number of threads.
+    /// Seed of random numbers. The same seed gives the same values on any number of threads.
     pub seed: u64,
 }
 
-/// What light from one side does.
+/// Scattering of light from one side, by cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OneSide {
     /// q of transmitted light, `[i · emergent.len() + o]`. \[1/sr\]
     pub transmitted: Vec<f64>,
-    /// q of light thrown back, the same order. \[1/sr\]
+    /// q of reflected light, `[i · emergent.len() + o]`. \[1/sr\]
     pub reflected: Vec<f64>,
-    /// Share that is absorbed, an incident cell. Counted on its own, not as the rest, wherever the method can.
+    /// Absorbed share of each incident cell. Counted on its own, not as the rest, wherever the method can.
     pub absorbed: Vec<f64>,
-    /// Estimated absolute error of τ and ρ, an incident cell.
+    /// Estimated absolute error of τ and ρ of each incident cell.
     pub error: Vec<f64>,
 }
 
-/// The four functions on cells, with what is known about their quality.
+/// Transmission and reflection of both sides as patch-averaged data, with absorption and errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// Incident cells.
     pub incident: RingBasis,
     /// Emergent cells.
     pub emergent: RingBasis,
-    /// Light from outside.
+    /// Scattering of light from outside.
     pub front: OneSide,
-    /// Light from inside.
+    /// Scattering of light from inside.
     pub back: OneSide,
 }
 
-/// Which way the structure runs that light of neighbouring directions meets or misses.
+/// Direction of the structure that light of neighbouring directions hits or misses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Structure {
-    /// There is none: neighbouring directions fare alike.
+    /// No structure: light of neighbouring directions is treated alike.
     Even,
-    /// Endless along one axis: whether neighbours fare unlike is a matter of the profile angle alone. `upright`: along y.
+    /// Structure endless along one axis: light of neighbouring directions differs by the profile angle only.
     Along {
-        /// Along y, not along x.
+        /// Whether the structure runs along y; otherwise it runs along x.
         upright: bool,
     },
-    /// Any other.
+    /// Any other structure.
     Any,
 }
 
 impl Structure {
-    /// Of two layers together.
+    /// Returns the structure of two layers together.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Even, other) => other,
@@ -114,7 +114,7 @@ impl Structure {
         }
     }
 
-    /// Turned by 90°.
+    /// Returns the structure rotated by 90° about the normal.
     pub const fn turned(self) -> Self {
         match self {
             Self::Along { upright } => Self::Along { upright: !upright },
@@ -123,80 +123,83 @@ impl Structure {
     }
 }
 
-/// Names of directions nearer than this are the same. \[rad\]
+/// Angle below which two through directions are the same. \[rad\]
 const SAME_NAME: f64 = 1e-9;
 
-/// Something whose scattering can be computed.
+/// Optical model of a system: computes its scattering for any direction.
 pub trait Specimen: Send + Sync {
-    /// The four functions on the cells of `setting`, to its error.
+    /// Computes transmission and reflection of both sides on the cells of `setting`, within its error.
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` says so.
+    /// Returns [`Cancelled`] if `progress` is cancelled.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled>;
 
-    /// The four functions as the rest of the program holds them, and their quality. Light that goes straight on or is
-    /// mirrored is kept apart where it depends on the polar angle alone; otherwise it is spread over its cells.
+    /// Computes the band of BSDF data and its quality. Regular transmission and reflection are stored separately where
+    /// they depend on the polar angle only; otherwise they are spread over their cells.
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` says so.
+    /// Returns [`Cancelled`] if `progress` is cancelled.
     fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
         let measured = self.measure(setting, progress)?;
         Ok((measured.band(), measured.quality()))
     }
 
-    /// The beams that parallel light of one name from a side becomes, exactly: straight on (the name kept), deflected,
-    /// mirrored. What mirrors or edges spread is not among them.
+    /// Returns the exact beams that parallel light from a side becomes: undeviated (the through direction kept),
+    /// redirected, mirrored. Light that mirrors or edges spread is not among them.
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam>;
 
-    /// Share of parallel light that goes straight on.
+    /// Returns the share of parallel light that is transmitted undeviated.
     fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
         let same = |other: &Dir<Facade>| other.vector().distance(name.vector()) < SAME_NAME;
         let on = |beam: &Beam| beam.transmitted && beam.names.iter().all(same);
         self.beams(name, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
     }
 
-    /// Is what becomes of light a matter of its profile angle alone, the direction cosine along the structure kept? `true`
-    /// inside: of the angle to the right, for a structure along y.
+    /// Returns the axis of the structure if scattering depends on the profile angle only, the direction cosine along
+    /// the structure kept: `Some(true)` for a structure along y (profile angle to the right), `Some(false)` for one
+    /// along x.
     fn by_profile_alone(&self) -> Option<bool> {
         None
     }
 
-    /// The same of a direction no farther than `within` \[rad\] from the name, so that neighbours may share an answer.
+    /// Returns beams like [`Self::beams`], but of a direction at most `within` \[rad\] from `name`, so that neighbours
+    /// may share them.
     fn beams_about(&self, name: Dir<Facade>, side: Side, _within: f64) -> Vec<Beam> {
         self.beams(name, side)
     }
 
-    /// What light of neighbouring directions meets or misses.
+    /// Returns the direction of the structure that light of neighbouring directions hits or misses.
     fn structure(&self) -> Structure {
         Structure::Any
     }
 
-    /// Are single directions answered in microseconds to a millisecond, so that thousands may be asked?
+    /// Whether a single direction takes microseconds to a millisecond, so that thousands can be computed.
     fn is_quick(&self) -> bool {
         true
     }
 
-    /// Does [`Self::examine`] keep light apart that goes straight on?
+    /// Whether [`Self::examine`] stores undeviated light separately.
     fn keeps_regular_apart(&self) -> bool {
         false
     }
 
-    /// What is transmitted besides, where that depends on a profile angle alone; then [`Self::scattered`] gives the same
-    /// by cells.
+    /// Returns the scattered transmitted light where it depends on the profile angle only; [`Self::scattered`] then
+    /// gives the same light by cells.
     fn profile_light(&self, _name: Dir<Facade>, _side: Side) -> Option<ProfileLight> {
         None
     }
 
-    /// What else becomes of it, on emergent cells.
+    /// Returns the light that is not in beams, on emergent cells.
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
 
-    /// The same for whoever asks for what is transmitted alone: what is thrown back may be left out.
+    /// Returns scattered light like [`Self::scattered`], for callers that use transmitted light only: the reflected
+    /// part may be empty.
     fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         self.scattered(name, side, emergent)
     }
 }
 
-/// Balance and reciprocity of a measurement.
+/// Quality of computed data: energy balance, reciprocity and estimated error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quality {
     /// Largest |τ + ρ + α − 1| over the incident cells of both sides.
@@ -209,7 +212,7 @@ pub struct Quality {
 }
 
 impl Quality {
-    /// Of two bands together: the worse of each.
+    /// Returns the worse of two qualities, figure by figure.
     pub fn worse(self, other: Self) -> Self {
         let reciprocity = match (self.reciprocity, other.reciprocity) {
             (Some(a), Some(b)) => Some(a.max(b)),
@@ -219,9 +222,9 @@ impl Quality {
     }
 }
 
-/// Zeros for a matrix on fine cells, whose pages are there when they are written to and gone when it is dropped: the C
-/// library of Linux keeps freed blocks below 32 MiB to itself once it has seen one of their size, and a window that
-/// computes one stack after the other held twice what it used. What is reserved beyond `count` is never touched.
+/// Returns zeros for a matrix on fine cells, in memory pages that exist once they are written to and are freed with it:
+/// the C library of Linux keeps freed blocks below 32 MiB to itself once it has seen one of their size, and a window
+/// that computes one stack after another held twice what it used. Memory reserved beyond `count` is never touched.
 pub fn zeros(count: usize) -> Vec<f64> {
     const LARGE: usize = 1 << 18;
     const OWN_PAGES: usize = (32 << 20) / size_of::<f64>() + LARGE;
@@ -231,7 +234,7 @@ pub fn zeros(count: usize) -> Vec<f64> {
 }
 
 impl Measured {
-    /// Nothing yet on the cells of a setting: every value 0.
+    /// Creates data on the cells of a setting with every value 0.
     pub fn dark(setting: &Setting<'_>) -> Self {
         let (n, m) = (setting.incident.len(), setting.emergent.len());
         let seen = || OneSide {
@@ -244,7 +247,7 @@ impl Measured {
         Self { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back }
     }
 
-    /// Light from one side.
+    /// Returns the scattering of light from one side.
     pub const fn seen(&self, side: Side) -> &OneSide {
         match side {
             Side::Front => &self.front,
@@ -252,7 +255,7 @@ impl Measured {
         }
     }
 
-    /// Light from one side, to be filled in.
+    /// Returns the scattering of light from one side, to be filled in.
     pub const fn seen_mut(&mut self, side: Side) -> &mut OneSide {
         match side {
             Side::Front => &mut self.front,
@@ -260,13 +263,13 @@ impl Measured {
         }
     }
 
-    /// Directional-hemispherical transmittance or reflectance of every incident cell.
+    /// Returns the direct-hemispherical transmittance or reflectance of every incident cell.
     pub fn shares(&self, q: &[f64]) -> Vec<f64> {
         let weight = self.emergent.projected_solid_angles();
         q.chunks_exact(weight.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect()
     }
 
-    /// The four functions as the rest of the program holds them.
+    /// Returns the data as a band of patch-averaged data.
     pub fn band(&self) -> Band {
         let mut band = Band::default();
         let mut set = |component, values: &[f64]| {
@@ -280,7 +283,7 @@ impl Measured {
         band
     }
 
-    /// Balance and reciprocity.
+    /// Returns balance, reciprocity and error of the data.
     pub fn quality(&self) -> Quality {
         let mut balance: f64 = 0.0;
         let mut error: f64 = 0.0;

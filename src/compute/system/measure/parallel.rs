@@ -1,37 +1,37 @@
-//! What parallel light of one very direction becomes: beams, kept apart and exact, and scattered light on cells.
+//! Parallel light of one exact direction after a system: sharp beams, and scattered light on cells.
 
 use crate::compute::direction::{Dir, Facade};
 
-/// One of the beams that parallel light becomes. Names of directions are those of [`super`].
+/// Beam that parallel light becomes. Directions are through directions, see [`super`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// Where it goes: from and to. Alike for a parallel beam; the fan of a curved mirror lies evenly between them.
+    /// Through directions of both ends: equal for a parallel beam; the fan of a curved mirror is uniform between them.
     pub names: [Dir<Facade>; 2],
     /// Share of the incident flux.
     pub share: f64,
-    /// Transmitted, or thrown back.
+    /// Whether the beam is transmitted; otherwise it is reflected.
     pub transmitted: bool,
 }
 
 impl Beam {
-    /// A parallel beam that is transmitted.
+    /// Creates a parallel beam that is transmitted.
     pub const fn through(name: Dir<Facade>, share: f64) -> Self {
         Self { names: [name, name], share, transmitted: true }
     }
 
-    /// A parallel beam that is thrown back.
+    /// Creates a parallel beam that is reflected.
     pub const fn back(name: Dir<Facade>, share: f64) -> Self {
         Self { names: [name, name], share, transmitted: false }
     }
 }
 
-/// What of parallel light is no beam.
+/// Scattered part of parallel light, all that is not in beams.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScatteredLight {
-    /// q of transmitted light by emergent cell, a mean over each. \[1/sr\] Empty: none.
+    /// q of transmitted light by emergent cell, a mean over each; empty if there is none. \[1/sr\]
     pub transmitted: Vec<f64>,
-    /// q of light thrown back, the same. \[1/sr\] Empty: none.
+    /// q of reflected light by emergent cell, a mean over each; empty if there is none. \[1/sr\]
     pub reflected: Vec<f64>,
-    /// Estimated absolute error of the shares that are transmitted and thrown back so, the larger one.
+    /// Estimated absolute error of the scattered shares transmitted and reflected, the larger one.
     pub error: f64,
 }

@@ -1,57 +1,58 @@
-//! Scattered light that depends on the profile angle alone, as matt faces endless along one direction send it out.
+//! Scattered light that depends on the profile angle only, as matt faces endless along one direction emit it.
 
 use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// q of transmitted light by the profile angle of its name. \[1/sr\]
+/// q of transmitted light by the profile angle of its through direction. \[1/sr\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileLight {
-    /// The angle is measured to the right instead of upwards: faces endless along y.
+    /// Whether the profile angle is measured to the right instead of upwards: faces endless along y.
     pub upright: bool,
-    /// Values in bands of equal width about −90° … 90°, the first and the last band half as wide.
+    /// Values in bands of equal width about −90° … 90°, the first and the last band half as wide. \[1/sr\]
     pub q: Vec<f64>,
-    /// Estimated absolute error of the share that they make.
+    /// Estimated absolute error of the scattered share.
     pub error: f64,
 }
 
-/// Points a side of a cell that its mean is taken from.
+/// Number of points along either side of a cell from which its mean is taken.
 const POINTS: usize = 6;
 
 impl ProfileLight {
-    /// Borders of the bands in the profile angle, rising; one more than there are bands. \[rad\]
+    /// Returns the borders of the bands in the profile angle, rising; one more than there are bands. \[rad\]
     pub fn borders(bands: usize) -> impl Iterator<Item = f64> {
         let step = PI / (bands.max(2) - 1) as f64;
         (0..=bands).map(move |k| ((k as f64 - 0.5) * step - FRAC_PI_2).clamp(-FRAC_PI_2, FRAC_PI_2))
     }
 
-    /// Profile angle that a name has for these bands. \[rad\]
+    /// Returns the profile angle of a direction for these bands. \[rad\]
     pub fn angle(&self, name: Dir<Facade>) -> f64 {
         Self::angle_of(self.upright, name)
     }
 
-    /// Profile angle of a name. \[rad\]
+    /// Returns the profile angle of a direction, to the right if `upright`, else upwards. \[rad\]
     pub fn angle_of(upright: bool, name: Dir<Facade>) -> f64 {
         let v = name.vector();
         if upright { v.x } else { v.y }.atan2(v.z)
     }
 
-    /// The band of so many that a profile angle lies in.
+    /// Returns the index of the band, out of `bands`, that contains a profile angle. \[rad\]
     pub fn band(angle: f64, bands: usize) -> usize {
         ((angle + FRAC_PI_2) / PI * (bands - 1) as f64).round().max(0.0) as usize
     }
 
-    /// The band that a name lies in.
+    /// Returns the index of the band that contains a direction.
     pub fn band_of(&self, name: Dir<Facade>) -> usize {
         Self::band(self.angle(name), self.q.len()).min(self.q.len().saturating_sub(1))
     }
 
-    /// q of a name. \[1/sr\]
+    /// Returns q of a direction. \[1/sr\]
     pub fn at(&self, name: Dir<Facade>) -> f64 {
         self.q.get(Self::band(self.angle(name), self.q.len())).copied().unwrap_or(0.0)
     }
 
-    /// Of what bands the means over cells are made, with their shares: [`Self::on`] for any q in so many bands.
+    /// Returns the bands that each cell overlaps, with their shares: the mean [`Self::on`] of a cell is their weighted
+    /// sum for any q in `bands` bands.
     pub fn shares_on(upright: bool, bands: usize, cells: &RingBasis) -> Vec<Vec<(usize, f64)>> {
         let of = |cell| {
             let mut shares: Vec<(usize, f64)> = Vec::new();
@@ -69,25 +70,25 @@ impl ProfileLight {
         cells.cells().map(of).collect()
     }
 
-    /// Share of the incident light.
+    /// Returns the share of the incident light.
     pub fn share(&self) -> f64 {
         Self::weights(self.q.len()).zip(&self.q).map(|(weight, q)| weight * q).sum()
     }
 
-    /// Share that another one has elsewhere: Σ |q − q′| over the bands.
+    /// Returns the share of light that differs from `other`: Σ |q − q′| over the bands, weighted.
     pub fn apart(&self, other: &Self) -> f64 {
         let apart = self.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs());
         Self::weights(self.q.len()).zip(apart).map(|(weight, apart)| weight * apart).sum()
     }
 
-    /// Projected solid angles of the bands: on a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected solid angle is
-    /// that times cosψ dψ. \[sr\]
+    /// Returns the projected solid angles of the bands: on a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected
+    /// solid angle is that times cosψ dψ. \[sr\]
     fn weights(bands: usize) -> impl Iterator<Item = f64> {
         let sines: Vec<f64> = Self::borders(bands).map(f64::sin).collect();
         (0..bands).map(move |k| FRAC_PI_2 * (sines[k + 1] - sines[k]))
     }
 
-    /// Means over cells, to about a tenth of a per cent of the largest. \[1/sr\]
+    /// Returns the means over cells, to about a tenth of a per cent of the largest. \[1/sr\]
     pub fn on(&self, cells: &RingBasis) -> Vec<f64> {
         let mean = |cell| {
             let sum: f64 = sub_directions(&cell, POINTS).map(|d| self.at(d)).sum();

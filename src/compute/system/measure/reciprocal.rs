@@ -1,20 +1,20 @@
-//! What was found from both sides, as one reciprocal whole.
+//! Reciprocal data from computations from both sides.
 //!
-//! Light from outside by direction i to inside by o, and the same way back, carry the same q (Helmholtz); found apart,
-//! both are estimates of it, whose mean is better than either. The sums of the means over all that light of a cell can
-//! do are no longer exactly what was found; a scaling of every cell, such that all sums are right again, repairs that.
+//! Light from outside by direction i to inside by o, and its reverse, have the same q (Helmholtz); computed separately,
+//! both are estimates of it, whose mean is better than either. The sum of the means over all light of a cell is no
+//! longer exactly the computed one; a scaling of every cell, such that all sums are right again, corrects that.
 
 use super::beams::mirror_images;
 use super::{Measured, Side};
 use crate::compute::scaling::by_newton;
 use std::f64::consts::PI;
 
-/// What may be left of τ + ρ.
+/// Tolerance of τ + ρ after scaling.
 const LEFT: f64 = 1e-10;
 
 impl Measured {
-    /// Reciprocal, with τ + ρ of every incident cell as found. Unchanged where the emergent cells are not the incident
-    /// ones, or cannot be turned by 180°.
+    /// Returns reciprocal data, with τ + ρ of every incident cell as computed. Returns the data unchanged where the
+    /// emergent cells are not the incident ones, or cannot be rotated by 180°.
     pub(super) fn made_reciprocal(mut self) -> Self {
         let Some(turn) = mirror_images(&self.incident, |phi| phi + PI).filter(|_| self.incident == self.emergent)
         else {
@@ -30,7 +30,7 @@ impl Measured {
             (0..n * n).map(|k| 0.5 * (a[k] + b[way_back(k / n, k % n)])).collect()
         };
         let through = mean(&self.front.transmitted, &self.back.transmitted, &|i, o| o * n + i);
-        // Names of what is thrown back are opposite.
+        // Through directions of reflected light are opposite.
         let back = Side::BOTH.map(|side| {
             let q = &self.seen(side).reflected;
             mean(q, q, &|i, o| turn[o] * n + turn[i])

@@ -1,4 +1,4 @@
-//! A system turned by 90° about the normal: vertical louvres from a description of horizontal ones.
+//! System rotated by 90° about the normal: vertical louvres from a description of horizontal ones.
 
 use super::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen, Structure};
 use crate::compute::basis::{AzimuthMap, RingBasis};
@@ -7,7 +7,7 @@ use crate::compute::estimate::{Cancelled, Progress};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// What was up points to the right as seen from outside.
+/// System rotated so that its upward direction points to the right as seen from outside.
 pub struct Upright(pub Box<dyn Specimen>);
 
 impl Specimen for Upright {
@@ -62,19 +62,19 @@ impl Specimen for Upright {
     }
 }
 
-/// Cells as the described system has them: the turned system at φ is the described one at φ + 90°, cell by cell.
+/// Returns the cells of the described system: the rotated system at φ is the described one at φ + 90°, cell by cell.
 fn turned(basis: &RingBasis) -> RingBasis {
     let azimuth = basis.azimuth();
     basis.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + FRAC_PI_2, ..azimuth })
 }
 
-/// φ + 90°.
+/// Returns the direction at φ + 90°.
 fn to_described(name: Dir<Facade>) -> Dir<Facade> {
     let v = name.vector();
     Dir::from_unit(DVec3::new(-v.y, v.x, v.z))
 }
 
-/// φ − 90°.
+/// Returns the direction at φ − 90°.
 fn from_described(name: Dir<Facade>) -> Dir<Facade> {
     let v = name.vector();
     Dir::from_unit(DVec3::new(v.y, -v.x, v.z))

@@ -1,4 +1,4 @@
-//! Coated panes, known by what a data sheet says at normal incidence.
+//! Coated panes, described by the values of a data sheet at normal incidence.
 //!
 //! The angle dependence is that of the program WINDOW 4 (Finlayson, Arasteh, Huizenga, Rubin, Reilly: WINDOW 4.0:
 //! Documentation of Calculation Procedures, LBL-33943, 1993; the same fits serve in EnergyPlus and in Radiance's
@@ -6,46 +6,46 @@
 //!
 //! τ(θ) = τ(0) τ̂(cosθ),  ρ(θ) = ρ(0) (1 − ρ̂(cosθ)) + ρ̂(cosθ),  ρ̂ = s(cosθ) − τ̂(cosθ),
 //!
-//! τ̂ and s polynomials of fourth degree. As printed they miss 1 at normal incidence by up to 0.5 %; here each is
-//! divided by its value there, so that the data sheet comes out exactly. Nothing is known of the polarisation:
-//! it is taken as kept, both alike.
+//! τ̂ and s are polynomials of fourth degree. As printed they miss 1 at normal incidence by up to 0.5 %; here each is
+//! divided by its value there, so that the values of the data sheet are met exactly. Nothing is known of the
+//! polarisation: it is taken as kept, both alike.
 
 use super::glazing::{Pane, Share, behind};
 
-/// A coated pane by its values at normal incidence.
+/// Coated pane, by its values at normal incidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoatedPane {
-    /// Transmittance.
+    /// Transmittance at normal incidence.
     pub transmittance: f64,
-    /// Reflectance for light from outside.
+    /// Reflectance at normal incidence for light from outside.
     pub front: f64,
-    /// Reflectance for light from inside.
+    /// Reflectance at normal incidence for light from inside.
     pub back: f64,
 }
 
-/// A pane of a glazing.
+/// Pane of a glazing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Layer {
-    /// By its material.
+    /// Pane described by its material.
     Clear(Pane),
-    /// By its data sheet.
+    /// Pane described by its data sheet.
     Coated(CoatedPane),
 }
 
-/// Coefficients of cos⁰ … cos⁴: transmittance, and the sum of transmittance and reflectance.
+/// Coefficients of cos⁰ … cos⁴ of clear panes: transmittance, and the sum of transmittance and reflectance.
 const CLEAR: [[f64; 5]; 2] = [[-0.0015, 3.355, -3.840, 1.460, 0.0288], [0.999, -0.563, 2.043, -2.532, 1.054]];
 const BRONZE: [[f64; 5]; 2] = [[-0.002, 2.813, -2.341, -0.05725, 0.599], [0.997, -1.868, 6.513, -7.862, 3.225]];
-/// Transmittance up to which a pane follows the bronze one.
+/// Transmittance at normal incidence up to which a pane follows the bronze one.
 const BRONZE_UP_TO: f64 = 0.645;
 
-/// A polynomial over its value at 1, held between 0 and 1.
+/// Returns a polynomial divided by its value at 1, limited to 0 … 1.
 fn normalised(coefficients: &[f64; 5], x: f64) -> f64 {
     let at = |x: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c);
     (at(x) / at(1.0)).clamp(0.0, 1.0)
 }
 
 impl CoatedPane {
-    /// Shares at a polar angle. \[rad\]
+    /// Returns the shares at a polar angle. \[rad\]
     pub fn shares(&self, theta: f64) -> Share {
         let cos = theta.cos().clamp(0.0, 1.0);
         let [transmittance, sum] = if self.transmittance > BRONZE_UP_TO { &CLEAR } else { &BRONZE };
@@ -60,8 +60,8 @@ impl CoatedPane {
     }
 }
 
-/// Shares of panes one behind the other (outside first) with air between, for unpolarised light at a polar angle.
-/// \[rad\] Each polarisation is followed through all of them.
+/// Returns the shares of panes one behind the other (outside first) with air between, for unpolarised light at a polar
+/// angle. \[rad\] Each polarisation is followed through all of them.
 pub fn stack(layers: &[Layer], theta: f64) -> Share {
     let open = Share { transmitted: 1.0, reflected_front: 0.0, reflected_back: 0.0 };
     let one = |polarisation: usize| {

@@ -3,7 +3,7 @@
 //! Each polarisation is followed through the whole stack and averaged at the end; averaging at every surface would lose
 //! 6.6 % of the transmittance of a double pane at 60°.
 
-/// One pane of a homogeneous material in air.
+/// Pane of a homogeneous material in air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pane {
     /// Refractive index, ≥ 1.
@@ -14,19 +14,19 @@ pub struct Pane {
     pub absorption: f64,
 }
 
-/// Share of light transmitted and thrown back, for one polarisation or for their mean.
+/// Transmittance and reflectances of a pane or stack, for one polarisation or for their mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
-    /// Transmitted; the same from both sides.
+    /// Share transmitted; the same from both sides.
     pub transmitted: f64,
-    /// Reflected, light from outside.
+    /// Share reflected of light from outside.
     pub reflected_front: f64,
-    /// Reflected, light from inside.
+    /// Share reflected of light from inside.
     pub reflected_back: f64,
 }
 
-/// Reflectance of one surface between air and `index` for both polarisations (perpendicular, parallel), and the
-/// cosine of the angle in the material. `theta` in the air. \[rad\] Fresnel's equations.
+/// Returns the reflectance of one surface between air and `index` for both polarisations (perpendicular, parallel), and
+/// the cosine of the angle in the material. `theta` in the air. \[rad\] Fresnel's equations.
 pub fn fresnel(index: f64, theta: f64) -> ([f64; 2], f64) {
     let cos = theta.cos().max(0.0);
     let inner = (1.0 - (theta.sin() / index).powi(2)).max(0.0).sqrt();
@@ -36,7 +36,7 @@ pub fn fresnel(index: f64, theta: f64) -> ([f64; 2], f64) {
 }
 
 impl Pane {
-    /// Shares of one pane for both polarisations at a polar angle in air. \[rad\]
+    /// Returns the shares of one pane for both polarisations at a polar angle in air. \[rad\]
     pub fn polarised(&self, theta: f64) -> [Share; 2] {
         let (surface, inner) = fresnel(self.index, theta);
         let passed = self.internal(inner);
@@ -51,12 +51,12 @@ impl Pane {
         })
     }
 
-    /// Internal transmittance of one passage with the given cosine in the material (Bouguer–Lambert).
+    /// Returns the internal transmittance of one passage with the given cosine in the material (Bouguer–Lambert).
     pub fn internal(&self, inner_cos: f64) -> f64 {
         (-self.absorption * self.thickness / inner_cos).exp()
     }
 
-    /// The pane whose transmittance at normal incidence is `tau`, by its absorption. `None` when `tau` is not
+    /// Creates the pane whose transmittance at normal incidence is `tau`, by its absorption. `None` if `tau` is not
     /// between 0 and what the two surfaces of a clear pane let through.
     pub fn with_normal_transmittance(index: f64, thickness: f64, tau: f64) -> Option<Self> {
         let ([r, _], _) = fresnel(index, 0.0);
@@ -71,8 +71,8 @@ impl Pane {
     }
 }
 
-/// Shares of a stack of panes (outside first) with air between them, at a polar angle in air, for unpolarised
-/// light. \[rad\]
+/// Returns the shares of a stack of panes (outside first) with air between them, at a polar angle in air, for
+/// unpolarised light. \[rad\]
 pub fn stack(panes: &[Pane], theta: f64) -> Share {
     let mut mean = Share { transmitted: 0.0, reflected_front: 0.0, reflected_back: 0.0 };
     for polarisation in 0..2 {

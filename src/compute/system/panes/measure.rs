@@ -1,4 +1,5 @@
-//! Panes as specimens: every direction keeps its name, and what passes depends on the polar angle alone.
+//! Optical model of panes: every direction keeps its through direction, and transmittance depends on the polar angle
+//! only.
 //!
 //! Cells of rings overlap in a rectangle of θ and φ, so that the means are one-dimensional integrals.
 
@@ -15,29 +16,29 @@ use std::f64::consts::PI;
 /// Panes one behind the other, outside first, air between.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panes {
-    /// The panes.
+    /// Panes, outside first.
     pub layers: Vec<Layer>,
 }
 
 /// Orders of the quadrature over θ: for the values, and for the estimate of their error.
 const ORDERS: [usize; 2] = [64, 40];
-/// Steps of the tables over θ: half a degree.
+/// Number of steps of the tables over θ: half a degree each.
 const STEPS: usize = 180;
 
 impl Panes {
-    /// `n` equal panes.
+    /// Creates a glazing of `n` equal panes.
     pub fn equal(layer: Layer, n: usize) -> Self {
         Self { layers: vec![layer; n] }
     }
 
-    /// Shares for unpolarised light at a polar angle. \[rad\]
+    /// Returns the shares for unpolarised light at a polar angle. \[rad\]
     pub fn shares(&self, theta: f64) -> Share {
         stack(&self.layers, theta)
     }
 }
 
 impl Specimen for Panes {
-    /// Straight on and mirrored; both keep the name.
+    /// Returns `true`: undeviated and mirrored light keep the through direction.
     fn keeps_regular_apart(&self) -> bool {
         true
     }
@@ -52,7 +53,7 @@ impl Specimen for Panes {
         Structure::Even
     }
 
-    /// Nothing: panes are clear.
+    /// Returns no light: panes are clear.
     fn scattered(&self, _: Dir<Facade>, _: Side, _: &RingBasis) -> ScatteredLight {
         ScatteredLight::default()
     }
@@ -84,8 +85,8 @@ impl Specimen for Panes {
                 return Err(Cancelled);
             }
             let whole = cell.projected_solid_angle();
-            // Light keeps its name, so that only cells that overlap exchange any: with the overlap Δφ by θ₁ … θ₂, q =
-            // Δφ ∫ τ sinθ cosθ dθ / (PΩᵢ PΩₒ).
+            // Light keeps its through direction, so that only cells that overlap exchange any: with the overlap Δφ by
+            // θ₁ … θ₂, q = Δφ ∫ τ sinθ cosθ dθ / (PΩᵢ PΩₒ).
             let add = |measured: &mut Measured, o: usize, width: f64, mean: &Share, weight: f64| {
                 let q = width / (whole * weight);
                 measured.front.transmitted[i * m + o] += mean.transmitted * q;
@@ -110,7 +111,7 @@ impl Specimen for Panes {
             for side in Side::BOTH {
                 let reflected = |s: &Share| if side == Side::Front { s.reflected_front } else { s.reflected_back };
                 let seen = measured.seen_mut(side);
-                // What is neither passed nor thrown back; clear panes leave 0, and rounding.
+                // The part neither transmitted nor reflected; clear panes leave 0, and rounding.
                 seen.absorbed[i] = (weight - mean.transmitted - reflected(&mean)).max(0.0) / weight;
                 let apart = (mean.transmitted - coarse.transmitted).abs();
                 seen.error[i] = apart.max((reflected(&mean) - reflected(&coarse)).abs()) / weight;
@@ -121,7 +122,7 @@ impl Specimen for Panes {
     }
 }
 
-/// Width of the azimuths that two cells share. \[rad\]
+/// Returns the width of the azimuths that two cells share. \[rad\]
 fn overlap(a: &Cell, b: &Cell) -> f64 {
     let apart = (a.phi - b.phi + PI).rem_euclid(2.0 * PI) - PI;
     [-2.0 * PI, 0.0, 2.0 * PI]
@@ -135,7 +136,7 @@ fn overlap(a: &Cell, b: &Cell) -> f64 {
         .sum()
 }
 
-/// Integrals over ranges of θ; rings ask for the same ones again and again.
+/// Cached integrals over ranges of θ; rings ask for the same ones again and again.
 struct Known<'a> {
     panes: &'a Panes,
     rules: [Vec<(f64, f64)>; 2],
@@ -143,7 +144,7 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// ∫ share · sinθ cosθ dθ by both orders, and the same of 1.
+    /// Returns ∫ share · sinθ cosθ dθ by both orders, and ∫ sinθ cosθ dθ.
     fn integral(&mut self, from: f64, to: f64) -> ([Share; 2], f64) {
         let weight = 0.5 * (to - from).sin() * (to + from).sin();
         if let Some((_, found)) = self.values.iter().find(|(range, _)| *range == [from, to]) {

@@ -8,14 +8,14 @@ use crate::compute::system::measure::Specimen;
 /// Equal panes with air between; interference left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaneStack {
-    /// One pane.
+    /// Pane of the stack.
     pub pane: Layer,
-    /// How many.
+    /// Number of panes.
     pub panes: usize,
 }
 
 impl PaneStack {
-    /// The panes one by one.
+    /// Returns the panes one by one.
     pub fn layers(&self) -> Vec<Layer> {
         vec![self.pane; self.panes]
     }
@@ -30,7 +30,8 @@ impl Family for PaneStack {
         "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
     }
 
-    /// A piece of every pane, the panes of a data sheet 4 mm thick, 16 mm between them; the outermost face at depth 0.
+    /// Returns a piece of every pane, the panes of a data sheet 4 mm thick, 16 mm between them; the outermost face at
+    /// depth 0.
     fn drawing(&self, _: &str) -> Polygons {
         const GAP: f64 = 0.016;
         let thickness = match self.pane {

@@ -11,24 +11,24 @@ use crate::compute::system::family::{Family, NoSpecimen, PIECE, Polygons, rectan
 use crate::compute::system::measure::Specimen;
 use crate::compute::system::panes::glazing::{self, fresnel};
 
-/// A sheet that scatters.
+/// Sheet that scatters light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Diffuser {
-    /// The same luminance everywhere whatever the incidence.
+    /// Lambertian sheet: the same luminance in all directions, whatever the incidence.
     Lambertian {
-        /// Transmittance.
+        /// Transmittance, for every incidence.
         transmittance: f64,
-        /// Reflectance.
+        /// Reflectance, for every incidence.
         reflectance: f64,
     },
-    /// A scattering volume between two smooth surfaces.
+    /// Scattering volume between two smooth surfaces.
     Opal(Opal),
-    /// A sheet that keeps, spreads and diffuses shares of the light.
+    /// Sheet that transmits one share undeviated, one in a lobe and one diffusely.
     Spreading(Spreading),
 }
 
 impl Diffuser {
-    /// `None` for values that no passive sheet has.
+    /// Creates the sheet; `None` for values that no passive sheet has.
     fn sheet(&self) -> Option<Sheet> {
         match self {
             Self::Lambertian { transmittance, reflectance } => Some(Sheet {
@@ -66,48 +66,48 @@ impl Family for Diffuser {
     }
 }
 
-/// A scattering volume between two smooth surfaces. The same from both sides.
+/// Scattering volume between two smooth surfaces, the same from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Opal {
     /// Refractive index of the surfaces.
     pub index: f64,
-    /// Directional-hemispherical transmittance at normal incidence.
+    /// Direct-hemispherical transmittance at normal incidence.
     pub transmittance: f64,
     /// Diffuse reflectance at normal incidence, without the mirror image of the surface.
     pub reflectance: f64,
 }
 
-/// A sheet that keeps, spreads and diffuses shares of the light. The same from both sides.
+/// Sheet that transmits one share undeviated, one in a lobe and one diffusely, the same from both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spreading {
     /// Refractive index of the sheet.
     pub index: f64,
     /// Share of the transmitted light that keeps its direction.
     pub regular: f64,
-    /// Share that leaves in a lobe about the regular direction; the rest leaves diffusely.
+    /// Share of the transmitted light that leaves in a lobe about the regular direction; the rest leaves diffusely.
     pub lobe: f64,
     /// Standard deviation of the lobe along either direction cosine (near the normal: the angle). \[rad\]
     pub spread: f64,
     /// Transmittance at normal incidence; τ(θ) follows the clear sheet of the index.
     pub transmittance: f64,
-    /// Share of what is not transmitted that is absorbed; the rest is thrown back diffusely or mirrored.
+    /// Absorbed share of the light that is not transmitted; the rest is reflected diffusely or mirrored.
     pub absorbed: f64,
 }
 
-/// Share of unpolarised light that one surface lets through.
+/// Returns the share of unpolarised light that one surface lets through.
 fn surface_transmittance(index: f64, theta: f64) -> f64 {
     let ([s, p], _) = fresnel(index, theta);
     1.0 - 0.5 * (s + p)
 }
 
-/// Half-degree table of a function of θ.
+/// Returns a table of a function of θ in steps of half a degree.
 fn table(f: impl Fn(f64) -> f64) -> AngularTransmittance {
     AngularTransmittance::sample(180, f)
 }
 
 impl Opal {
-    /// Shares of the light that has entered: passed on, and thrown back by the volume. `None` when the parameters are not
-    /// those of a passive sheet.
+    /// Returns the shares of the light that has entered: transmitted, and reflected by the volume. `None` if the
+    /// parameters are not those of a passive sheet.
     pub fn shares(&self) -> Option<(f64, f64)> {
         let enters = surface_transmittance(self.index, 0.0);
         let (passed, returned) = (self.transmittance / enters, self.reflectance / enters);
@@ -115,7 +115,7 @@ impl Opal {
         sane.then_some((passed, returned))
     }
 
-    /// As a sheet; `None` when the parameters are not those of a passive one.
+    /// Creates the sheet; `None` if the parameters are not those of a passive one.
     pub fn sheet(&self) -> Option<Sheet> {
         let (passed, returned) = self.shares()?;
         let enters = |share: f64| table(|theta| share * surface_transmittance(self.index, theta));
@@ -130,13 +130,14 @@ impl Opal {
 }
 
 impl Spreading {
-    /// Transmittance of the clear sheet of the index at a polar angle. \[rad\]
+    /// Returns the transmittance of the clear sheet of the index at a polar angle. \[rad\]
     pub fn clear(&self, theta: f64) -> f64 {
         let pane = glazing::Pane { index: self.index, thickness: 0.0, absorption: 0.0 };
         glazing::stack(&[pane], theta).transmitted
     }
 
-    /// Transmittance over that of the clear sheet. `None` when the parameters are not those of a passive sheet.
+    /// Returns the ratio of the transmittance to that of the clear sheet. `None` if the parameters are not those of a
+    /// passive sheet.
     pub fn scale(&self) -> Option<f64> {
         let scale = self.transmittance / self.clear(0.0);
         let shares = [self.regular, self.lobe, 1.0 - self.regular - self.lobe, self.absorbed];
@@ -144,7 +145,7 @@ impl Spreading {
         (sane && self.index >= 1.0 && self.spread > 0.01).then_some(scale)
     }
 
-    /// As a sheet; `None` when the parameters are not those of a passive one.
+    /// Creates the sheet; `None` if the parameters are not those of a passive one.
     pub fn sheet(&self) -> Option<Sheet> {
         let haze = (1.0 - self.regular - self.lobe).max(0.0);
         let scale = self.scale()?;
@@ -154,7 +155,7 @@ impl Spreading {
             diffuse: part(haze),
             lobe: (self.lobe > 0.0).then(|| Lobe::new(part(self.lobe), self.spread)),
         };
-        // What a clear sheet mirrors stays mirrored; the rest of what does not pass is absorbed or thrown back.
+        // The part that a clear sheet mirrors stays mirrored; the rest of what does not pass is absorbed or reflected.
         let kept = 1.0 - self.absorbed;
         let reflection = Spread {
             regular: table(|theta| (1.0 - self.clear(theta)) * kept),
@@ -165,7 +166,7 @@ impl Spreading {
     }
 }
 
-/// Lambertian in transmission and reflection for every incidence: the ideal diffuser with a stated reflectance.
+/// Returns the band of an ideal diffuser, Lambertian in transmission and reflection for every incidence.
 pub fn lambertian(transmittance: f64, reflectance: f64) -> Band {
     Band {
         transmission_front: Some(Btdf::ideal_diffuse(transmittance)),

@@ -1,24 +1,24 @@
-//! Sheets with holes as described, and what goes straight through them for one very direction: the overlap of the two
-//! ends of a hole as seen along the light, in closed form.
+//! Sheets with holes as described, and their exact undeviated share for one direction: the overlap of the two ends of a
+//! hole as seen along the light, in closed form.
 
 use crate::compute::direction::{Dir, Facade};
 
 /// Pattern and shape of holes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hole {
-    /// Round, given by its diameter. \[m\]
+    /// Round hole, given by its diameter. \[m\]
     Round {
         /// Diameter. \[m\]
         diameter: f64,
     },
-    /// A rectangle, width and height. \[m\]
+    /// Rectangular hole, given by width and height. \[m\]
     Rectangle {
         /// Width along x. \[m\]
         width: f64,
         /// Height along y. \[m\]
         height: f64,
     },
-    /// A rhombus with horizontal and vertical diagonals, as in expanded metal. \[m\]
+    /// Rhombic hole with horizontal and vertical diagonals, as in expanded metal. \[m\]
     Rhombus {
         /// Horizontal diagonal. \[m\]
         width: f64,
@@ -27,28 +27,28 @@ pub enum Hole {
     },
 }
 
-/// An opaque Lambertian sheet with equal holes; their walls may run obliquely upwards.
+/// Opaque Lambertian sheet with equal holes; their walls may run obliquely upwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perforated {
-    /// The hole.
+    /// Shape and size of the holes.
     pub hole: Hole,
     /// Area of the sheet per hole. \[m²\]
     pub area: f64,
     /// Thickness of the sheet. \[m\]
     pub thickness: f64,
-    /// How much higher the hole lies on the room side, > 0 = its walls rise inwards (strands of expanded metal). \[m\]
+    /// Rise of the hole towards the room side, > 0 = its walls rise inwards (strands of expanded metal). \[m\]
     pub rise: f64,
     /// Diffuse reflectance of the outer face, the inner face and the walls.
     pub reflectance: [f64; 3],
 }
 
 impl Hole {
-    /// Area. \[m²\]
+    /// Returns the area of the hole. \[m²\]
     pub fn area(&self) -> f64 {
         self.overlap([0.0, 0.0])
     }
 
-    /// Area that the hole has in common with itself moved by (x, y). \[m²\]
+    /// Returns the area that the hole has in common with itself moved by (x, y). \[m²\]
     pub fn overlap(&self, [x, y]: [f64; 2]) -> f64 {
         match *self {
             Self::Round { diameter } => {
@@ -72,8 +72,8 @@ impl Hole {
 }
 
 impl Perforated {
-    /// Height of a hole and the distance from one to the next above it. \[m\] The description knows the area per hole
-    /// alone: a square of it, or more where the holes would touch.
+    /// Returns the height of a hole and the distance from one to the next above it. \[m\] The description gives only
+    /// the area per hole: a square of it is assumed, or more where the holes would touch.
     pub(super) fn pattern(&self) -> [f64; 2] {
         let height = match self.hole {
             Hole::Round { diameter } => diameter,
@@ -82,12 +82,12 @@ impl Perforated {
         [height, self.area.sqrt().max(1.1 * height)]
     }
 
-    /// Open share of the sheet.
+    /// Returns the open share of the sheet.
     pub fn open(&self) -> f64 {
         self.hole.area() / self.area
     }
 
-    /// Share of light of a name that goes straight through; the same from both sides.
+    /// Returns the share of light of a direction that passes undeviated; the same from both sides.
     pub fn straight(&self, name: Dir<Facade>) -> f64 {
         let v = name.vector();
         if v.z <= 0.0 {

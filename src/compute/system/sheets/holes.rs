@@ -1,4 +1,4 @@
-//! Perforated sheets as specimens. For single directions the walls of the hole are solved once and kept.
+//! Optical model of perforated sheets. For single directions the walls of the hole are solved once and cached.
 
 use super::hole::Perforated;
 use super::walls::{Lit, Walls, measure_walls};
@@ -11,31 +11,31 @@ use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, S
 use faer::Mat;
 use std::f64::consts::PI;
 
-/// Patches through the thickness for single directions; the difference between the two tells the error.
+/// Numbers of patches through the thickness for single directions; the difference between the two gives the error.
 const DEPTH: [usize; 2] = [4, 8];
 
-/// A perforated sheet with what is known of its walls.
+/// Perforated sheet with cached results on its walls.
 pub(super) struct Holes {
     sheet: Perforated,
     walls: Once<[Solved; 2]>,
     seen: Kept<Seen>,
 }
 
-/// The walls of a hole with all light between them.
+/// Walls of a hole with all light between them.
 struct Solved {
     walls: Walls,
-    /// Light landed on a patch in the end per light that each gets first.
+    /// Light that reaches a patch in the end per light that each patch receives first.
     response: Mat<f64>,
 }
 
-/// What emergent cells see of the walls; a way is found when light takes it.
+/// Views of the walls from emergent cells, each computed when light first takes it.
 #[derive(Default)]
 struct Seen {
-    /// By depth, then by side: through the sheet, thrown back.
+    /// Views by depth, then by kind (transmitted, reflected), then by side.
     ways: [[[Once<Lit>; 2]; 2]; 2],
 }
 
-/// What becomes of light that does not go straight through.
+/// Light that does not pass undeviated.
 struct Rest {
     transmitted: Vec<f64>,
     reflected: Vec<f64>,
@@ -59,7 +59,7 @@ impl Holes {
         })
     }
 
-    /// The light of one direction that meets the sheet or the walls, these in one of both depths.
+    /// Computes the light of one direction that meets the sheet or the walls, these at one of the two depths.
     fn rest(&self, name: Dir<Facade>, side: Side, depth: usize, cells: &RingBasis, seen: &Seen) -> Rest {
         let Solved { walls, response } = &self.solved()[depth];
         let n = walls.len();
@@ -88,7 +88,7 @@ impl Holes {
     }
 }
 
-/// Column by column, which lie in one piece.
+/// Returns the product of a matrix and a vector, column by column, since columns are contiguous.
 fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, factor) in of.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {

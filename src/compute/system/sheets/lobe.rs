@@ -1,4 +1,4 @@
-//! A lobe about the straight direction: the balanced Gaussian kernel in direction cosines, see [`super::sheet`].
+//! Lobe about the undeviated direction: the balanced Gaussian kernel in direction cosines, see [`super::sheet`].
 
 use crate::compute::basis::{Cell, sub_directions};
 use crate::compute::btdf::AngularTransmittance;
@@ -13,31 +13,31 @@ use std::sync::OnceLock;
 pub struct Lobe {
     share: AngularTransmittance,
     spread: f64,
-    /// d over equal steps of sinθ, at their middles; found when it is first asked for.
+    /// Factor d over equal steps of sinθ, at their middles; computed when it is first needed.
     factor: OnceLock<Vec<f64>>,
 }
 
-/// Direction cosines, and d.
+/// Point of the lobe: direction cosines, and the factor d.
 type Point = ([f64; 2], f64);
 
 /// Distance of points in a cell where both ends are averaged, in standard deviations of the lobe.
 const STEP: f64 = 0.8;
-/// Most points along either side of a cell: of these, and of Gauss' nodes.
+/// Maximum number of points along either side of a cell, and of Gauss' nodes.
 const MOST: [usize; 2] = [24, 100];
-/// Gauss' nodes along the side of a cell, at least, and for every standard deviation that it is long: in the middle of long
-/// sides they are 1.3 of these apart.
+/// Number of Gauss' nodes along the side of a cell: a minimum, and a number per standard deviation of its length. In
+/// the middle of long sides they are 1.3 standard deviations apart.
 const NODES: (f64, f64) = (2.0, 1.2);
 
-/// exp(−x) of this and above counts as nothing.
+/// Exponent x from which exp(−x) counts as 0.
 const MOST_EXPONENT: f64 = 30.0;
 
 impl Lobe {
-    /// From its share of the light and its standard deviation along either direction cosine.
+    /// Creates a lobe from its share of the light and its standard deviation along either direction cosine.
     pub const fn new(share: AngularTransmittance, spread: f64) -> Self {
         Self { share, spread, factor: OnceLock::new() }
     }
 
-    /// Share of the light of every incidence.
+    /// Returns the lobe's share of the light by incidence.
     pub const fn share(&self) -> &AngularTransmittance {
         &self.share
     }
@@ -48,7 +48,7 @@ impl Lobe {
 
     fn balanced(&self) -> Vec<f64> {
         let spread = self.spread;
-        // By one thread: those that ask for it work side by side and would wait for each other.
+        // One thread only: the threads that need it run side by side and would wait for each other.
         // Half a spread a step keeps the sums over the smooth kernel exact to 1e-8.
         let n = ((2.0 / spread).ceil() as usize).clamp(100, 1000);
         let sine = |i: usize| (i as f64 + 0.5) / n as f64;
@@ -75,21 +75,21 @@ impl Lobe {
         (factor[k] * (1.0 - t) + factor[k + 1] * t).max(0.0)
     }
 
-    /// A direction as a point.
+    /// Returns the point of a direction.
     pub fn point(&self, d: Dir<Facade>) -> Point {
         let k = d.vector().truncate();
         ([k.x, k.y], self.factor(k.length()))
     }
 
-    /// Points that share the cell evenly, close enough for the lobe.
+    /// Returns points distributed uniformly over the cell, dense enough for the lobe.
     pub fn points(&self, cell: &Cell) -> Vec<Point> {
         let [high, wide] = sides(cell);
         let n = ((high.max(wide) / (STEP * self.spread)).ceil() as usize).clamp(1, MOST[0]);
         sub_directions(cell, n).map(|d| self.point(d)).collect()
     }
 
-    /// Mean of the lobe over an emergent cell for light from one direction: the cell's edge may cut the lobe where it is
-    /// steepest. By Gauss' nodes in sin²θ and φ.
+    /// Returns the mean of the lobe over an emergent cell for light from one direction. By Gauss' nodes in sin²θ and φ,
+    /// because the cell's edge may cut the lobe where it is steepest.
     pub fn mean_about(&self, name: Dir<Facade>, to: &Cell) -> f64 {
         let ([x, y], d) = self.point(name);
         let [high, wide] = sides(to);
@@ -122,7 +122,7 @@ impl Lobe {
         d * rows.iter().map(ring).sum::<f64>()
     }
 
-    /// Mean of the lobe over an emergent cell for light from the given points.
+    /// Returns the mean of the lobe over an emergent cell for light from the given points.
     pub fn mean(&self, from: &[Point], to: &Cell) -> f64 {
         let exponent = |a: [f64; 2], b: [f64; 2]| {
             0.5 * ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / (self.spread * self.spread)
@@ -152,18 +152,18 @@ impl Lobe {
     }
 }
 
-/// How large a cell is in direction cosines: from ring to ring, and around.
+/// Returns the size of a cell in direction cosines: across its ring, and around.
 fn sides(cell: &Cell) -> [f64; 2] {
     [cell.theta_max.sin() - cell.theta_min.sin(), cell.width * cell.theta_max.sin()]
 }
 
-/// [`gauss_legendre`], each order found once.
+/// Returns the nodes of [`gauss_legendre`], each order computed once.
 fn gauss_nodes(order: usize) -> &'static [(f64, f64)] {
     static RULES: [OnceLock<Vec<(f64, f64)>>; MOST[1] + 1] = [const { OnceLock::new() }; MOST[1] + 1];
     RULES[order].get_or_init(|| gauss_legendre(order))
 }
 
-/// e⁻ˣ I₀(x), x ≥ 0, to 2e-7 (Abramowitz and Stegun 9.8.1 and 9.8.2).
+/// Returns e⁻ˣ I₀(x), x ≥ 0, to 2e-7 (Abramowitz and Stegun 9.8.1 and 9.8.2).
 fn scaled_bessel(x: f64) -> f64 {
     let polynomial = |c: &[f64], t: f64| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
     if x < 3.75 {

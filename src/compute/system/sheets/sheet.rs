@@ -1,5 +1,5 @@
-//! Plane sheets without a direction of their own: what they pass and throw back depends on θ_e, θ_a and the azimuth
-//! between the two. Mirrored and straight light, diffuse light, and a lobe about the straight direction.
+//! Plane sheets without a preferred direction: transmission and reflection depend on θ_e, θ_a and the azimuth between
+//! the two. Mirrored and undeviated light, diffuse light, and a lobe about the undeviated direction.
 //!
 //! Diffuse light is separable, q = τ(θ_e) τ(θ_a)/(π τ̄), the one reciprocal form whose total is τ(θ_e). The lobe is a
 //! Gaussian in direction cosines k, q = d(θ_e) exp(−|k_e − k_a|²/2σ²) d(θ_a): every plane-parallel layer shifts
@@ -17,28 +17,28 @@ use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, S
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Where the light of one incidence goes.
+/// Distribution of the light of one incident direction over regular, diffuse and lobe parts.
 #[derive(Debug, Clone)]
 pub struct Spread {
-    /// Straight on, or mirrored.
+    /// Regular share: undeviated, or mirrored.
     pub regular: AngularTransmittance,
-    /// Diffuse, separable.
+    /// Diffuse share, separable.
     pub diffuse: AngularTransmittance,
-    /// In a lobe about the regular direction.
+    /// Lobe about the regular direction.
     pub lobe: Option<Lobe>,
 }
 
-/// A sheet: transmission is the same from both sides, reflection may differ.
+/// Sheet whose transmission is the same from both sides, while its reflection may differ.
 #[derive(Debug, Clone)]
 pub struct Sheet {
-    /// Transmission.
+    /// Distribution of transmitted light.
     pub transmission: Spread,
-    /// Reflection of light from outside and from inside.
+    /// Distribution of reflected light, for light from outside and from inside.
     pub reflection: [Spread; 2],
 }
 
 impl Spread {
-    /// Diffuse light alone, the same share for every incidence.
+    /// Creates a distribution of diffuse light only, the same share for every incidence.
     pub const fn lambertian(share: f64) -> Self {
         Self {
             regular: AngularTransmittance::Constant(0.0),
@@ -88,7 +88,7 @@ impl Specimen for Sheet {
         Ok((band, quality))
     }
 
-    /// Straight on and mirrored, which keep the name.
+    /// Returns `true`: undeviated and mirrored light keep the through direction.
     fn keeps_regular_apart(&self) -> bool {
         true
     }
@@ -111,7 +111,7 @@ impl Specimen for Sheet {
 }
 
 impl Sheet {
-    /// Reflection of light from a side.
+    /// Returns the reflection of light from a side.
     const fn reflection(&self, side: Side) -> &Spread {
         match side {
             Side::Front => &self.reflection[0],
@@ -119,41 +119,41 @@ impl Sheet {
         }
     }
 
-    /// What is transmitted, so much of it diffusely.
+    /// Computes the scattered transmitted light, with the given diffuse share.
     pub fn transmitted_with(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
         let transmitted = self.transmission.of(name, emergent, diffuse);
         ScatteredLight { transmitted, error: TOTALS, ..ScatteredLight::default() }
     }
 
-    /// q of what is thrown back.
+    /// Computes q of the reflected light by emergent cell. \[1/sr\]
     pub fn reflected(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> Vec<f64> {
         let back = self.reflection(side);
         back.of(name, emergent, back.diffuse.at(name.theta()))
     }
 }
 
-/// Error of the totals of single directions: they are scaled to the tables, which hold what they were made from to this.
+/// Error of the totals of single directions: they are scaled to the tables, which reproduce their source to this error.
 const TOTALS: f64 = 1e-4;
 
-/// Angles across a ring over which functions of θ are averaged.
+/// Number of angles across a ring over which functions of θ are averaged.
 const RING: usize = 128;
-/// The same for the shape of what single directions become, on narrow rings.
+/// Number of angles across a ring over which the shape of the light of single directions is averaged, on narrow rings.
 const NARROW: usize = 8;
 
-/// Means over the cells of a function of θ; `rule`: nodes and weights across every ring.
+/// Returns the means over the cells of a function of θ; `rule`: nodes and weights across every ring.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance, rule: &[(f64, f64)]) -> Vec<f64> {
     let mean = |ring: &Ring| std::iter::repeat_n(share.ring_mean(ring.theta_min, ring.theta_max, rule), ring.sectors);
     basis.rings().iter().flat_map(mean).collect()
 }
 
 impl Spread {
-    /// Scatters nothing?
+    /// Whether nothing is scattered.
     fn is_dark(&self) -> bool {
         self.diffuse.is_dark() && self.lobe.is_none()
     }
 
-    /// Mean q over the emergent cells of what is scattered of one very direction, so much of it diffusely. \[1/sr\] Empty:
-    /// nothing.
+    /// Returns the mean q over the emergent cells of the scattered light of one exact direction, with the given diffuse
+    /// share. \[1/sr\] Empty if nothing is scattered.
     fn of(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> Vec<f64> {
         if self.is_dark() {
             return vec![];
@@ -176,7 +176,7 @@ impl Spread {
         values
     }
 
-    /// Values on the cells, and the error of every incident cell's total.
+    /// Returns the values on the cells, and the error of every incident cell's total.
     fn on(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Vec<f64>, Vec<f64>), Cancelled> {
         let (incident, emergent) = (setting.incident, setting.emergent);
         let straight = Btdf { regular: Some(self.regular.clone()), scattered: None };
@@ -184,7 +184,7 @@ impl Spread {
         let mut values = matrix_on(&straight, incident, emergent).values().into_owned();
         if !self.diffuse.is_dark() {
             let (from, to) = (ring_means(incident, &self.diffuse, &rule), ring_means(emergent, &self.diffuse, &rule));
-            // The mean by these very cells, so that totals come out exactly.
+            // The mean over exactly these cells, so that totals come out exactly.
             let mean = emergent.projected_solid_angles().iter().zip(&to).map(|(w, t)| w * t).sum::<f64>() / PI;
             for (row, from) in values.chunks_exact_mut(emergent.len()).zip(&from) {
                 for (q, to) in row.iter_mut().zip(&to) {
@@ -192,7 +192,7 @@ impl Spread {
                 }
             }
         }
-        // What the averages over rings leave open.
+        // Error of the averages over rings.
         let mut error = vec![1e-6; incident.len()];
         if let Some(lobe) = &self.lobe {
             let weight = emergent.projected_solid_angles();

@@ -1,10 +1,10 @@
 //! Opaque Lambertian sheets with holes: perforated and expanded metal, grids of webs.
 //!
-//! A hole is a convex polygon carried through the thickness of the sheet, perhaps obliquely. What passes straight is the
-//! overlap of its two ends as seen along the light. Light on the walls is followed by radiosity: a point of a wall is
-//! lit when the line back to the source leaves through the hole's end, so that what falls on a patch is the area of
-//! two polygons' overlap, exactly; and what a patch sends towards a direction is what that direction would light.
-//! No light goes from one hole to another, because the faces are plane.
+//! A hole is a convex polygon carried through the thickness of the sheet, perhaps obliquely. The undeviated share is
+//! the overlap of its two ends as seen along the light. Light on the walls is followed by radiosity: a point of a wall
+//! is lit if the line back to the source leaves through the hole's end, so that the light on a patch is the area of two
+//! polygons' overlap, exactly; and a patch sends towards a direction what that direction would light. No light goes
+//! from one hole to another, because the faces are plane.
 
 use super::hole::{Hole, Perforated};
 use crate::compute::basis::{Cell, RingBasis, sub_directions};
@@ -20,21 +20,21 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Corners of the polygon that stands for a circle of the same area.
+/// Number of corners of the polygon that represents a circle of the same area.
 const CIRCLE: usize = 24;
-/// Patches around a hole, at least.
+/// Minimum number of patches around a hole.
 const AROUND: usize = 24;
-/// Patches through the thickness: the coarsest and the finest.
+/// Numbers of patches through the thickness: the coarsest and the finest.
 const DEPTH: [usize; 2] = [3, 12];
-/// Rays a patch for the exchange between patches.
+/// Number of rays per patch for the exchange between patches.
 const RAYS: usize = 2048;
-/// Rounds of scaling that make the exchange reciprocal.
+/// Number of rounds of scaling that make the exchange reciprocal.
 const ROUNDS: usize = 50;
 
-/// Means over the cells of a setting, the walls cut finer until its error is met.
+/// Computes the means over the cells of a setting, with the walls cut finer until its error is met.
 ///
 /// # Errors
-/// [`Cancelled`] when `progress` says so.
+/// Returns [`Cancelled`] if `progress` is cancelled.
 pub(super) fn measure_walls(
     sheet: &Perforated,
     setting: &Setting<'_>,
@@ -64,7 +64,7 @@ pub(super) fn measure_walls(
     }
 }
 
-/// A hole cut into patches. Lengths over the square root of the sheet's area per hole; z = 0 is the outer face.
+/// Hole cut into patches. Lengths over the square root of the sheet's area per hole; z = 0 is the outer face.
 pub(super) struct Walls {
     outer: Vec<DVec2>,
     inner: Vec<DVec2>,
@@ -75,12 +75,12 @@ pub(super) struct Walls {
     reflectance: [f64; 3],
 }
 
-/// What the cells of a basis light, when light comes from one side.
+/// Undeviated share and light on the walls for the cells of a basis, for light from one side.
 #[derive(Clone)]
 pub(super) struct Lit {
-    /// Straight through, a cell.
+    /// Undeviated share of each cell.
     straight: Vec<f64>,
-    /// On every patch (column) for every cell (row), per light on the sheet.
+    /// Light on every patch (column) for every cell (row), per light on the sheet.
     pub walls: Mat<f64>,
 }
 
@@ -127,17 +127,18 @@ impl Walls {
         Self { open: area(&outer), outer, inner, thickness, patches, areas, reflectance: sheet.reflectance }
     }
 
-    /// Number of patches.
+    /// Returns the number of patches.
     pub const fn len(&self) -> usize {
         self.patches.len()
     }
 
-    /// Area of every patch, over that of the sheet per hole.
+    /// Returns the area of every patch, over that of the sheet per hole.
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
 
-    /// The share that leaves each patch through the ends of the hole, by what cells light it from both sides.
+    /// Returns the share that leaves each patch through the ends of the hole, from the light that the cells send to it
+    /// from both sides.
     pub fn escaping(&self, cells: &RingBasis, through: &[Lit; 2]) -> Vec<f64> {
         let weight = cells.projected_solid_angles();
         let flux = |lit: &Lit, j: usize| (0..weight.len()).map(|o| lit.walls[(o, j)] * weight[o]).sum::<f64>();
@@ -158,7 +159,8 @@ impl Walls {
         step(0)?;
         let arriving = Side::BOTH.map(|side| self.lit(setting.incident, side, false));
         step(1)?;
-        // Leaving light is named as what would light it: the other side's name through the sheet, the turned one back.
+        // Leaving light has the through direction of light that would light the patch: from the other side for
+        // transmitted, the rotated one for reflected light.
         let through = if setting.incident == setting.emergent {
             arriving.clone()
         } else {
@@ -203,8 +205,8 @@ impl Walls {
         Ok(measured)
     }
 
-    /// The straight share and the lighting of the walls by every cell, from one side; `turned`: by the names turned by
-    /// 180° about the normal.
+    /// Computes the undeviated share and the light on the walls for every cell, from one side; `turned`: by the through
+    /// directions rotated by 180° about the normal.
     pub fn lit(&self, cells: &RingBasis, side: Side, turned: bool) -> Lit {
         let list: Vec<Cell> = cells.cells().collect();
         let rows: Vec<(f64, Vec<f64>)> = list
@@ -228,7 +230,7 @@ impl Walls {
         }
     }
 
-    /// Adds what one direction lights, times `share`; returns its straight share.
+    /// Adds the light of one direction on the walls, times `share`; returns its undeviated share.
     pub fn light(&self, name: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
         let mut v = name.vector();
         if turned {
@@ -257,8 +259,8 @@ impl Walls {
         straight
     }
 
-    /// Light landed on patch j in the end per light that patch i gets first: (1 − K ρ)⁻¹. `escaping`: the share that
-    /// leaves each patch through the ends of the hole.
+    /// Returns the light that reaches patch j in the end per light that patch i receives first: (1 − K ρ)⁻¹.
+    /// `escaping`: the share that leaves each patch through the ends of the hole.
     pub fn response(&self, escaping: &[f64]) -> Mat<f64> {
         let n = self.patches.len();
         let rows: Vec<Vec<f64>> = (0..n).into_par_iter().map(|k| self.exchange(k)).collect();
@@ -274,7 +276,7 @@ impl Walls {
         system.partial_piv_lu().solve(Mat::<f64>::identity(n, n))
     }
 
-    /// Share of what a patch sends out that lands on each other patch, by rays of equal weight.
+    /// Returns the share of the light of a patch that reaches each other patch, by rays of equal weight.
     fn exchange(&self, from: usize) -> Vec<f64> {
         let corners = &self.patches[from];
         let (u, w) = (corners[1] - corners[0], corners[3] - corners[0]);
@@ -308,7 +310,7 @@ impl Walls {
         row
     }
 
-    /// The patch that a ray meets; `None` when it leaves through an end.
+    /// Returns the patch that a ray meets; `None` if it leaves through an end.
     fn hit(&self, origin: DVec3, ray: DVec3, own: usize, depth: usize) -> Option<usize> {
         let n = self.outer.len();
         let parts = AROUND.div_ceil(n);
@@ -340,7 +342,7 @@ impl Walls {
     }
 }
 
-/// Light that goes straight on, given for every incident cell, into the emergent cells.
+/// Distributes undeviated light, given for every incident cell, over the emergent cells.
 fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
     let shares = crate::compute::basis::Resampling::new(setting.incident, setting.emergent);
     let weight = setting.incident.projected_solid_angles();
@@ -351,7 +353,8 @@ fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
     }
 }
 
-/// Area of the part of a convex polygon that lies within another one (counter-clockwise). `spare` is room to work in.
+/// Returns the area of the part of a convex polygon that lies within another one (counter-clockwise). `spare` is a
+/// buffer.
 fn shared(subject: &[DVec2], within: &[DVec2], [polygon, spare]: &mut [Vec<DVec2>; 2]) -> f64 {
     polygon.clear();
     polygon.extend(subject);

@@ -1,9 +1,9 @@
 //! Woven screens by their openness and their yarn: the semi-empirical roller blind model of Kotey, Wright and Collins
 //! ("Determining off-normal solar optical properties of roller blinds", ASHRAE Transactions 115, 2009).
 //!
-//! The share that passes between the yarns ends at a cut-off angle; what the yarns transmit leaves diffusely. The model
-//! gives totals for each incidence; their distribution is made reciprocal, τ_d(θ_e) τ_d(θ_a)/(π τ̄_d), and reflection is
-//! Lambertian, as the model has it.
+//! The share that passes between the yarns ends at a cut-off angle; light through the yarns leaves diffusely. The model
+//! gives totals for each incidence; their distribution is made reciprocal, τ_d(θ_e) τ_d(θ_a)/(π τ̄_d), and reflection
+//! is Lambertian, as in the model.
 
 use super::sheet::{Sheet, Spread};
 use crate::compute::basis::RingBasis;
@@ -17,7 +17,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// Pitch of the yarns as drawn; the description has none. \[m\]
 const YARN_PITCH: f64 = 0.001;
 
-/// A fabric by its openness.
+/// Fabric described by its openness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Woven {
     /// Open share of the area at normal incidence.
@@ -29,7 +29,7 @@ pub struct Woven {
 }
 
 impl Woven {
-    /// Share of light that passes between the yarns. \[rad\]
+    /// Returns the share of light that passes between the yarns at a polar angle. \[rad\]
     pub fn open(&self, theta: f64) -> f64 {
         let closed = (FRAC_PI_2 * self.openness).cos();
         let cut_off = (90.0 - 25.0 * closed).to_radians();
@@ -41,7 +41,7 @@ impl Woven {
         passed.min(self.total(theta))
     }
 
-    /// Share of light that passes between and through the yarns. \[rad\]
+    /// Returns the share of light that passes between and through the yarns at a polar angle. \[rad\]
     pub fn total(&self, theta: f64) -> f64 {
         let yarn = self.transmittance;
         let exponent = if yarn <= 0.33 { 0.133 * (yarn + 0.003).powf(-0.467) } else { 0.33 * (1.0 - yarn) };
@@ -49,7 +49,7 @@ impl Woven {
         normal * theta.cos().max(0.0).powf(exponent)
     }
 
-    /// The fabric as a sheet.
+    /// Creates the sheet of the fabric.
     pub fn sheet(&self) -> Sheet {
         let table = |f: &dyn Fn(f64) -> f64| AngularTransmittance::sample(180, f);
         Sheet {
@@ -72,7 +72,7 @@ impl Family for Woven {
         "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)"
     }
 
-    /// A yarn of a plain weave: of the pitch p its threads of width d leave (1 − d/p)² open.
+    /// Returns a yarn of a plain weave: with the pitch p its threads of width d leave (1 − d/p)² open.
     fn drawing(&self, _: &str) -> Polygons {
         const CORNERS: usize = 32;
         let radius = 0.5 * YARN_PITCH * (1.0 - self.openness.max(0.0).sqrt());
@@ -96,8 +96,8 @@ impl Family for Woven {
     }
 }
 
-/// A fabric as a specimen: the sheet, and for single directions the model itself, whose steep end at the cut-off angle no
-/// table holds.
+/// Optical model of a fabric: the sheet, and for single directions the model itself, whose steep end at the cut-off
+/// angle no table reproduces.
 struct Fabric {
     woven: Woven,
     sheet: Sheet,

@@ -1,40 +1,40 @@
 //! The direction cosine x along the slats when mirrors spread light: a diffusion that is reciprocal and keeps energy.
 //!
-//! On a line of constant profile angle projected solid angle is √(1 − x²) dx (see `profile_weights`), which is also how
-//! one coordinate of a point that is uniform on the unit sphere of four dimensions is distributed. A random step on that
-//! sphere hence turns x into x′ with a density that is symmetric for that measure, and steps add up: the variances of
-//! all mirrors met make one step. What is used is the heat kernel, K(x, x′) = (2/π) Σ e^(−n(n+2)σ²/2) Uₙ(x) Uₙ(x′) with
-//! the Chebyshev polynomials of the second kind (R. Askey, "Orthogonal Polynomials and Special Functions", SIAM 1975);
-//! near x = 0 that is a normal distribution of standard deviation σ. It is made here as a Markov chain between bins, so
-//! that the bins' sums are exact.
+//! On a line of constant profile angle projected solid angle is √(1 − x²) dx (see `profile_weights`), which is also the
+//! distribution of one coordinate of a point that is uniform on the unit sphere of four dimensions. A random step on
+//! that sphere hence changes x into x′ with a density that is symmetric for that measure, and steps add up: the
+//! variances of all mirrors met make one step. The heat kernel is used, K(x, x′) = (2/π) Σ e^(−n(n+2)σ²/2) Uₙ(x) Uₙ(x′)
+//! with the Chebyshev polynomials of the second kind (R. Askey, "Orthogonal Polynomials and Special Functions", SIAM
+//! 1975); near x = 0 it is a normal distribution of standard deviation σ. It is computed here as a Markov chain between
+//! bins, so that the bins' sums are exact.
 
 use super::profile_weights::primitive;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::f64::consts::PI;
 
-/// Bins of x, equal in its angle.
+/// Number of bins of x, of equal width in its angle.
 pub(super) const BINS: usize = 120;
-/// Most kernels that are made.
+/// Maximum number of kernels.
 const LEVELS: i32 = 8;
-/// From this variance on nothing is left of where light came from. \[rad²\]
+/// Variance from which nothing is left of the original direction. \[rad²\]
 const ALL: f64 = 8.0;
-/// Smaller variances are finer than the bins. \[rad²\]
+/// Variance below which the spread is finer than the bins. \[rad²\]
 const NONE: f64 = 3e-5;
 
-/// Kernels of rising variance, from bin to bin.
+/// Kernels between bins, by rising variance.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Along {
     /// Ends of the bins, −1 … 1.
     pub(super) edges: Vec<f64>,
     /// ∫ √(1 − x²) dx of the bins.
     pub(super) measure: Vec<f64>,
-    /// (variance, kernel row by row): ∫∫ K over both bins, divided by the measures of both.
+    /// Pairs of variance and kernel, row by row: ∫∫ K over both bins, divided by the measures of both.
     pub(super) levels: Vec<(f64, Vec<f64>)>,
 }
 
 impl Along {
-    /// For mirrors whose smallest variance is this. \[rad²\]
+    /// Creates the kernels for mirrors whose smallest variance is `smallest`. \[rad²\]
     pub(super) fn new(smallest: f64) -> Self {
         let edges: Vec<f64> = (0..=BINS).map(|k| -(PI * k as f64 / BINS as f64).cos()).collect();
         let measure: Vec<f64> = edges.windows(2).map(|pair| primitive(pair[1]) - primitive(pair[0])).collect();
@@ -58,7 +58,7 @@ impl Along {
         Self { edges, measure, levels }
     }
 
-    /// The level below a variance and the share of the one above, so that their mean is the variance.
+    /// Returns the level below a variance and the share of the one above, so that their mean is the variance.
     pub(super) fn place(&self, variance: f64) -> (usize, f64) {
         let above = self.levels.partition_point(|(level, _)| *level <= variance).clamp(1, self.levels.len() - 1);
         let (low, high) = (self.levels[above - 1].0, self.levels[above].0);
@@ -66,7 +66,7 @@ impl Along {
     }
 }
 
-/// I + t L between the bins' square roots, where L is the Laplacian (sin²χ p′)′/sin²χ of x = −cosχ.
+/// Returns I + t L between the bins' square roots, where L is the Laplacian (sin²χ p′)′/sin²χ of x = −cosχ.
 fn step(measure: &[f64], time: f64) -> Mat<f64> {
     let width = PI / BINS as f64;
     let mut matrix = Mat::from_fn(BINS, BINS, |i, j| f64::from(u8::from(i == j)));

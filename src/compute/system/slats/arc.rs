@@ -1,23 +1,23 @@
-//! Arcs of a section as rays meet them: the whole circle, and shares of the way along it.
+//! Arcs of a section for rays: the whole circle, and shares of the length along the arc.
 
-/// A point or vector (outward, upward).
+/// Point or vector (outward, upward).
 pub(super) type Point = [f64; 2];
 
-/// The circle that an arc of the section lies on.
+/// Circle that an arc of the section lies on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Circle {
-    /// Middle.
+    /// Centre of the circle.
     pub(super) centre: Point,
-    /// Radius, < 0 where the left of the way is the hollow side.
+    /// Radius, < 0 where the left of the arc is the hollow side.
     pub(super) radius: f64,
-    /// Left normal at the start.
+    /// Left normal at the start of the arc.
     normal: Point,
-    /// Turn of the normal on the way. \[rad\]
+    /// Angle by which the normal turns along the arc. \[rad\]
     pub(super) turn: f64,
 }
 
 impl Circle {
-    /// Of an arc from a to b with these left normals there; `None` where the normals do not turn.
+    /// Creates the circle of an arc from a to b with the left normals at both; `None` where the normals do not turn.
     pub(super) fn of(a: Point, b: Point, [m, n]: [Point; 2]) -> Option<Self> {
         let change = [n[0] - m[0], n[1] - m[1]];
         let square = change[0] * change[0] + change[1] * change[1];
@@ -32,20 +32,20 @@ impl Circle {
         Some(Self { centre, radius, normal: m, turn })
     }
 
-    /// Left normal at a point of the circle.
+    /// Returns the left normal at a point of the circle.
     pub(super) fn normal(&self, point: Point) -> Point {
         let w = [point[0] - self.centre[0], point[1] - self.centre[1]];
         let size = (w[0] * w[0] + w[1] * w[1]).sqrt().max(f64::MIN_POSITIVE).copysign(self.radius);
         w.map(|x| x / size)
     }
 
-    /// Share of the way at which the left normal is this one.
+    /// Returns the share of the arc at which the left normal is `n`.
     pub(super) fn share(&self, n: Point) -> f64 {
         let m = self.normal;
         (m[0] * n[1] - m[1] * n[0]).atan2(m[0] * n[0] + m[1] * n[1]) / self.turn
     }
 
-    /// Point at a share of the way.
+    /// Returns the point at a share of the arc.
     pub(super) fn at(&self, share: f64) -> Point {
         let (sin, cos) = (share * self.turn).sin_cos();
         let m = self.normal;
@@ -53,7 +53,7 @@ impl Circle {
         [self.centre[0] + self.radius * n[0], self.centre[1] + self.radius * n[1]]
     }
 
-    /// Distances along a ray at which it meets the whole circle, rising.
+    /// Returns the distances along a ray at which it meets the whole circle, rising.
     pub(super) fn meets(&self, p: Point, d: Point) -> Option<[f64; 2]> {
         let w = [p[0] - self.centre[0], p[1] - self.centre[1]];
         let (ahead, beside) = (-(w[0] * d[0] + w[1] * d[1]), w[0] * d[1] - w[1] * d[0]);

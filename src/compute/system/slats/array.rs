@@ -1,4 +1,4 @@
-//! An endless array of slats: its section's measures and finishes, checked.
+//! Endless array of slats: dimensions and finishes, checked.
 
 use super::profile::SlatProfile;
 use crate::compute::limits;
@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 pub struct Surface {
     /// Diffuse (Lambertian) reflectance.
     pub diffuse: f64,
-    /// Reflectance as a mirror; both together at most 1.
+    /// Specular reflectance; both reflectances together at most 1.
     pub mirror: f64,
     /// Standard deviation σ of the mirrored direction about the ideal one, along either axis for light that comes near
     /// the normal; the lobe for any light is described at the head of this module. \[rad\]
@@ -17,30 +17,30 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A matt surface.
+    /// Creates a matt surface.
     pub const fn matt(diffuse: f64) -> Self {
         Self { diffuse, mirror: 0.0, spread: 0.0 }
     }
 
-    /// An ideal mirror.
+    /// Creates an ideal mirror.
     pub const fn mirror(mirror: f64) -> Self {
         Self { diffuse: 0.0, mirror, spread: 0.0 }
     }
 }
 
-/// A value that no array of slats can have.
+/// Error for a value that no array of slats can have.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{key} = {value}: {allowed}")]
 pub struct SlatError {
-    /// The quantity, by the name that system descriptions give it.
+    /// Key of the quantity in system descriptions.
     pub key: &'static str,
-    /// What was given, in metres and degrees.
+    /// Value that was given, in metres or degrees.
     pub value: String,
-    /// What would be right.
+    /// Allowed values, in words.
     pub allowed: String,
 }
 
-/// An endless array of equal slats, horizontal, one above the other.
+/// Endless array of equal horizontal slats, one above the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlatArray {
     profile: SlatProfile,
@@ -51,7 +51,7 @@ pub struct SlatArray {
     lower: Surface,
 }
 
-/// Points that a described profile may have.
+/// Maximum number of points of a described profile.
 const MOST_POINTS: usize = 400;
 
 fn check(key: &'static str, value: f64, right: bool, allowed: impl Into<String>) -> Result<(), SlatError> {
@@ -96,12 +96,12 @@ fn check_profile(profile: &SlatProfile) -> Result<f64, SlatError> {
 }
 
 impl SlatArray {
-    /// Slats of a profile and thickness \[m\], one every `spacing` \[m\], turned by `tilt` \[rad\] (> 0 = outer edge lowered)
-    /// about the profile's origin. Thickness 0 is a sheet; edges of solid slats reflect diffusely, with the mean of
-    /// what both sides reflect.
+    /// Creates slats of a profile and thickness \[m\], one every `spacing` \[m\], rotated by `tilt` \[rad\] (> 0 =
+    /// outer edge lowered) about the profile's origin. Thickness 0 is a sheet; edges of solid slats reflect diffusely,
+    /// with the mean reflectance of both sides.
     ///
     /// # Errors
-    /// The first value that is out of range, with what is allowed.
+    /// Returns the first value that is out of range, with the allowed values.
     pub fn new(
         profile: SlatProfile,
         thickness: f64,
@@ -130,37 +130,37 @@ impl SlatArray {
         Ok(Self { profile, thickness, spacing, tilt, upper, lower })
     }
 
-    /// Section at tilt 0.
+    /// Returns the section at tilt 0.
     pub const fn profile(&self) -> &SlatProfile {
         &self.profile
     }
 
-    /// Thickness. \[m\]
+    /// Returns the thickness. \[m\]
     pub const fn thickness(&self) -> f64 {
         self.thickness
     }
 
-    /// Pitch. \[m\]
+    /// Returns the pitch. \[m\]
     pub const fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Tilt, > 0 = outer edge lowered. \[rad\]
+    /// Returns the tilt, > 0 = outer edge lowered. \[rad\]
     pub const fn tilt(&self) -> f64 {
         self.tilt
     }
 
-    /// Finish of the upper side at tilt 0.
+    /// Returns the finish of the upper side at tilt 0.
     pub const fn upper(&self) -> Surface {
         self.upper
     }
 
-    /// Finish of the lower side at tilt 0.
+    /// Returns the finish of the lower side at tilt 0.
     pub const fn lower(&self) -> Surface {
         self.lower
     }
 
-    /// Finish of the edges of solid slats.
+    /// Returns the finish of the edges of solid slats.
     pub(super) fn edge(&self) -> Surface {
         let all = |side: Surface| side.diffuse + side.mirror;
         Surface::matt((0.5 * (all(self.upper) + all(self.lower))).min(1.0))

@@ -1,9 +1,9 @@
-//! Interreflection between faces, and what of it leaves.
+//! Interreflection between faces, and the part of it that leaves.
 //!
-//! With the exchange S (symmetric), the faces' lengths A and diffuse reflectances ρ, light that lands on the faces as g
+//! With the exchange S (symmetric), the faces' lengths A and diffuse reflectances ρ, light that reaches the faces as g
 //! leaves them as M g, M = (I − D S)⁻¹ D, D = ρ/A: a symmetric form, so that q(ψ → ψ′) = h(ψ′)ᵀ M g(ψ)/π is reciprocal.
-//! A division into strips half as fine has a fourth of the strips' error (faces of constant exitance); both are
-//! solved, (4 M_fine − M_coarse)/3 is used, and a third of their difference is the stated error.
+//! A division into strips half as fine has a fourth of the strips' error (faces of constant exitance); both are solved,
+//! (4 M_fine − M_coarse)/3 is used, and a third of their difference is the stated error.
 
 use super::flows::Transport;
 use super::outline::SlatSection;
@@ -13,20 +13,21 @@ use faer::linalg::solvers::Solve;
 /// Solved interreflection of a section.
 #[derive(Debug, Clone)]
 pub(super) struct Balance {
-    /// Light that leaves the faces, per width of landed light, as a bilinear form of landed widths.
+    /// Light that leaves the faces, per width of incident light, as a bilinear form of incident widths.
     pub(super) response: Mat<f64>,
-    /// Share of the light landed on a face that is absorbed in the end.
+    /// Share of the light on a face that is absorbed in the end.
     pub(super) absorbed: Vec<f64>,
-    /// Share of the light landed on a face that scatters to the inside and to the outside.
+    /// Share of the light on a face that scatters to the inside and to the outside.
     pub(super) leaves: [Vec<f64>; 2],
-    /// Differences of the two divisions in `leaves`, a third.
+    /// Error of `leaves`: a third of the difference of the two divisions.
     pub(super) doubt: [Vec<f64>; 2],
 }
 
-/// White faces that see each other alone hold light for ever; this much less than white they do not.
+/// Maximum diffuse reflectance in the balance: white faces that exchange light only with each other would hold it
+/// without end.
 const WHITEST: f64 = 1.0 - 1e-10;
 
-/// One division's solution.
+/// Solution for one division into strips.
 struct Division {
     response: Mat<f64>,
     absorbed: Vec<f64>,
@@ -42,19 +43,19 @@ fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exi
     let response = system.partial_piv_lu().solve(&source);
     let through =
         |row: &[f64]| -> Vec<f64> { (0..n).map(|j| (0..n).map(|i| row[i] * response[(i, j)]).sum::<f64>()).collect() };
-    // Landed in all: g + S M g.
+    // Incident light in all: g + S M g.
     let landing: Vec<f64> = (0..n).map(|k| (0..n).map(|i| lost[i] * exchange[(i, k)]).sum::<f64>()).collect();
     let absorbed = through(&landing).iter().zip(lost).map(|(more, own)| own + more).collect();
     Division { absorbed, leaves: [through(&exits[0]), through(&exits[1])], response }
 }
 
 impl Balance {
-    /// Of a section's transport. `hat` are the weights of the nodes. \[rad\]
+    /// Solves the interreflection of a section. `hat` are the weights of the nodes. \[rad\]
     pub(super) fn new(section: &SlatSection, transport: &Transport, hat: &[f64]) -> Self {
         let n = section.faces.len();
         let diffuse: Vec<f64> = section.faces.iter().map(|f| f.surface.diffuse).collect();
         let lost: Vec<f64> = section.faces.iter().map(|f| 1.0 - f.surface.diffuse - f.surface.mirror).collect();
-        // What a face sends inside is what light from inside brings to it, over all directions.
+        // A face sends inside what light from inside brings to it, over all directions.
         let exits = [1, 0].map(|side: usize| {
             let mut sum = vec![0.0; n];
             for (row, weight) in transport.landed[side].iter().zip(hat) {

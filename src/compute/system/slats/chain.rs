@@ -1,4 +1,4 @@
-//! Light that mirrors throw on: a ray from reflection to reflection until it leaves the slats or has died.
+//! Chains of mirror reflections: a ray from reflection to reflection until it leaves the slats or is given up.
 
 use super::arc::Point;
 use super::outline::{Facet, SlatSection};
@@ -6,61 +6,61 @@ use super::sweep::Met;
 use crate::compute::sequence::{mix, recurrence, unit};
 use std::f64::consts::PI;
 
-/// Rays weaker than this share of their start are given up.
+/// Share of its start below which a ray is given up.
 const FAINT: f64 = 1e-6;
-/// Reflections after which a ray is given up: between perfect mirrors that nearly touch it may never leave.
+/// Number of reflections after which a ray is given up: between perfect mirrors that nearly touch it may never leave.
 const MOST: usize = 5000;
-/// A ray has left a strip when it is farther from it. In pitches.
+/// Distance from a strip beyond which a ray has left it. In pitches.
 const OFF: f64 = 1e-10;
 
-/// A ray that has just come to a face.
+/// Ray that has just reached a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ray {
-    /// Place, in the frame of the slat met.
+    /// Place of the ray, in the frame of the slat met.
     pub(super) point: Point,
     /// Unit direction of travel (outward, upward).
     pub(super) direction: Point,
-    /// What it has come to.
+    /// Strip, slat and face that the ray has reached.
     pub(super) met: Met,
 }
 
-/// A ray that leaves.
+/// Ray that leaves the slats.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Exit {
     /// Unit direction of travel.
     pub(super) direction: Point,
-    /// What it carries.
+    /// Weight of the ray.
     pub(super) weight: f64,
     /// Sum of the squared spreads of the mirrors met. \[rad²\]
     pub(super) variance: f64,
 }
 
-/// Equidistributed numbers with a start of their own for every bundle of rays.
+/// Equidistributed numbers with a separate start for every bundle of rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sequence {
-    /// Rays drawn so far.
+    /// Number of rays drawn so far.
     ray: u64,
-    /// Reflections of this ray so far.
+    /// Number of reflections of this ray so far.
     depth: usize,
     start: u64,
 }
 
-/// Primes: a pair of their square roots for every reflection makes the rays' numbers equidistributed.
+/// Primes whose square roots, a pair for every reflection, make the rays' numbers equidistributed.
 const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
 impl Sequence {
-    /// From number `stream` on of a seed: what nodes draw goes on where their neighbours' ends, so that sums over nodes
-    /// are drawn evenly, too.
+    /// Creates the sequence of a seed from number `stream` on: the numbers of a node continue where its neighbour's
+    /// end, so that sums over nodes are equidistributed, too.
     pub(super) fn new(seed: u64, stream: u64) -> Self {
         Self { ray: stream * 1000, depth: 0, start: mix(seed) }
     }
 
-    /// The next ray begins.
+    /// Begins the next ray.
     pub(super) fn next_ray(&mut self) {
         (self.ray, self.depth) = (self.ray + 1, 0);
     }
 
-    /// Two numbers of 0 … 1 for the next reflection.
+    /// Returns two numbers of 0 … 1 for the next reflection.
     fn pair(&mut self) -> [f64; 2] {
         let first = 2 * self.depth;
         self.depth += 1;
@@ -75,35 +75,35 @@ impl Sequence {
     }
 }
 
-/// A ray comes to a face.
+/// Arrival of a ray at a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Landing {
-    /// Straight run of strips.
+    /// Index of the facet, a straight run or arc of strips.
     pub(super) facet: usize,
-    /// Its second side?
+    /// Whether the ray arrives at the right side of the facet.
     pub(super) right: bool,
-    /// Share of the run at which the ray comes to it.
+    /// Share of the facet's length at which the ray arrives.
     pub(super) share: f64,
-    /// What it still carries.
+    /// Weight that the ray still has.
     pub(super) weight: f64,
 }
 
-/// What becomes of a ray after its first mirror, per unit of what came to it.
+/// Path of a ray after its first mirror, per unit of its light on that mirror.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Trace {
-    /// What it comes to.
+    /// Arrivals at faces, in order.
     pub(super) landed: Vec<Landing>,
-    /// How it leaves.
+    /// Exit of the ray, if it leaves.
     pub(super) exit: Option<Exit>,
-    /// The slats and sides met, as a number: rays of a bundle with the same way have the same.
+    /// Hash of the slats and sides met: rays of a bundle with the same path have the same number.
     pub(super) way: u64,
 }
 
-/// Weaker parts do not make a way another.
+/// Weight down to which reflections count in the path's hash.
 const TELLING: f64 = 1e-3;
 
 impl SlatSection {
-    /// Follows the mirrored part of a ray of weight 1.
+    /// Follows the mirrored part of a ray of weight 1 into `trace`.
     pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
         sequence.next_ray();
         trace.landed.clear();
@@ -137,8 +137,9 @@ impl SlatSection {
         }
     }
 
-    /// Direction after the mirror that a ray has come to. A spread σ moves the ideal direction's sine u to the face's
-    /// normal by a step on the unit sphere whose axis u is the height along (see the head of this module's parent).
+    /// Returns the direction after the mirror that a ray has reached. A spread σ moves the ideal direction's sine u to
+    /// the face's normal by a step on the unit sphere whose axis u is the height along (see the head of this module's
+    /// parent).
     fn mirrored(&self, ray: &Ray, spread: f64, sequence: &mut Sequence) -> Point {
         let strip = &self.strips[ray.met.strip];
         let d = ray.direction;
@@ -148,7 +149,7 @@ impl SlatSection {
         let side = if strip.faces[0] == Some(ray.met.face) { 1.0 } else { -1.0 };
         let n = left.map(|x| side * x);
         let across = d[0] * n[0] + d[1] * n[1];
-        // A chord's ray may pass the arc: it goes on along it.
+        // A chord's ray may pass the arc: it then continues along it.
         let mut out = if across < 0.0 { [d[0] - 2.0 * across * n[0], d[1] - 2.0 * across * n[1]] } else { d };
         if spread > 0.0 {
             let along = [-n[1], n[0]];
@@ -163,8 +164,8 @@ impl SlatSection {
         out.map(|x| x / size)
     }
 
-    /// The first strip that a ray from a point of the slat at the origin meets, where in the frame of the slat met,
-    /// and which slat that is.
+    /// Returns the first strip that a ray from a point of the slat at the origin meets, its place in the frame of the
+    /// slat met, and that slat's number.
     fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met, Landing, i32)> {
         let mut best: (f64, Option<(usize, i32, f64, bool)>) = (f64::INFINITY, None);
         for step in -self.reach..=self.reach {
@@ -201,7 +202,7 @@ impl SlatSection {
         facet.first + facet.ends.partition_point(|end| *end < share).min(facet.ends.len() - 1)
     }
 
-    /// Divides what comes to a side of a straight run between two shares of it evenly over its faces.
+    /// Distributes light on a side of a facet between two shares of it uniformly over its faces.
     pub(super) fn divide(&self, landing: &Landing, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
         let (low, high) = (from.min(to), from.max(to));
         let facet = &self.facets[landing.facet];
@@ -224,7 +225,8 @@ impl SlatSection {
 }
 
 impl Facet {
-    /// Calls `hit(distance, share of the way, from the right)` wherever a ray meets it. `itself`: the ray comes from it.
+    /// Calls `hit(distance, share of the length, from the right)` wherever a ray meets the facet. `itself`: the ray
+    /// comes from it.
     fn hits(&self, p: Point, d: Point, itself: bool, mut hit: impl FnMut(f64, f64, bool)) {
         if let Some(circle) = &self.circle {
             for distance in circle.meets(p, d).into_iter().flatten() {

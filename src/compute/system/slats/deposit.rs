@@ -1,22 +1,22 @@
-//! Into which emergent cells mirrored light goes.
+//! Distribution of mirrored light over emergent cells.
 //!
-//! Mirrors with horizontal slats keep the direction cosine x along the slats and change the profile angle alone. On a
-//! line of constant ψ the emergent cells divide x into intervals; what an incident cell sends to that line it sends
-//! with its own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ.
-//! Mirrors that spread light are not among them: see `rough`.
+//! Mirrors with horizontal slats keep the direction cosine x along the slats and change the profile angle only. On a
+//! line of constant ψ the emergent cells divide x into intervals; an incident cell sends light to that line within its
+//! own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ. Mirrors that
+//! spread light are not included: see `rough`.
 
 use super::profile_weights::{Piece, ProfileGrid, primitive};
 use crate::compute::basis::RingBasis;
 
-/// The intervals that the cells of a basis have at every node, rising, in ∫ √(1 − x²) dx.
+/// Intervals of the cells of a basis at every node, rising, in ∫ √(1 − x²) dx.
 #[derive(Debug, Clone)]
 pub(super) struct Intervals {
-    /// `[node]` (from, to, cell).
+    /// Intervals by node: (from, to, cell).
     lines: Vec<Vec<(f64, f64, usize)>>,
 }
 
 impl Intervals {
-    /// Of the cells of a basis.
+    /// Creates the intervals of the cells of a basis.
     pub(super) fn new(basis: &RingBasis, grid: ProfileGrid) -> Self {
         let mut lines = vec![vec![]; grid.len()];
         for (index, cell) in basis.cells().enumerate() {
@@ -44,7 +44,7 @@ impl Intervals {
         Self { lines }
     }
 
-    /// The intervals of one cell at every node: `[cell]` (node, from, to).
+    /// Returns the intervals of each cell at every node: `[cell]` (node, from, to).
     pub(super) fn by_cell(&self, cells: usize) -> Vec<Vec<(usize, f64, f64)>> {
         let mut list = vec![vec![]; cells];
         for (node, line) in self.lines.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Light that passes between the slats without touching them: closed form, and its exact means over cells.
+//! Direct share: light that passes between the slats without touching them, in closed form, and its exact means over
+//! cells.
 
 use super::array::SlatArray;
 use super::outline;
@@ -8,7 +9,7 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::quadrature::gauss_legendre;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The direct share as a function of ψ, with the places where it is not smooth.
+/// Direct share as a function of ψ, with the places where it is not smooth.
 #[derive(Debug, Clone)]
 pub(super) struct Direct {
     profile: SlatProfile,
@@ -17,26 +18,26 @@ pub(super) struct Direct {
     knots: Vec<f64>,
 }
 
-/// Pieces of an arc's outline where thickness turns it into a polygon.
+/// Number of pieces of an arc's outline where thickness turns it into a polygon.
 const OUTLINE: usize = 256;
 
 impl SlatArray {
-    /// Share of light of the profile angle `psi` \[rad\] that passes without touching a slat.
+    /// Returns the share of light of the profile angle `psi` \[rad\] that passes without touching a slat.
     pub fn direct_share(&self, psi: f64) -> f64 {
         Direct::without_knots(self).share(psi)
     }
 }
 
 impl Direct {
-    /// Of an array.
+    /// Creates the direct share of an array, with its knots.
     pub(super) fn new(array: &SlatArray) -> Self {
         let direct = Self::without_knots(array);
         Self { knots: direct.find_knots(), ..direct }
     }
 
-    /// For single profile angles: nothing is integrated.
+    /// Creates the direct share without knots, for single profile angles, where nothing is integrated.
     pub(super) fn without_knots(array: &SlatArray) -> Self {
-        // A solid slat takes away its outline's extent; the outline is given at its tilt already.
+        // A solid slat blocks its outline's extent; the outline is given at its tilt already.
         let solid = array.thickness() > 0.0;
         let (profile, tilt) = if solid {
             let mut points = outline::polygon(array, OUTLINE);
@@ -48,12 +49,12 @@ impl Direct {
         Self { profile, tilt, pitch: array.spacing(), knots: vec![] }
     }
 
-    /// Share that passes.
+    /// Returns the share that passes at a profile angle. \[rad\]
     pub(super) fn share(&self, psi: f64) -> f64 {
         self.profile.open_share(self.tilt, self.pitch, psi)
     }
 
-    /// Where the extent changes its law, and where the share reaches 0.
+    /// Returns the profile angles at which the extent changes its law, and at which the share reaches 0. \[rad\]
     fn find_knots(&self) -> Vec<f64> {
         let mut slopes: Vec<f64> = match &self.profile {
             SlatProfile::Flat { .. } => vec![0.0],
@@ -101,8 +102,8 @@ impl Direct {
         sum
     }
 
-    /// Flux that passes from every incident cell into emergent cells: (emergent cell, ∫ share dPΩ over what both
-    /// have in common), and its mean share.
+    /// Returns, for every incident cell, its mean share and its flux into emergent cells: (emergent cell, ∫ share dPΩ
+    /// over what both have in common).
     pub(super) fn cells(&self, incident: &RingBasis, emergent: &RingBasis) -> Vec<(f64, Vec<(usize, f64)>)> {
         let rule = gauss_legendre(10);
         let rings = RingIndex::new(emergent);
@@ -147,7 +148,7 @@ impl RingIndex {
     }
 }
 
-/// Convex hull, counter-clockwise (Andrew's monotone chain).
+/// Returns the convex hull, counter-clockwise (Andrew's monotone chain).
 fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

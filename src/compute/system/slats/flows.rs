@@ -1,14 +1,14 @@
-//! What is known of the light in a section: from face to face, to faces, and past them.
+//! Light in a section: from face to face, to faces, and past them.
 
 use super::along::Along;
 use crate::compute::system::measure::Side;
 
-/// A square matrix of faces, row by row.
+/// Square matrix of faces, row by row.
 #[derive(Debug, Clone)]
 pub(super) struct Exchange {
-    /// Faces.
+    /// Number of faces.
     pub(super) size: usize,
-    /// Row by row.
+    /// Values, row by row.
     pub(super) values: Vec<f64>,
 }
 
@@ -26,10 +26,10 @@ impl Exchange {
     }
 }
 
-/// A parallel beam that leaves.
+/// Parallel beam or fan that leaves the section.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lobe {
-    /// Profile angles of its name, from and to: evenly between. \[rad\]
+    /// Profile angles of its through directions at both ends; uniform between them. \[rad\]
     pub(super) psi: [f64; 2],
     /// Width of the incident light that it carries, in pitches.
     pub(super) width: f64,
@@ -37,31 +37,31 @@ pub(super) struct Lobe {
     pub(super) variance: f64,
 }
 
-/// What mirrors make of parallel light that comes at one profile angle from one side.
+/// Light that mirrors reflect out of the section, for parallel light of one profile angle from one side.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Thrown {
-    /// Transmitted.
+    /// Transmitted beams.
     pub(super) through: Vec<Lobe>,
-    /// Thrown back.
+    /// Reflected beams.
     pub(super) back: Vec<Lobe>,
 }
 
-/// Everything the section does to light, before the faces' diffuse reflectance.
+/// Transport of light in the section, before the faces' diffuse reflectance.
 #[derive(Debug, Clone)]
 pub(super) struct Transport {
     /// Width of the light from face to face, over all directions: ½∫ t dψ, mirrors included; symmetric.
     pub(super) exchange: Exchange,
     /// Width over all directions that a face sends out, ½∫ t dψ: its length by the rule's count.
     pub(super) length: Vec<f64>,
-    /// Width of a parallel beam that comes to every face, `[node][face]`, for light from outside and from inside.
+    /// Width of a parallel beam that reaches every face, `[node][face]`, for light from outside and from inside.
     pub(super) landed: [Vec<Vec<f64>>; 2],
-    /// Mirrored light that leaves, a node, from outside and from inside.
+    /// Mirrored light that leaves, by node, from outside and from inside.
     pub(super) thrown: [Vec<Thrown>; 2],
-    /// What of it has met mirrors that spread light, if any do.
+    /// Mirrored light that has met mirrors that spread light, if there are any.
     pub(super) rough: Option<Rough>,
 }
 
-/// Index of a side in the pairs of this module.
+/// Returns the index of a side in the pairs of this module.
 pub(super) const fn index(side: Side) -> usize {
     match side {
         Side::Front => 0,
@@ -69,45 +69,45 @@ pub(super) const fn index(side: Side) -> usize {
     }
 }
 
-/// What comes to faces by way of mirrors, as rays have found it.
+/// Light on faces after mirrors, as computed by rays.
 #[derive(Debug, Clone)]
 pub(super) struct Second {
-    /// From face to face, symmetric.
+    /// Light from face to face, symmetric.
     pub(super) exchange: Exchange,
-    /// From parallel light, `[node][face]`, from outside and from inside.
+    /// Width of parallel light on faces, `[node][face]`, from outside and from inside.
     pub(super) landed: [Vec<Vec<f64>>; 2],
 }
 
-/// Light of one variance that rough mirrors throw out, between nodes: ∫∫ over both nodes' hats of the width, divided by
-/// both hats.
+/// Light of one variance that rough mirrors reflect out of the section, between nodes: ∫∫ over both nodes' hats of the
+/// width, divided by both hats.
 #[derive(Debug, Clone)]
 pub(super) struct VarianceLevel {
-    /// From outside by the first index to inside by the second; from inside it is the transpose.
+    /// Light from outside by the first index to inside by the second; light from inside is the transpose.
     pub(super) through: Vec<f64>,
-    /// Thrown back outside and inside; the second index is the node from which light takes the way back.
+    /// Light reflected outside and inside; the second index is the node of light that takes the reverse path.
     pub(super) back: [Vec<f64>; 2],
 }
 
-/// All light that rough mirrors throw out.
+/// All light that rough mirrors reflect out of the section.
 #[derive(Debug, Clone)]
 pub(super) struct Rough {
-    /// What becomes of x.
+    /// Kernels of the direction cosine x along the slats.
     pub(super) along: Along,
-    /// As many as `along` has.
+    /// Light by level of variance, one entry per level of `along`.
     pub(super) levels: Vec<VarianceLevel>,
-    /// What the sums over all that light can do lacked, a node, from outside and from inside. In pitches.
+    /// Deficit of the sums over all light, by node, from outside and from inside. In pitches.
     pub(super) doubt: [Vec<f64>; 2],
 }
 
 impl Rough {
-    /// Flows of a level, by the nodes that name the light: incident, emergent.
+    /// Returns the flows of a level, by the nodes of the through directions: incident, emergent.
     pub(super) fn flows(&self, level: usize, side: Side, through: bool) -> Vec<f64> {
         let level = &self.levels[level];
         let n = self.doubt[0].len();
         match (through, side) {
             (true, Side::Front) => level.through.clone(),
             (true, Side::Back) => (0..n * n).map(|at| level.through[at % n * n + at / n]).collect(),
-            // Names of what is thrown back are opposite.
+            // Through directions of reflected light are opposite.
             (false, _) => level.back[index(side)].chunks(n).flat_map(|line| line.iter().rev().copied()).collect(),
         }
     }

@@ -1,4 +1,4 @@
-//! From a section's transport to cells.
+//! Patch-averaged data from the transport in a section.
 
 use super::array::{SlatArray, Surface};
 use super::balance::Balance;
@@ -16,14 +16,15 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use rayon::prelude::*;
 
-/// Coarse strips a slat to begin with, and at most.
+/// Numbers of coarse strips per slat: at the start, and at most.
 const PARTS: [usize; 2] = [16, 128];
-/// At least so many where mirrors are curved: strips are chords, and what comes past a chord misses the arc.
+/// Minimum number of coarse strips where mirrors are curved: strips are chords, and light that passes a chord misses
+/// the arc.
 const CURVED: usize = 32;
-/// For light of one direction.
+/// Number of coarse strips for light of one direction.
 pub(super) const PARTS_BY_DIRECTION: usize = 32;
 
-/// Step of the profile angle. \[rad\]
+/// Returns the step of the profile angle. \[rad\]
 fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
     let finest = setting
         .emergent
@@ -39,8 +40,8 @@ fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
     wanted.to_radians().min(0.5 * finest).max(0.1_f64.to_radians())
 }
 
-/// Landed widths of every cell: faces × cells, divided by the cells' projected solid angles. `turned`: by the
-/// opposite profile angle, as light thrown back is named.
+/// Returns the widths of light on the faces for every cell: faces × cells, divided by the cells' projected solid
+/// angles. `turned`: by the opposite profile angle, as for reflected light.
 fn landed(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: bool) -> Mat<f64> {
     let faces = rows[0].len();
     let mut matrix = Mat::zeros(faces, cells.len());
@@ -57,10 +58,10 @@ fn landed(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: 
 }
 
 impl SlatArray {
-    /// What the array does to light, on the cells of the setting.
+    /// Computes the scattering of the array on the cells of the setting.
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` says so.
+    /// Returns [`Cancelled`] if `progress` is cancelled.
     pub fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         measure(self, setting, progress)
     }
@@ -135,13 +136,13 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
     Ok(measured)
 }
 
-/// Light of every cell that is absorbed.
+/// Returns the absorbed share of the light of every cell.
 fn absorbed(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     let of = |cell: usize| from.col_as_slice(cell).iter().zip(&balance.absorbed).map(|(g, a)| g * a).sum();
     (0..from.ncols()).map(of).collect()
 }
 
-/// What the two divisions into strips differ by, a cell.
+/// Returns the error of every cell from the difference of the two divisions into strips.
 fn doubts(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     let of = |cell: usize| {
         let one = |doubt: &[f64]| from.col_as_slice(cell).iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs();
@@ -150,7 +151,7 @@ fn doubts(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     (0..from.ncols()).map(of).collect()
 }
 
-/// Adds what passes without touching a slat.
+/// Adds the light that passes without touching a slat.
 fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured) {
     let cells = Direct::new(array).cells(setting.incident, setting.emergent);
     let m = setting.emergent.len();
@@ -165,7 +166,7 @@ fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured)
     }
 }
 
-/// Lobes of ideal mirrors of one node on the nodes of the grid: (node, width).
+/// Distributes the lobes of ideal mirrors of one node over the nodes of the grid: (node, width).
 fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> Vec<(usize, f64)> {
     let mut line = vec![0.0; grid.len()];
     for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
@@ -180,7 +181,8 @@ fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> Vec<(usize, f64)> {
     line.into_iter().enumerate().filter(|&(_, width)| width > 0.0).collect()
 }
 
-/// Adds what ideal mirrors throw: flux from the weights of the cells, its division among emergent cells from their nodes.
+/// Adds the light reflected by ideal mirrors: flux from the weights of the cells, its division among emergent cells
+/// from their nodes.
 fn add_mirrored(
     setting: &Setting<'_>,
     grid: ProfileGrid,
@@ -211,7 +213,7 @@ fn add_mirrored(
                         .sum::<f64>()
                         / solid;
                     let mut put = vec![0.0; m];
-                    // What the nodes of the cell send out in all, wherever it goes.
+                    // All light that the nodes of the cell send out, in any direction.
                     let mut sum = 0.0;
                     for &(node, from, to) in &sources[i] {
                         let lobes = &nodes[node];

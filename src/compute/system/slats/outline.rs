@@ -1,4 +1,4 @@
-//! The section of one slat as straight strips, each with the faces that light can meet. Lengths in pitches.
+//! Section of one slat as straight strips, each with the faces that light can meet. Lengths in pitches.
 //!
 //! Coordinates are (outward, upward). A strip runs so that its first face looks to its left: the upper side of a
 //! sheet, the outside of a solid slat. Every strip of the coarse division is halved; the coarse one serves the
@@ -8,12 +8,12 @@ use super::arc::{Circle, Point};
 use super::array::{SlatArray, Surface};
 use super::profile::SlatProfile;
 
-/// A straight piece of the section.
+/// Straight piece of the section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Strip {
-    /// Start.
+    /// Start of the strip.
     pub(super) a: Point,
-    /// End.
+    /// End of the strip.
     pub(super) b: Point,
     /// Unit normals of the described curve at both ends, to the left.
     pub(super) normals: [Point; 2],
@@ -24,41 +24,41 @@ pub(super) struct Strip {
 /// One side of a strip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Face {
-    /// Its finish.
+    /// Finish of the face.
     pub(super) surface: Surface,
-    /// The face of the coarse division that it is part of.
+    /// Index of the face of the coarse division that it is part of.
     pub(super) coarse: usize,
 }
 
-/// Strips that make one straight line, or one arc, with the same finish, for rays.
+/// Strips of one finish that form one straight line or one arc, for rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Facet {
-    /// Start.
+    /// Start of the facet.
     pub(super) a: Point,
-    /// End.
+    /// End of the facet.
     pub(super) b: Point,
-    /// Unit normal to the left of the way from start to end.
+    /// Unit normal to the left of the line from start to end.
     pub(super) left: Point,
-    /// First strip.
+    /// Index of the first strip.
     pub(super) first: usize,
-    /// Shares of the way at which the strips end, rising to 1.
+    /// Shares of the facet's length at which the strips end, rising to 1.
     pub(super) ends: Vec<f64>,
-    /// What it is really part of, where it is an arc.
+    /// Circle that the facet is part of, if it is an arc.
     pub(super) circle: Option<Circle>,
 }
 
-/// Facets in a row, in a circle: rays that miss the circle miss them all.
+/// Consecutive facets within a bounding circle: rays that miss the circle miss them all.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
-    /// Which facets.
+    /// Range of indices of the facets.
     pub(super) facets: std::ops::Range<usize>,
-    /// Middle of the circle.
+    /// Centre of the bounding circle.
     pub(super) centre: Point,
-    /// Its radius.
+    /// Radius of the bounding circle.
     pub(super) radius: f64,
 }
 
-/// Facets in a group.
+/// Number of facets in a group.
 const GROUP: usize = 6;
 
 impl Group {
@@ -67,7 +67,7 @@ impl Group {
         let on_arc = |circle: &Circle| (0..=ALONG).map(|k| circle.at(k as f64 / ALONG as f64)).collect();
         let of = |facet: &Facet| facet.circle.as_ref().map_or_else(|| vec![facet.a, facet.b], on_arc);
         let points: Vec<Point> = facets[range.clone()].iter().flat_map(of).collect();
-        // By how much an arc leaves its chords.
+        // Distance between an arc and its chords.
         let bulge = |circle: &Circle| circle.radius.abs() * (1.0 - (0.5 * circle.turn / ALONG as f64).cos());
         let bulge = facets[range.clone()].iter().filter_map(|f| f.circle.as_ref()).map(bulge).fold(0.0, f64::max);
         let middle = [0, 1].map(|axis: usize| {
@@ -80,24 +80,24 @@ impl Group {
     }
 }
 
-/// A slat of an endless array of pitch 1.
+/// Section of a slat of an endless array of pitch 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlatSection {
-    /// Strips of the slat that turns about the origin.
+    /// Strips of the slat at the origin.
     pub(super) strips: Vec<Strip>,
-    /// All faces.
+    /// Faces of all strips.
     pub(super) faces: Vec<Face>,
     /// Straight runs and arcs of strips.
     pub(super) facets: Vec<Facet>,
-    /// The facet of every strip.
+    /// Index of the facet of every strip.
     pub(super) facet_of: Vec<usize>,
-    /// The facets, a few at a time.
+    /// Groups of a few facets.
     pub(super) groups: Vec<Group>,
     /// Number of coarse faces.
     pub(super) coarse: usize,
-    /// Solid slats, as against sheets.
+    /// Whether the slats are solid; otherwise they are sheets.
     pub(super) solid: bool,
-    /// Slats up to this many pitches away may be the next that light from a slat meets.
+    /// Maximum distance, in pitches, of the slat that light from a slat may meet next.
     pub(super) reach: i32,
 }
 
@@ -111,20 +111,20 @@ struct CoarseStrip {
     right: Option<Surface>,
 }
 
-/// `from` + share (`to` − `from`).
+/// Returns `from` + share (`to` − `from`).
 pub(super) fn between(from: Point, to: Point, share: f64) -> Point {
     [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
 }
 
-/// Unit vector to the left of the way from a to b; a zero vector where they coincide.
+/// Returns the unit vector to the left of the line from a to b; a zero vector where they coincide.
 pub(super) fn left_of(a: Point, b: Point) -> Point {
     let (u, v) = (b[0] - a[0], b[1] - a[1]);
     let length = u.hypot(v);
     if length > 0.0 { [-v / length, u / length] } else { [0.0; 2] }
 }
 
-/// The middle line at tilt 0 in metres from the inner to the outer edge: points with the normals before and after.
-/// Cut into at least `parts` pieces.
+/// Returns the middle line at tilt 0 in metres from the inner to the outer edge: points with the normals before and
+/// after, cut into at least `parts` pieces.
 fn middle(profile: &SlatProfile, parts: usize) -> Vec<(Point, [Point; 2])> {
     if let SlatProfile::Arc { width, rise } = profile {
         let half = 2.0 * (2.0 * rise.abs()).atan2(*width);
@@ -160,7 +160,7 @@ fn middle(profile: &SlatProfile, parts: usize) -> Vec<(Point, [Point; 2])> {
     list
 }
 
-/// The line at the distance `offset` to the left of the middle line, mitred at corners.
+/// Returns the line at the distance `offset` to the left of the middle line, mitred at corners.
 fn beside(middle: &[(Point, [Point; 2])], offset: f64) -> Vec<Point> {
     let shift = |&(p, [m, n]): &(Point, [Point; 2])| {
         let scale = offset / (1.0 + m[0] * n[0] + m[1] * n[1]).max(0.1);
@@ -169,7 +169,8 @@ fn beside(middle: &[(Point, [Point; 2])], offset: f64) -> Vec<Point> {
     middle.iter().map(shift).collect()
 }
 
-/// A vector of the slat's own axes at its tilt. Exact quarter turns: sheets that then lie in one plane must agree.
+/// Rotates a vector from the slat's own axes to its tilt. Quarter turns are exact: sheets that then lie in one plane
+/// must agree.
 fn turned(tilt: f64, [u, v]: Point) -> Point {
     let (mut sin, mut cos) = tilt.sin_cos();
     if cos.abs() < 1e-12 {
@@ -179,15 +180,15 @@ fn turned(tilt: f64, [u, v]: Point) -> Point {
 }
 
 impl SlatArray {
-    /// One slat at its tilt, about the origin: (outward, upward) \[m\]. A sheet is one open line, from the inner to the
-    /// outer edge; a solid slat one closed polygon, its first point not repeated.
+    /// Returns the outline of one slat at its tilt, about the origin: (outward, upward) \[m\]. A sheet is one open
+    /// line, from the inner to the outer edge; a solid slat one closed polygon, its first point not repeated.
     pub fn outline(&self) -> Vec<Vec<[f64; 2]>> {
         vec![polygon(self, 32)]
     }
 }
 
-/// The section's outline at its tilt: a sheet's line from the inner to the outer edge, or the closed polygon of a
-/// solid slat with its first point not repeated. \[m\]
+/// Returns the section's outline at its tilt: a sheet's line from the inner to the outer edge, or the closed polygon of
+/// a solid slat with its first point not repeated. \[m\]
 pub(super) fn polygon(array: &SlatArray, parts: usize) -> Vec<Point> {
     let line = middle(array.profile(), parts);
     let mut points = beside(&line, 0.5 * array.thickness());
@@ -198,7 +199,7 @@ pub(super) fn polygon(array: &SlatArray, parts: usize) -> Vec<Point> {
 }
 
 impl SlatSection {
-    /// Of an array whose slats are cut into about `parts` strips, halved once more.
+    /// Creates the section of an array whose slats are cut into about `parts` strips, each of them halved.
     pub(super) fn new(array: &SlatArray, parts: usize) -> Self {
         let mut list = coarse_parts(array, parts);
         for part in &mut list {
@@ -264,7 +265,7 @@ impl SlatSection {
         self.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0)
     }
 
-    /// Strips joined as far as rays need not tell them apart: rays then meet a few facets instead of all strips.
+    /// Joins strips that rays need not distinguish: rays then meet a few facets instead of all strips.
     fn runs(&self) -> Vec<Facet> {
         let mut runs: Vec<std::ops::Range<usize>> = vec![];
         for (k, strip) in self.strips.iter().enumerate() {
@@ -290,13 +291,13 @@ impl SlatSection {
         joined && (straight || round) && finish(before) == finish(strip)
     }
 
-    /// The facet that a run of strips makes.
+    /// Creates the facet of a run of strips.
     fn facet(&self, run: std::ops::Range<usize>) -> Facet {
         let (first, last) = (&self.strips[run.start], &self.strips[run.end - 1]);
         let (a, b) = (first.a, last.b);
         let circle = Circle::of(a, b, [first.normals[0], last.normals[1]]);
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-        // The ways along which rays tell where they meet the facet: the turn of the normal on an arc, else the length.
+        // Measure along the facet by which rays locate a strip: the turn of the normal on an arc, else the length.
         let end = |strip: &Strip| {
             let along = || (strip.b[0] - a[0]).hypot(strip.b[1] - a[1]) / length;
             circle.map_or_else(along, |circle| circle.share(strip.normals[1]))
@@ -305,7 +306,7 @@ impl SlatSection {
     }
 }
 
-/// The strips of the coarse division at tilt 0. \[m\]
+/// Returns the strips of the coarse division at tilt 0. \[m\]
 fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<CoarseStrip> {
     let line = middle(array.profile(), parts);
     let along = |points: &[Point], side: f64, left: Surface, right: Option<Surface>| {
@@ -338,7 +339,7 @@ fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<CoarseStrip> {
     list
 }
 
-/// Shares of the ways p and q (moved by `lift`) at which they cross.
+/// Returns the shares of the strips p and q (moved by `lift`) at which they cross.
 fn crossing(p: &CoarseStrip, q: &CoarseStrip, lift: f64) -> Option<(f64, f64)> {
     let (e, f) = ([p.b[0] - p.a[0], p.b[1] - p.a[1]], [q.b[0] - q.a[0], q.b[1] - q.a[1]]);
     let across = e[0] * f[1] - e[1] * f[0];
@@ -350,7 +351,7 @@ fn crossing(p: &CoarseStrip, q: &CoarseStrip, lift: f64) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)).then_some((s, t))
 }
 
-/// Share of the way at which it holds a point.
+/// Returns the share of a strip's length at which it contains a point; `None` if the point is not on its line.
 fn on_way(way: &CoarseStrip, point: Point) -> Option<f64> {
     let (e, w) = ([way.b[0] - way.a[0], way.b[1] - way.a[1]], [point[0] - way.a[0], point[1] - way.a[1]]);
     let square = e[0] * e[0] + e[1] * e[1];

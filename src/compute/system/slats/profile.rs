@@ -1,38 +1,38 @@
-//! The section of a slat at tilt 0: u outward along the chord, v upward; the middle of the chord is the origin, about
-//! which the slat turns.
+//! Section of a slat at tilt 0: u outward along the chord, v upward; the middle of the chord is the origin, about which
+//! the slat rotates.
 //!
 //! In the slat's own axes light of profile angle ψ comes from (cos α, sin α), α = β + ψ, where the tilt β > 0 lowers
-//! the outer edge. What a slat takes out of a parallel beam is its extent across the beam, so that every connected
-//! profile lets the share max(0, 1 − extent/(s cosψ)) pass straight between slats of pitch s.
+//! the outer edge. A slat blocks its extent across a parallel beam, so that every connected profile lets the share
+//! max(0, 1 − extent/(s cosψ)) pass between slats of pitch s.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Shape of a slat's section, without its thickness. Lengths in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SlatProfile {
-    /// A straight line of this chord.
+    /// Straight line.
     Flat {
         /// Chord. \[m\]
         width: f64,
     },
-    /// A circular arc.
+    /// Circular arc.
     Arc {
         /// Chord. \[m\]
         width: f64,
         /// Height of the crown over the chord, > 0 = convex side up; at most half the chord. \[m\]
         rise: f64,
     },
-    /// A polyline of (outward, upward) points, from one edge to the other.
+    /// Polyline of (outward, upward) points, from one edge to the other. \[m\]
     Polyline(Vec<[f64; 2]>),
 }
 
 impl SlatProfile {
-    /// A flat profile where the rise is 0, else an arc.
+    /// Creates a flat profile if the rise is 0, else an arc.
     pub fn curved(width: f64, rise: f64) -> Self {
         if rise == 0.0 { Self::Flat { width } } else { Self::Arc { width, rise } }
     }
 
-    /// Extent across a beam at the angle `alpha` to the chord. \[rad → m\]
+    /// Returns the extent across a beam at the angle `alpha` to the chord. \[rad → m\]
     pub fn extent(&self, alpha: f64) -> f64 {
         let across = |[u, v]: [f64; 2]| v * alpha.cos() - u * alpha.sin();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -58,18 +58,18 @@ impl SlatProfile {
         if high > low { high - low } else { 0.0 }
     }
 
-    /// Share of light of profile angle ψ that passes between slats of this tilt and pitch without touching them; below 0,
-    /// by how much slats overlap. Between −90° and 90°. \[rad, m\]
+    /// Returns the share of light of profile angle ψ that passes between slats of this tilt and pitch without touching
+    /// them; values below 0 give the overlap of the slats. Between −90° and 90°. \[rad, m\]
     pub fn clearance(&self, tilt: f64, pitch: f64, psi: f64) -> f64 {
         1.0 - self.extent(tilt + psi) / (pitch * psi.cos())
     }
 
-    /// [`clearance`](Self::clearance) as a share: 0 where nothing passes.
+    /// Returns [`clearance`](Self::clearance) as a share: 0 where nothing passes.
     pub fn open_share(&self, tilt: f64, pitch: f64, psi: f64) -> f64 {
         if psi.abs() < FRAC_PI_2 { self.clearance(tilt, pitch, psi).max(0.0) } else { 0.0 }
     }
 
-    /// The profile as `parts` straight pieces of equal length for an arc; as it is for straight profiles.
+    /// Returns an arc as `parts` straight pieces of equal length; straight profiles unchanged. \[m\]
     pub fn polyline(&self, parts: usize) -> Vec<[f64; 2]> {
         match self {
             Self::Flat { width } => vec![[-0.5 * width, 0.0], [0.5 * width, 0.0]],
@@ -87,7 +87,7 @@ impl SlatProfile {
     }
 }
 
-/// Radius and half opening angle of an arc.
+/// Returns the radius \[m\] and half the opening angle \[rad\] of an arc.
 pub fn arc(width: f64, rise: f64) -> (f64, f64) {
     let rise = rise.abs();
     ((0.25 * width * width + rise * rise) / (2.0 * rise), 2.0 * (2.0 * rise).atan2(width))

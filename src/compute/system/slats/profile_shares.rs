@@ -10,28 +10,29 @@ use super::transport::beam;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::Side;
 
-/// What becomes of light of one profile angle.
+/// Shares of light of one profile angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileShares {
     /// Share that passes without touching a slat.
     pub direct: f64,
-    /// Directional-hemispherical transmittance, the direct share included.
+    /// Direct-hemispherical transmittance, including the direct share.
     pub transmitted: f64,
-    /// Directional-hemispherical reflectance.
+    /// Direct-hemispherical reflectance.
     pub reflected: f64,
     /// Share absorbed, counted on its own.
     pub absorbed: f64,
 }
 
-/// Strips of the coarse division, and the step of the profile angle for the exchange. \[rad\]
+/// Number of coarse strips per slat.
 const PARTS: usize = 48;
 const STEP: f64 = std::f64::consts::PI / 720.0;
 
 impl SlatArray {
-    /// Shares of light from a side at the given profile angles \[rad, −π/2 … π/2 without the ends\], to about 1e-4.
+    /// Computes the shares of light from a side at the given profile angles \[rad, −π/2 … π/2 without the ends\], to
+    /// about 1e-4.
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` says so.
+    /// Returns [`Cancelled`] if `progress` is cancelled.
     pub fn profile_shares(
         &self,
         side: Side,

@@ -1,49 +1,49 @@
-//! How the directions of a cell are spread over the profile angle ψ.
+//! Distribution of the directions of a cell over the profile angle ψ.
 //!
-//! With direction cosines (x, y, z), tanψ = y/z, projected solid angle is dx dy; on a line of constant ψ
-//! y = √(1 − x²) sinψ, so that dx dy = √(1 − x²) dx · cosψ dψ. A parallel beam of profile angle ψ that takes the width
-//! t across it in a pitch s carries the share t/(s cosψ): cosψ falls out, and a cell's mean of such a share is
-//! (1/s PΩ) ∫ t(ψ) D(ψ) dψ with D(ψ) = ∫ √(1 − x²) dx over the cell's part of the line. D has a closed form.
+//! With direction cosines (x, y, z), tanψ = y/z, projected solid angle is dx dy; on a line of constant ψ y = √(1 − x²)
+//! sinψ, so that dx dy = √(1 − x²) dx · cosψ dψ. A parallel beam of profile angle ψ that takes the width t across it in
+//! a pitch s carries the share t/(s cosψ): cosψ cancels, and a cell's mean of such a share is (1/s PΩ) ∫ t(ψ) D(ψ) dψ
+//! with D(ψ) = ∫ √(1 − x²) dx over the cell's part of the line. D has a closed form.
 
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::quadrature::gauss_legendre;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Profile angles −90° … 90° in equal steps, both ends included; functions are linear between them.
+/// Grid of profile angles −90° … 90° in equal steps, both ends included; functions are linear between them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ProfileGrid {
     steps: usize,
 }
 
 impl ProfileGrid {
-    /// With at most this step. \[rad\]
+    /// Creates a grid with at most the given step. \[rad\]
     pub(super) fn new(step: f64) -> Self {
         // Even, so that ψ = 0 is a node.
         Self { steps: 2 * (FRAC_PI_2 / step - 1e-9).ceil().max(1.0) as usize }
     }
 
-    /// Number of nodes.
+    /// Returns the number of nodes.
     pub(super) const fn len(self) -> usize {
         self.steps + 1
     }
 
-    /// Distance of nodes. \[rad\]
+    /// Returns the distance of nodes. \[rad\]
     pub(super) fn step(self) -> f64 {
         PI / self.steps as f64
     }
 
-    /// Profile angle of a node. \[rad\]
+    /// Returns the profile angle of a node. \[rad\]
     pub(super) fn psi(self, node: usize) -> f64 {
         // From the middle, so that opposite nodes are opposite to the last bit.
         (node as f64 - 0.5 * self.steps as f64) * self.step()
     }
 
-    /// ∫ of a node's hat function over ψ. \[rad\]
+    /// Returns ∫ of a node's hat function over ψ. \[rad\]
     pub(super) fn hat(self, node: usize) -> f64 {
         if node == 0 || node == self.steps { 0.5 * self.step() } else { self.step() }
     }
 
-    /// The node below a profile angle and the share of the node above.
+    /// Returns the node below a profile angle and the share of the node above.
     pub(super) fn place(self, psi: f64) -> (usize, f64) {
         let at = (psi / self.step() + 0.5 * self.steps as f64).clamp(0.0, self.steps as f64);
         let node = (at as usize).min(self.steps - 1);
@@ -51,12 +51,12 @@ impl ProfileGrid {
     }
 }
 
-/// ∫₀ˣ √(1 − x²) dx.
+/// Returns ∫₀ˣ √(1 − x²) dx.
 pub(super) fn primitive(x: f64) -> f64 {
     0.5 * (x * (1.0 - x * x).max(0.0).sqrt() + x.asin())
 }
 
-/// A part of a cell inside one quadrant of (x, y), by its image in the first quadrant.
+/// Part of a cell inside one quadrant of (x, y), by its image in the first quadrant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
     theta: [f64; 2],
@@ -68,7 +68,7 @@ pub(super) struct Piece {
 }
 
 impl Piece {
-    /// The parts of θ `from` … `to`, φ about `phi` by half a `width` (façade frame), one a quadrant.
+    /// Returns the parts of θ `from` … `to`, φ about `phi` by half a `width` (façade frame), one per quadrant.
     fn split(theta: [f64; 2], phi: f64, width: f64) -> Vec<Self> {
         let (from, to) = (phi - 0.5 * width, phi + 0.5 * width);
         let first = (from / FRAC_PI_2 + 1e-9).floor() as i64;
@@ -88,12 +88,12 @@ impl Piece {
             .collect()
     }
 
-    /// The parts of a cell.
+    /// Returns the parts of a cell.
     pub(super) fn of(cell: &Cell) -> Vec<Self> {
         Self::split([cell.theta_min, cell.theta_max.min(FRAC_PI_2)], cell.phi, cell.width)
     }
 
-    /// The parts of what two cells share.
+    /// Returns the parts of the overlap of two cells.
     pub(super) fn shared(a: &Cell, b: &Cell) -> Vec<Self> {
         let theta = [a.theta_min.max(b.theta_min), a.theta_max.min(b.theta_max).min(FRAC_PI_2)];
         if theta[1] - theta[0] < 1e-12 {
@@ -112,7 +112,7 @@ impl Piece {
         list
     }
 
-    /// |x| from and to on the line of constant |ψ|, `None` where the line misses the part.
+    /// Returns |x| from and to on the line of constant |ψ|, `None` where the line misses the part.
     pub(super) fn across(&self, psi: f64) -> Option<[f64; 2]> {
         let (sine, cosine) = psi.sin_cos();
         let ring = |theta: f64| {
@@ -128,7 +128,7 @@ impl Piece {
         (high > low).then_some([low, high])
     }
 
-    /// Values of |ψ| between which D is smooth, rising; first and last bound the part.
+    /// Returns the values of |ψ| between which D is smooth, rising; first and last bound the part.
     pub(super) fn knots(&self) -> Vec<f64> {
         let at = |theta: f64, phi: f64| (theta.sin() * phi.sin()).atan2(theta.cos());
         let mut knots = vec![];
@@ -156,7 +156,7 @@ impl Piece {
                 continue;
             }
             for &(u, weight) in rule {
-                // ψ = a + (b − a) sin²(πu/2) takes the edge off square roots at the ends.
+                // ψ = a + (b − a) sin²(πu/2) smooths square roots at the ends.
                 let (sine, cosine) = (FRAC_PI_2 * u).sin_cos();
                 let psi = pair[0] + width * sine * sine;
                 if let Some([low, high]) = self.across(psi) {
@@ -168,15 +168,15 @@ impl Piece {
     }
 }
 
-/// ∫ hat D dψ of every cell: a few nodes a cell.
+/// Weights ∫ hat D dψ of every cell: a few nodes per cell.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileWeights {
-    /// First node and the weights from it on. \[sr, since ∫ D cosψ dψ = PΩ\]
+    /// First node and the weights from it on, by cell. \[sr, since ∫ D cosψ dψ = PΩ\]
     rows: Vec<(usize, Vec<f64>)>,
 }
 
 impl ProfileWeights {
-    /// Of all cells of a basis.
+    /// Computes the weights of all cells of a basis.
     pub(super) fn new(basis: &RingBasis, grid: ProfileGrid) -> Self {
         let rule = gauss_legendre(6);
         let rows = basis.cells().map(|cell| Self::row(&cell, grid, &rule)).collect();
@@ -206,13 +206,13 @@ impl ProfileWeights {
         (first, row)
     }
 
-    /// First node of a cell, and its weights from there on.
+    /// Returns the first node of a cell, and its weights from there on.
     pub(super) fn cell(&self, index: usize) -> (usize, &[f64]) {
         let (first, row) = &self.rows[index];
         (*first, row)
     }
 
-    /// Number of cells.
+    /// Returns the number of cells.
     pub(super) fn len(&self) -> usize {
         self.rows.len()
     }

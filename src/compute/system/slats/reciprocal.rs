@@ -1,8 +1,8 @@
-//! What rough mirrors do, from rays that are drawn, made reciprocal and energy-keeping.
+//! Light of rough mirrors from drawn rays, made reciprocal and energy-conserving.
 //!
-//! Rays from either end of a path estimate the same flux: their mean is symmetric. Its sums over all that light can do
-//! then are no longer exactly what was sent out, by the scatter of the drawing; a scaling of every direction and face,
-//! such that all sums are right again, repairs that. What the sums lacked before is stated as error.
+//! Rays from either end of a path estimate the same flux: their mean is symmetric. Its sums over all light then are no
+//! longer exactly what was sent out, by the scatter of the drawing; a scaling of every direction and face, such that
+//! all sums are right again, corrects that. The deficit of the sums before is stated as error.
 
 use super::along::Along;
 use super::flows::{Rough, Second, Thrown, Transport, VarianceLevel};
@@ -10,9 +10,9 @@ use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use crate::compute::scaling::by_rounds;
 
-/// Rounds of scaling; they halve what is left.
+/// Number of rounds of scaling; each halves the deficit.
 const ROUNDS: usize = 40;
-/// No scale goes beyond this.
+/// Maximum scale factor.
 const LIMIT: f64 = 16.0;
 
 /// Symmetric sums of flux and of flux times variance.
@@ -43,7 +43,7 @@ impl Sums {
                                 let at = if side == 0 { node * n + other } else { other * n + node };
                                 put(&mut sums.through[at], flux, lobe.variance);
                             } else {
-                                // Light that is thrown back is named by the opposite of what takes the way back.
+                                // Reflected light has the opposite through direction of light on the reverse path.
                                 let other = n - 1 - other;
                                 put(&mut sums.back[side][node * n + other], flux, lobe.variance);
                                 put(&mut sums.back[side][other * n + node], flux, lobe.variance);
@@ -57,7 +57,7 @@ impl Sums {
     }
 }
 
-/// The sums of every node from outside, from inside, and of every face, with these scales of all others.
+/// Returns the sums of every node from outside, from inside, and of every face, with these scales of all others.
 fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64]) -> Vec<f64> {
     let n = hat.len();
     let (nodes, faces) = scales.split_at(2 * n);
@@ -84,7 +84,7 @@ fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64])
     out
 }
 
-/// Makes what rays have found reciprocal and energy-keeping. `direct` holds what comes to faces without mirrors.
+/// Makes the light found by rays reciprocal and energy-conserving. `direct` is the light on faces without mirrors.
 pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transport, second: &mut Second) -> Rough {
     let n = grid.len();
     let hat: Vec<f64> = (0..n).map(|node| grid.hat(node)).collect();
@@ -92,7 +92,7 @@ pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transpor
     let kept: Vec<f64> = mirror.iter().map(|m| 1.0 - m).collect();
     let sums = Sums::new(grid, &direct.thrown);
 
-    // What mirrors send on at first is known; ideal mirrors' own lobes are as they are.
+    // The first light that mirrors reflect is known; lobes of ideal mirrors are not changed.
     let ideal = |thrown: &Thrown| -> f64 {
         let all = thrown.through.iter().chain(&thrown.back);
         all.filter(|lobe| lobe.variance <= 0.0).map(|lobe| lobe.width).sum()
@@ -131,7 +131,7 @@ pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transpor
     Rough { along, levels, doubt }
 }
 
-/// The scaled sums as densities, divided among levels of variance.
+/// Returns the scaled sums as densities, divided among levels of variance.
 fn divided(sums: &Sums, [front, back]: [&[f64]; 2], hat: &[f64], along: &Along) -> Vec<VarianceLevel> {
     let n = hat.len();
     let none = || vec![0.0; n * n];

@@ -13,12 +13,12 @@ use rayon::prelude::*;
 #[derive(Debug, Clone)]
 struct Footing {
     node: usize,
-    /// The first bin.
+    /// Index of the first bin.
     first: usize,
     parts: Vec<f64>,
 }
 
-/// Parts of every cell of a basis.
+/// Returns the parts of every cell of a basis.
 fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Footing>> {
     let nodes: Vec<f64> = (0..grid.len()).map(|node| grid.psi(node)).collect();
     let rule = gauss_legendre(6);
@@ -26,7 +26,7 @@ fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Foot
     cells.par_iter().map(|cell| footings_of(cell, grid, &nodes, &rule, along)).collect()
 }
 
-/// Parts of one cell.
+/// Returns the parts of one cell.
 fn footings_of(cell: &Cell, grid: ProfileGrid, nodes: &[f64], rule: &[(f64, f64)], along: &Along) -> Vec<Footing> {
     let mut sums: Vec<(usize, Vec<f64>)> = vec![];
     for piece in Piece::of(cell) {
@@ -67,14 +67,14 @@ fn footings_of(cell: &Cell, grid: ProfileGrid, nodes: &[f64], rule: &[(f64, f64)
     sums.into_iter().filter_map(trimmed).collect()
 }
 
-/// The cells that take light at one node.
+/// Cells that receive light at one node.
 struct Targets {
     cells: Vec<usize>,
-    /// What of the light in every bin of x, once spread, goes into every one of them: `[bin][cell]`.
+    /// Share of the light in every bin of x, once spread, that goes into each cell: `[bin][cell]`.
     parts: Vec<f64>,
 }
 
-/// The cells at every node behind a kernel.
+/// Returns the cells at every node behind a kernel.
 fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) -> Vec<Targets> {
     let mut footings: Vec<Vec<(usize, &Footing)>> = vec![vec![]; nodes];
     for (cell, list) in cells.iter().enumerate() {
@@ -93,7 +93,7 @@ fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) 
     footings.par_iter().map(one).collect()
 }
 
-/// Adds what rough mirrors throw out.
+/// Adds the light reflected by rough mirrors.
 pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough, measured: &mut Measured) {
     let incident = footings(setting.incident, grid, &rough.along);
     let other = (setting.incident != setting.emergent).then(|| footings(setting.emergent, grid, &rough.along));
@@ -123,7 +123,7 @@ pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough,
     }
 }
 
-/// Adds what a cell sends by these flows from node to node.
+/// Adds the light that a cell sends by these flows from node to node.
 fn send(cell: &[Footing], flows: &[f64], targets: &[Targets], scale: f64, row: &mut [f64]) {
     // Before it is spread by the kernel, light keeps the few bins of x that the cell has: only these are carried along.
     let first = cell.iter().map(|f| f.first).min().unwrap_or(0);
@@ -167,8 +167,8 @@ mod tests {
     use crate::compute::system::slats::{SlatArray, Surface};
     use std::f64::consts::FRAC_PI_2;
 
-    /// A closed rough sheet throws back what one step on the spheres of its lobe makes: the mean sine of the profile angle
-    /// falls by the mean cosine of the step, that of the direction cosine along the slats by e^(−3σ²/2).
+    /// A closed rough sheet reflects by one step on the spheres of its lobe: the mean sine of the profile angle falls
+    /// by the mean cosine of the step, that of the direction cosine along the slats by e^(−3σ²/2).
     #[test]
     fn a_rough_sheet_scatters_by_steps_on_spheres() {
         let (basis, fine) = (RingBasis::klems_full(AzimuthMap::KLEMS_FRONT), RingBasis::even(4_f64.to_radians()));

@@ -1,8 +1,8 @@
-//! Slats as a specimen: measured over cells, or asked for light of one very direction.
+//! Optical model of slats: over cells, or for light of one exact direction.
 //!
-//! Of one direction, what passes is a closed form, what flat mirrors throw are parallel beams and what curved ones throw
-//! are fans; matt faces send on what lands on them by the same balance as over cells, each direction of the section with
-//! its own luminance. What is solved once for that is kept.
+//! For one direction the direct share is a closed form, flat mirrors reflect parallel beams and curved ones reflect
+//! fans; matt faces scatter the light on them by the same balance as over cells, each direction of the section with its
+//! own luminance. Solutions that serve all directions are cached.
 
 use super::array::{SlatArray, Surface};
 use super::balance::Balance;
@@ -27,48 +27,48 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Slats with what has been solved of them.
+/// Optical model of slats, with cached solutions.
 pub struct SlatSpecimen {
     array: SlatArray,
     direct: Direct,
-    /// For beams, and for what matt faces send on.
+    /// Section for beams where mirrors are curved; `section` is the one for scattered light, and for beams otherwise.
     mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
     solved: Once<Solved>,
     known: Mutex<HashMap<Place, Arc<Vec<Thrown>>>>,
 }
 
-/// Side, number of the profile angle and what the lattice is as close as.
+/// Key of a cached result: side, number of the profile angle, and spacing of the lattice.
 type Place = (Side, i64, u64);
 
-/// A beam of mirrors, by its profile angles.
+/// Mirrored beam or fan, by its profile angles.
 struct Thrown {
     psi: [f64; 2],
     share: f64,
     transmitted: bool,
 }
 
-/// Transport and balance of the section.
+/// Solved section: transport and balance.
 struct Solved {
     transport: Transport,
     balance: Balance,
 }
 
-/// Parts of a curved mirror, each of which throws a fan of its own.
+/// Number of parts of a curved mirror, each of which reflects a separate fan.
 const FANS: usize = 128;
-/// Step of the profile angle where matt light leaves. \[rad\]
+/// Step of the profile angle at which matt light leaves. \[rad\]
 const STEP: f64 = 0.5 * PI / 180.0;
-/// Answers of mirrors that are kept: those of either side at steps of 0.1°.
+/// Maximum number of cached results of mirrors: those of either side at steps of 0.1°.
 const MOST_KNOWN: usize = 3600;
-/// Rays are drawn by this seed: the same light gives the same beams.
+/// Seed of rays: the same light gives the same beams.
 const SEED: u64 = 1;
-/// Beams closer than this are one. \[rad\]
+/// Angle below which beams are one. \[rad\]
 const SAME: f64 = 1e-9;
-/// Directions along the slats that a ray of a rough mirror is spread to.
+/// Number of directions along the slats over which a ray of a rough mirror is spread.
 const ALONG: usize = 24;
 
 impl SlatSpecimen {
-    /// Of an array.
+    /// Creates the optical model of an array.
     pub fn new(array: SlatArray) -> Self {
         let direct = Direct::without_knots(&array);
         Self {
@@ -81,7 +81,7 @@ impl SlatSpecimen {
         }
     }
 
-    /// A fan lies evenly between the rays at its ends: where mirrors are curved, they are cut finely.
+    /// Returns the section for beams: a fan is uniform between the rays at its ends, so curved mirrors are cut finely.
     fn mirrors(&self) -> &SlatSection {
         if matches!(self.array.profile(), SlatProfile::Arc { .. }) {
             self.mirrors.get_or_init(|| SlatSection::new(&self.array, FANS))
@@ -114,19 +114,19 @@ impl SlatSpecimen {
     }
 }
 
-/// How profile angles spread over cells: the same for all slats.
+/// Returns the weights of profile angles over cells, cached for all slats.
 fn weights(cells: &RingBasis) -> Arc<ProfileWeights> {
     static KEPT: Kept<ProfileWeights> = Kept::new();
     KEPT.get(cells, || ProfileWeights::new(cells, ProfileGrid::new(STEP)))
 }
 
-/// Direction cosine along the slats, and profile angle.
+/// Returns the direction cosine along the slats, and the profile angle.
 fn section_angles(name: Dir<Facade>) -> (f64, f64) {
     let v = name.vector();
     (v.x, v.y.atan2(v.z))
 }
 
-/// The name of a profile angle with the direction cosine x.
+/// Returns the through direction of a profile angle with the direction cosine x.
 fn name_of(x: f64, psi: f64) -> Dir<Facade> {
     let across = (1.0 - x * x).max(0.0).sqrt();
     Dir::from_unit(DVec3::new(x, across * psi.sin(), across * psi.cos()))
@@ -141,12 +141,12 @@ impl Specimen for SlatSpecimen {
         self.beams_by(name, |psi| Arc::new(self.thrown(psi, side)))
     }
 
-    /// Mirrors are asked on a lattice of profile angles as close as that.
+    /// Returns beams of mirrors from a lattice of profile angles at most 2 `within` apart.
     fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
         self.beams_by(name, |psi| {
             let place = (psi / (2.0 * within)).round();
             let key = (side, place as i64, within.to_bits());
-            // What is kept is whole even if another thread has failed while it held the lock.
+            // Cached results are complete even if another thread has failed while it held the lock.
             let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
             if let Some(thrown) = known().get(&key) {
                 return Arc::clone(thrown);
@@ -201,7 +201,7 @@ impl Specimen for SlatSpecimen {
 }
 
 impl SlatSpecimen {
-    /// `back`: what is thrown back, too.
+    /// Computes the scattered light; `back`: reflected light as well.
     fn scattered_light(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let (x, psi) = section_angles(name);
         let rough = self.has(|surface| surface.mirror * surface.spread);
@@ -221,7 +221,7 @@ impl SlatSpecimen {
         light
     }
 
-    /// What mirrors throw of parallel light of a profile angle from a side, alike as one.
+    /// Returns the beams that mirrors make of parallel light of a profile angle from a side, equal ones merged.
     fn thrown(&self, psi: f64, side: Side) -> Vec<Thrown> {
         let node = beam(self.mirrors(), psi, side, SEED);
         let thrown = &node.thrown[index(side)];
@@ -259,7 +259,7 @@ impl SlatSpecimen {
         beams
     }
 
-    /// What faces send out of parallel light that has landed on them, per illuminance: M g/π as over cells.
+    /// Returns the light that faces send out per illuminance, for parallel light on them: M g/π as over cells.
     fn sent(&self, node: &Node, psi: f64, side: Side) -> Vec<f64> {
         let landed = &node.landed[index(side)];
         let response = &self.solved().balance.response;
@@ -272,7 +272,7 @@ impl SlatSpecimen {
         sent
     }
 
-    /// Error of the shares that leave so.
+    /// Returns the error of the shares that leave by diffuse reflection.
     fn doubt(&self, node: &Node, psi: f64, side: Side) -> f64 {
         let landed = &node.landed[index(side)];
         let one = |doubt: &[f64]| landed.iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs() / psi.cos();
@@ -280,7 +280,8 @@ impl SlatSpecimen {
         one(inside).max(one(outside))
     }
 
-    /// Luminance at the nodes of the profile angle, from the width of parallel light of each that comes to the faces.
+    /// Returns the luminance at the nodes of the profile angle, from the width of parallel light of each that reaches
+    /// the faces.
     fn luminance(&self, landed: &[Vec<f64>], sent: &[f64]) -> Vec<f64> {
         let at = |(node, row): (usize, &Vec<f64>)| {
             // Along the slats the pitch is seen foreshortened; at ±90° nothing of it is seen.
@@ -292,7 +293,7 @@ impl SlatSpecimen {
         landed.iter().enumerate().map(at).collect()
     }
 
-    /// What matt faces send on, by cells; `back`: what they throw back, too.
+    /// Computes the light that matt faces scatter, by cells; `back`: reflected light as well.
     fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let sent = self.sent(node, psi, side);
         let weights = weights(emergent);
@@ -317,7 +318,7 @@ impl SlatSpecimen {
     }
 }
 
-/// Adds rays that rough mirrors have thrown: their profile angles are drawn already, along the slats a step on the sphere
+/// Adds rays reflected by rough mirrors: their profile angles are drawn already, along the slats a step on the sphere
 /// of four dimensions moves x (see the head of the parent module).
 fn add_rough(q: &mut Vec<f64>, lobes: &[Lobe], [x, psi]: [f64; 2], emergent: &RingBasis) {
     let rough = || lobes.iter().filter(|lobe| lobe.variance > 0.0);
@@ -452,8 +453,8 @@ mod tests {
         let turned: Vec<&Beam> = beams.iter().filter(|beam| beam.transmitted).collect();
         assert_eq!(turned.len(), 1, "{beams:?}");
         assert!(turned[0].names[0].vector().distance(name_of(0.2, -psi).vector()) < 1e-9);
-        // A slat is lit from its outer edge over s/tanψ. What it mirrors rises to the slat above within another s/tanψ, and
-        // leaves where that is beyond its width.
+        // A slat is lit from its outer edge over s/tanψ. What it mirrors rises to the slat above within another s/tanψ,
+        // and leaves where that is beyond its width.
         let reach = 0.072 / psi.tan();
         let leaves = (reach - (WIDTH - reach)).clamp(0.0, reach) / reach;
         assert!((turned[0].share - leaves).abs() < 2e-3, "{} {leaves}", turned[0].share);

@@ -1,59 +1,59 @@
 //! All lines of one direction through the section: which strips they meet, in which order.
 //!
 //! Seen along the direction (cosψ, sinψ), the ends of all strips cut the lines into bundles that meet the same strips.
-//! A bundle of width dt that leaves one face and next meets another adds dt dψ / 2 to their exchange: both ways alike,
-//! so that the exchange is symmetric whatever the division of ψ. Bundles that leave the last slat, or come to the
-//! first, are what parallel light from outside and inside meets.
+//! A bundle of width dt that leaves one face and next meets another adds dt dψ / 2 to their exchange: equal both ways,
+//! so that the exchange is symmetric whatever the division of ψ. Bundles that leave the last slat, or reach the first,
+//! are those of parallel light from outside and inside.
 
 use super::arc::Point;
 use super::outline::SlatSection;
 
-/// A face of the slat `copy` pitches above.
+/// Face of the slat `copy` pitches above.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Met {
-    /// Strip of the section.
+    /// Index of the strip in the section.
     pub(super) strip: usize,
-    /// Slat.
+    /// Number of the slat, in pitches above the one at the origin.
     pub(super) copy: i32,
-    /// Face of the section.
+    /// Index of the face in the section.
     pub(super) face: usize,
 }
 
-/// Lines that leave `from` (or come from the inside) in the direction (cosψ, sinψ) and next meet `to` (or leave to
-/// the outside). Never neither.
+/// Lines that leave `from` (or come from the inside) in the direction (cosψ, sinψ) and next meet `to` (or leave to the
+/// outside). At least one of the two is a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bundle {
     /// Width across the direction, in pitches.
     pub(super) width: f64,
     /// Distance of its middle from the origin, to the left of the direction.
     pub(super) across: f64,
-    /// Where it comes from.
+    /// Face that the bundle leaves; `None` if it comes from the inside.
     pub(super) from: Option<Met>,
-    /// Where it goes.
+    /// Face that the bundle meets next; `None` if it leaves to the outside.
     pub(super) to: Option<Met>,
 }
 
-/// A strip of some slat as seen along the direction.
+/// Strip of some slat as seen along the direction.
 #[derive(Debug, Clone, Copy)]
 struct StripView {
     strip: usize,
     copy: i32,
     low: f64,
     high: f64,
-    /// Depth along the direction at `low`, and its slope.
+    /// Depth along the direction at `low`; `slope` is its change per width.
     depth: f64,
     slope: f64,
-    /// Faces looking against and along the direction.
+    /// Face looking against the direction; `along` is the one looking along it.
     against: Option<usize>,
     along: Option<usize>,
 }
 
-/// Narrower bundles are rounding. In pitches.
+/// Width below which a bundle is rounding. In pitches.
 const NARROW: f64 = 1e-13;
-/// Sheets closer than this along a line lie in one another; the lower slat then is the inner one. In pitches.
+/// Distance along a line below which sheets lie in one another; the lower slat then is the inner one. In pitches.
 const TOUCHING: f64 = 1e-9;
 
-/// Distance of a point to the left of the direction (cos, sin), and along it.
+/// Returns the distance of a point to the left of the direction (cos, sin), and along it.
 pub(super) fn place([u, v]: Point, [cos, sin]: Point) -> (f64, f64) {
     (v * cos - u * sin, u * cos + v * sin)
 }
@@ -134,7 +134,7 @@ pub(super) fn sweep(section: &SlatSection, direction: Point, mut visit: impl FnM
     }
 }
 
-/// Insertion: the order of one bundle is nearly that of the next.
+/// Sorts by insertion, since the order of one bundle is nearly that of the next.
 fn sort_by_depth(active: &mut [(f64, usize)], seen: &[StripView]) {
     let before = |a: &(f64, usize), b: &(f64, usize)| {
         if (a.0 - b.0).abs() > TOUCHING { a.0 < b.0 } else { seen[a.1].copy < seen[b.1].copy }
@@ -148,7 +148,7 @@ fn sort_by_depth(active: &mut [(f64, usize)], seen: &[StripView]) {
     }
 }
 
-/// Pairs of what a line leaves and what it meets next.
+/// Calls `pair` with the face that a line leaves and the face that it meets next.
 fn along_line<'a>(
     solid: bool,
     order: impl Iterator<Item = &'a StripView>,

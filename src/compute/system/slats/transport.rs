@@ -1,4 +1,4 @@
-//! Light between faces, to faces and past them, from sweeps over all profile angles.
+//! Transport of light between faces, to faces and past them, from sweeps over all profile angles.
 
 use super::arc::Point;
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
@@ -12,29 +12,29 @@ use crate::compute::system::measure::Side;
 use rayon::prelude::*;
 use std::rc::Rc;
 
-/// What a chunk of profile angles adds.
+/// Contribution of a chunk of profile angles.
 struct Chunk {
     /// Exchange between strips, without mirrors and by way of them.
     exchange: [Exchange; 2],
-    /// Lengths seen.
+    /// Lengths of the faces as seen over the profile angles.
     length: Vec<f64>,
     nodes: Vec<Node>,
 }
 
-/// What parallel light of one profile angle from either side does.
+/// Transport of parallel light of one profile angle from either side.
 pub(super) struct Node {
-    /// Width that comes to every face, without mirrors.
+    /// Width that reaches every face without mirrors.
     pub(super) landed: [Vec<f64>; 2],
-    /// Width that comes to every face by way of mirrors.
+    /// Width that reaches every face by way of mirrors.
     pub(super) second: [Vec<f64>; 2],
-    /// What mirrors throw out.
+    /// Light that mirrors reflect out of the section.
     pub(super) thrown: [Thrown; 2],
 }
 
-/// Parallel light of one profile angle \[rad\] from a side: what comes to every face and what mirrors throw out. Of light from
-/// the other side nothing is told.
+/// Computes the transport of parallel light of one profile angle \[rad\] from a side: the width on every face and the
+/// light that mirrors reflect out. The entries of the other side stay empty.
 pub(super) fn beam(section: &SlatSection, psi: f64, side: Side, seed: u64) -> Node {
-    // What faces exchange is not followed.
+    // The exchange between faces is not followed.
     let mut none = Chunk { exchange: [Exchange::new(0), Exchange::new(0)], length: vec![], nodes: vec![] };
     let tracer = Tracer { only: Some(side), ..Tracer::new(section, psi, 0.0) };
     let mut node = tracer.node(&mut none, Sequence::new(seed, 0));
@@ -44,24 +44,24 @@ pub(super) fn beam(section: &SlatSection, psi: f64, side: Side, seed: u64) -> No
     node
 }
 
-/// A bundle that comes to a face.
+/// Bundle that reaches a face.
 struct Arrival {
-    /// The face that sent it; `None` for parallel light from a side.
+    /// Face that sent the bundle; `None` for parallel light from a side.
     from: Option<Met>,
     to: Met,
     direction: Point,
     side: Side,
 }
 
-/// Where light is counted.
+/// Sums in which light is counted.
 struct Into<'a> {
-    /// Without mirrors, by way of them.
+    /// Exchange without mirrors, and by way of them.
     exchange: &'a mut [Exchange; 2],
     node: &'a mut Node,
 }
 
 impl Into<'_> {
-    /// A width of a bundle comes to a face by way of mirrors.
+    /// Adds a width of a bundle that reaches a face by way of mirrors.
     fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
         match arrival.from {
             Some(from) => self.exchange[1].add(from.face, face, weight * width),
@@ -69,7 +69,7 @@ impl Into<'_> {
         }
     }
 
-    /// The mirrored part of a width of a bundle, by rays at its ends and between that go the same way.
+    /// Adds the mirrored part of a width of a bundle, by rays at its ends and between that take the same path.
     fn add(&mut self, section: &SlatSection, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
         let [low, middle, high] = traces;
         for (k, landing) in middle.landed.iter().enumerate() {
@@ -106,9 +106,9 @@ impl Into<'_> {
         }
     }
 
-    /// A width of a bundle leaves between two rays.
+    /// Adds a width of a bundle that leaves between two rays.
     fn leave(&mut self, arrival: &Arrival, exits: [&Exit; 2], width: f64) {
-        // Names: against the light from outside, along the light from inside.
+        // Through directions: against the light from outside, along the light from inside.
         let front = arrival.side == Side::Front;
         let sign = if front { -1.0 } else { 1.0 };
         let psi = exits.map(|exit| (sign * exit.direction[1]).clamp(-1.0, 1.0).asin());
@@ -120,11 +120,11 @@ impl Into<'_> {
     }
 }
 
-/// Rays a pitch of parallel light, and of light from a face, where mirrors spread light.
+/// Numbers of rays per pitch of parallel light, and of light from a face, where mirrors spread light.
 const ROUGH: [f64; 2] = [400.0, 64.0];
-/// Smallest part of a bundle that is looked at by itself.
+/// Smallest part of a bundle that is followed separately.
 const FINEST: f64 = 1.0 / 64.0;
-/// Nodes that are summed before the sums are: fixed, so that threads do not change the order.
+/// Number of nodes per chunk whose sums are added in order: fixed, so that threads do not change the order.
 const CHUNK: usize = 12;
 
 struct Tracer<'a> {
@@ -132,12 +132,12 @@ struct Tracer<'a> {
     direction: Point,
     weight: f64,
     rough: bool,
-    /// Parallel light from this side alone is followed.
+    /// Side of the parallel light that alone is followed, if any.
     only: Option<Side>,
 }
 
 impl Transport {
-    /// Of a section on a grid of profile angles.
+    /// Computes the transport of a section on a grid of profile angles.
     pub(super) fn new(
         section: &SlatSection,
         grid: ProfileGrid,
@@ -252,8 +252,8 @@ impl<'a> Tracer<'a> {
         node
     }
 
-    /// The mirrored part of a bundle that has come to a face: cut until the rays at both ends of a part go the same
-    /// way as the one between, which then stands for it.
+    /// Follows the mirrored part of a bundle that has reached a face: it is cut until the rays at both ends of a part
+    /// take the same path as the one between, which then represents it.
     fn mirror(&self, bundle: &Bundle, arrival: &Arrival, into: &mut Into<'_>, sequence: &mut Sequence) {
         let [low, high] = [-0.5, 0.5].map(|side| bundle.across + side * bundle.width);
         let trace = |share: f64, sequence: &mut Sequence| {
@@ -295,7 +295,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Where a line of the direction meets a strip, in the frame of its slat.
+    /// Returns the point at which a line of the direction meets a strip, in the frame of its slat.
     fn on_strip(&self, met: Met, across: f64) -> Point {
         let strip = &self.section.strips[met.strip];
         let [cos, sin] = self.direction;

@@ -1,4 +1,4 @@
-//! Venetian blinds and louvres as described: slats that turn, one state an angle.
+//! Venetian blinds and louvres as described: slats that rotate, one state per angle.
 
 use super::array::{SlatArray, Surface};
 use super::profile::SlatProfile;
@@ -6,7 +6,7 @@ use super::specimen::SlatSpecimen;
 use crate::compute::system::family::{Family, NoSpecimen, Polygons, state_key};
 use crate::compute::system::measure::Specimen;
 
-/// Slats, horizontal, periodic upwards; they turn about the middle of their chord.
+/// Horizontal slats, periodic upwards; they rotate about the middle of their chord.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Venetian {
     /// Section of a slat at tilt 0.
@@ -17,14 +17,14 @@ pub struct Venetian {
     pub thickness: f64,
     /// Tilt of each state, > 0 = outer edge lowered, 90° = closed. \[rad\]
     pub angles: Vec<f64>,
-    /// Upper face.
+    /// Finish of the upper face.
     pub upper: Surface,
-    /// Lower face.
+    /// Finish of the lower face.
     pub lower: Surface,
 }
 
 impl Venetian {
-    /// The slats of a state; `None` for a key that is not among its states.
+    /// Creates the slats of a state; `None` for a key that is not among its states.
     fn slats(&self, state: &str) -> Option<Result<SlatArray, super::SlatError>> {
         let angle = *self.angles.iter().find(|angle| state_key(**angle) == state)?;
         Some(SlatArray::new(self.profile.clone(), self.thickness, self.spacing, angle, [self.upper, self.lower]))

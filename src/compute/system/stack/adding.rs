@@ -1,9 +1,9 @@
-//! Layers one behind the other, with all light that goes to and fro between them: the adding method on matrices (Klems,
-//! ASHRAE Transactions 100, 1994).
+//! Layers one behind the other, with all reflections between them: the adding method on matrices (Klems, ASHRAE
+//! Transactions 100, 1994).
 //!
-//! A matrix forgets where in its cell light was. Layers that pass light straight (a pane before a blind) need the
-//! common angle of their passages, so the layers are measured on cells that are cut finer than those asked for, and
-//! only the sum is averaged. The error of what is still forgotten is told by the change from the next coarser cut.
+//! A matrix does not keep the place of light within its cell. Layers that transmit light undeviated (a pane in front of
+//! a blind) need the common angle of their passages, so the layers are computed on cells that are cut finer than those
+//! asked for, and only the sum is averaged. The remaining error is estimated from the change from the next coarser cut.
 
 use super::halves::{Flux, Halves};
 use super::single::Singles;
@@ -17,14 +17,15 @@ use crate::compute::system::measure::{
 };
 use std::f64::consts::PI;
 
-/// Layers from outside to inside.
+/// Optical model of layers from outside to inside.
 pub struct Stack {
     layers: Vec<Box<dyn Specimen>>,
-    /// What single directions need.
+    /// Cache for single directions.
     singles: Singles,
 }
 
-/// Finest cut of the cells: 9 parts of a Klems cell are 3.3° wide; 1300 cells are solved in a second.
+/// Maximum number of parts along either side of a cell: 9 parts of a Klems cell are 3.3° wide; 1300 cells are solved in
+/// a second.
 const MOST_PARTS: usize = 3;
 
 impl Specimen for Stack {
@@ -127,12 +128,13 @@ impl Specimen for Stack {
 }
 
 impl Stack {
-    /// From at least one layer, the outermost first.
+    /// Creates a stack of at least one layer, outermost first.
     pub fn new(layers: Vec<Box<dyn Specimen>>) -> Self {
         Self { layers, singles: Singles::default() }
     }
 
-    /// All layers, the outermost first, on the same cells, incident and emergent: each measured when it is asked for.
+    /// Returns all layers, outermost first, on the same cells, incident and emergent: each computed when it is asked
+    /// for.
     fn on_cells<'a>(
         &'a self,
         cells: &'a RingBasis,
@@ -153,14 +155,14 @@ impl Stack {
     }
 }
 
-/// Azimuth of the image of a direction.
+/// Function that gives the azimuth of the mirror image of a direction.
 type Mirror = fn(f64) -> f64;
 
-/// Left and right alike, as nearly all systems are, or up and down.
+/// Mirror symmetries of systems: left and right, as nearly all have it, then up and down.
 const MIRRORS: [Mirror; 2] = [|phi| PI - phi, |phi| -phi];
 
-/// What layers are together, as means over the cells of the setting; `None` where one of them does not look the same in
-/// the mirror. On fine cells whole matrices are what memory is needed for: each is let go as soon as it has been used.
+/// Computes the sum of layers as means over the cells of the setting; `None` if one of them is not symmetric in the
+/// mirror. On fine cells whole matrices need most of the memory: each is freed as soon as it has been used.
 fn sum(
     cells: &RingBasis,
     mirror: Option<Mirror>,
@@ -185,13 +187,13 @@ fn sum(
     Ok(sum.map(|sum| sum.measured(cells, &turn, &halves, setting)))
 }
 
-/// The cell that each cell becomes when turned by 180° about the normal; `None` where that is no cell.
+/// Returns the cell that each cell becomes by a rotation of 180° about the normal; `None` where there is no such cell.
 fn turned(basis: &RingBasis) -> Option<Vec<usize>> {
     mirror_images(basis, |phi| phi + PI)
 }
 
-/// A layer as flux matrices (share of the light of column i that leaves through cell o, row), light from either side
-/// named by its travelling direction as light from outside is, so that products of matrices chain.
+/// Layer as flux matrices (share of the light of column i that leaves through cell o, row), light from either side by
+/// its travelling direction as for light from outside, so that products of matrices chain.
 struct Layered {
     t: [Flux; 2],
     r: [Flux; 2],
@@ -215,7 +217,7 @@ impl Layered {
         }
     }
 
-    /// This layer outside, another one inside.
+    /// Returns the sum of this layer outside and another one inside.
     fn before(self, inner: Self) -> Self {
         let [t1, t1_back] = self.t;
         let [t2, t2_back] = inner.t;
@@ -225,8 +227,8 @@ impl Layered {
             let gap = outward.weighted(outer).into_iter().zip(inward.weighted(within));
             own.iter().zip(gap).map(|(own, (a, b))| own + a + b).collect()
         };
-        // Inward and outward light in the gap for light from outside, then for light from inside, of which what goes
-        // outward is what came through and what the inner layer throws back.
+        // Inward and outward light in the gap for light from outside, then for light from inside, whose outward part is
+        // what came through plus what the inner layer reflects.
         let series = r1_back.times(&r2).series();
         let inward = series.of(&t1);
         drop(t1);
@@ -250,7 +252,7 @@ impl Layered {
         }
     }
 
-    /// As means over the cells of the setting.
+    /// Returns the layer as means over the cells of the setting.
     fn measured(&self, cells: &RingBasis, turn: &[usize], halves: &Halves, setting: &Setting<'_>) -> Measured {
         let n = turn.len();
         let weight = cells.projected_solid_angles();

@@ -1,4 +1,4 @@
-//! Data of a file as a layer.
+//! Layer given by the data of a file.
 
 use crate::compute::basis::{Resampling, RingBasis, sub_directions};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, Component, matrix_on};
@@ -6,15 +6,15 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen};
 
-/// Data of a file as a layer: means over the cells asked for; for single directions what the data say there, without
-/// anything between their incident cells.
+/// Optical model of the data of a file: means over the cells asked for; for single directions the values of the data
+/// there, without interpolation between their incident cells.
 pub struct DataLayer(pub Band);
 
-/// Directions along either side of an emergent cell that transmission read backwards is averaged over.
+/// Number of directions along either side of an emergent cell over which reversed transmission is averaged.
 const BACKWARDS: usize = 3;
 
-/// The functions for light from a side: transmission, its reverse, reflection. Bands name directions as
-/// [`crate::compute::system::measure`] does.
+/// Returns the functions for light from a side: transmission, its reverse, reflection. Bands use the through directions
+/// of [`crate::compute::system::measure`].
 const fn components(side: Side) -> [Component; 3] {
     match side {
         Side::Front => [Component::TransmissionFront, Component::TransmissionBack, Component::ReflectionFront],
@@ -23,8 +23,8 @@ const fn components(side: Side) -> [Component; 3] {
 }
 
 impl Specimen for DataLayer {
-    /// Functions that are missing count as: transmission from the other side by reciprocity, reflection none, all that
-    /// does not pass being absorbed.
+    /// Computes the means over cells. A missing transmission is derived from the other side by reciprocity; a missing
+    /// reflection counts as 0, and all light that does not pass as absorbed.
     fn measure(&self, setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let on = |component| {
@@ -53,19 +53,20 @@ impl Specimen for DataLayer {
         Ok(measured)
     }
 
-    /// Its cells say no more when they are asked more often.
+    /// Returns `false`: more directions give no more detail than the cells of the data.
     fn is_quick(&self) -> bool {
         false
     }
 
-    /// What keeps its name; all else is in the scattered part, what was measured as a narrow peak included.
+    /// Returns regular transmission and reflection; all other light is in the scattered part, including narrow measured
+    /// peaks.
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let [through, opposite, back] = components(side);
         let share = |btdf: Option<&Btdf>| {
             let regular: Option<&AngularTransmittance> = btdf.and_then(|btdf| btdf.regular.as_ref());
             regular.map_or(0.0, |tau| tau.at(name.theta()))
         };
-        // What goes straight on has the same share from both sides.
+        // The undeviated share is the same from both sides.
         let tau = share(self.0.get(through).or_else(|| self.0.get(opposite)));
         let beams = [Beam::through(name, tau), Beam::back(name, share(self.0.get(back)))];
         beams.into_iter().filter(|beam| beam.share > 0.0).collect()

@@ -1,5 +1,5 @@
-//! Scattered light to and fro between layers, on the cells of [`front_basis`]: what the matrices of the layers make of
-//! the light that arises in the gaps.
+//! Scattered light between layers, on the cells of [`front_basis`]: the effect of the layers' matrices on light that
+//! arises in the gaps.
 
 use super::passage::Place;
 use crate::compute::basis::RingBasis;
@@ -11,54 +11,55 @@ use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Error at which the layers are measured.
+/// Allowed error of the layers.
 const ERROR: f64 = 0.01;
 
-/// The layers as matrices, light from either side by its own names.
+/// Matrices of the layers, light from either side by its own through directions.
 pub(super) struct Flows {
-    /// Incident and emergent cells, by names as light from either side has them.
+    /// Incident and emergent cells, by through directions of light from either side.
     pub cells: RingBasis,
-    /// Their projected solid angles. \[sr\]
+    /// Projected solid angles of the cells. \[sr\]
     pub weight: Vec<f64>,
-    /// The cell that each becomes when turned by 180° about the normal.
+    /// Cell that each cell becomes by a rotation of 180° about the normal.
     turn: Vec<usize>,
     layers: Vec<[OneWay; 2]>,
-    /// Share of the light of a cell in a gap between layers that leaves through another in the end, inwards and outwards,
-    /// `[from · n + to]`, by gap and sense as [`between`] numbers them; names as light from the front has them.
+    /// Share of the light of a cell in a gap between layers that leaves through another in the end, inwards and
+    /// outwards, `[from · n + to]`, by gap and sense as [`between`] numbers them; by through directions of light from
+    /// the front.
     ends: Vec<[Vec<f64>; 2]>,
     /// Largest estimated error of a layer.
     pub error: f64,
 }
 
-/// What a layer does with light from one side.
+/// Transmission and reflection of a layer for light from one side.
 struct OneWay {
-    /// Share of the flux of a cell that goes to another, `[from · n + to]`.
+    /// Share of the flux of a cell that is transmitted to another, `[from · n + to]`.
     through: Vec<f64>,
     back: Vec<f64>,
-    /// Share of the light of a cell that goes straight on.
+    /// Share of the light of a cell that is transmitted undeviated.
     straight: Vec<f64>,
 }
 
-/// Light that arises in the gaps of a stack, flux by cell, and that leaves it.
+/// Flux by cell that arises in the gaps of a stack.
 pub(super) struct Sources {
-    /// By gap: inwards, outwards.
+    /// Flux inwards and outwards, by gap and cell.
     pub gaps: Vec<[Vec<f64>; 2]>,
 }
 
 impl Sources {
-    /// Nothing yet between so many layers.
+    /// Creates sources without light for `layers` layers.
     pub fn dark(layers: usize, cells: usize) -> Self {
         Self { gaps: vec![[vec![0.0; cells], vec![0.0; cells]]; layers + 1] }
     }
 
-    /// The light that arises in a place, by cell.
+    /// Returns the light that arises in a place, by cell.
     pub fn at(&mut self, (gap, inwards): Place) -> &mut Vec<f64> {
         &mut self.gaps[gap][usize::from(!inwards)]
     }
 }
 
 impl Flows {
-    /// Measures every layer once.
+    /// Computes the matrices of every layer once.
     pub fn new(layers: &[Box<dyn Specimen>]) -> Self {
         let cells = front_basis();
         let weight = cells.projected_solid_angles();
@@ -88,7 +89,8 @@ impl Flows {
         Self { cells, weight, turn, layers, ends, error }
     }
 
-    /// What goes straight on through all layers that are left from a gap on, by cell; names as light from `asked`.
+    /// Returns the share, by cell, that passes undeviated through all layers that are left from a gap on; by through
+    /// directions of light from `asked`.
     pub fn straight_out(&self, (gap, inwards): Place, asked: Side) -> Vec<f64> {
         let passed = if inwards { gap..self.layers.len() } else { 0..gap };
         let side = if inwards { Side::Front } else { Side::Back };
@@ -97,10 +99,11 @@ impl Flows {
         (0..self.turn.len()).map(share).collect()
     }
 
-    /// The light of the sources that leaves inwards and outwards in the end; names as light from `asked`.
+    /// Returns the light of the sources that leaves inwards and outwards in the end; by through directions of light
+    /// from `asked`.
     pub fn leaving(&self, sources: &Sources, asked: Side) -> [Vec<f64>; 2] {
         let n = self.layers.len();
-        // Names as light from the front has them, in and out.
+        // Through directions of light from the front, in and out.
         let named = |light: &[f64]| match asked {
             Side::Front => light.to_vec(),
             Side::Back => self.turn.iter().map(|&c| light[c]).collect(),
@@ -126,13 +129,13 @@ impl Flows {
     }
 }
 
-/// Number of a place between layers: not outside all of them.
+/// Returns the number of a place between layers; places outside all layers have none.
 fn between((gap, inwards): Place) -> usize {
     2 * (gap - 1) + usize::from(!inwards)
 }
 
-/// What of the light between layers leaves in the end: light is what arises and what layers make of all light, a system of
-/// linear equations.
+/// Returns the share of the light between layers that leaves in the end: all light is the light that arises plus what
+/// the layers make of all light, a system of linear equations.
 fn ends(layers: &[[OneWay; 2]], turn: &[usize]) -> Vec<[Vec<f64>; 2]> {
     let (n, cells) = (layers.len(), turn.len());
     let places = 2 * (n - 1);
@@ -163,8 +166,8 @@ fn ends(layers: &[[OneWay; 2]], turn: &[usize]) -> Vec<[Vec<f64>; 2]> {
     (0..places).map(|place| [0, 1].map(|sense| block(place, sense))).collect()
 }
 
-/// Adds what a matrix makes of light. With a turn, what comes and what it becomes change their names, row by row the matrix
-/// stays as it lies.
+/// Adds the product of a matrix and light. With `turn`, incident and resulting light change their through directions,
+/// while the matrix stays as it is.
 fn add(to: &mut [f64], matrix: &[f64], light: &[f64], turn: Option<&[usize]>) {
     if let Some(turn) = turn {
         let mut turned = vec![0.0; turn.len()];

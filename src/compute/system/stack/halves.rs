@@ -1,4 +1,4 @@
-//! Flux matrices of systems that are the same from left and right, as two matrices of half the size.
+//! Flux matrices of systems that are symmetric left to right, as two matrices of half the size.
 //!
 //! Light is divided into an even part (the same in mirrored cells) and an odd one (opposite in them). A system that is
 //! its own mirror image keeps both apart, so that products and inverses of matrices cost a quarter.
@@ -8,20 +8,20 @@ use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Flux that may lie differently in mirrored cells, as a share of the light of an incident cell.
+/// Maximum difference of flux between mirrored cells, as a share of the light of an incident cell.
 const UNLIKE: f64 = 1e-6;
 
-/// Cells by pairs of mirror images.
+/// Cells in pairs of mirror images.
 pub(super) struct Halves {
-    /// Cells and their images, then those that are their own images.
+    /// Cells with their images, then those that are their own images.
     members: Vec<[usize; 2]>,
     pairs: usize,
-    /// Number of each cell's pair, and its sign in the odd part.
+    /// Index of each cell's pair, and its sign in the odd part.
     of: Vec<(usize, f64)>,
 }
 
 impl Halves {
-    /// From the image of each cell; cells that are all their own images make a single part.
+    /// Creates the pairs from the image of each cell; cells that are all their own images make a single part.
     pub fn new(image: &[usize]) -> Self {
         let pairs: Vec<[usize; 2]> = (0..image.len()).filter(|&k| k < image[k]).map(|k| [k, image[k]]).collect();
         let alone = (0..image.len()).filter(|&k| k == image[k]).map(|k| [k, k]);
@@ -36,12 +36,12 @@ impl Halves {
         Self { members, pairs: count, of }
     }
 
-    /// Nothing is taken for granted.
+    /// Creates a division without symmetry.
     pub fn none(n: usize) -> Self {
         Self::new(&(0..n).collect::<Vec<_>>())
     }
 
-    /// Does a measured layer look the same in this mirror?
+    /// Whether the data of a layer are symmetric in the mirror.
     pub fn fits(image: &[usize], measured: &Measured) -> bool {
         let n = image.len();
         let weight = measured.emergent.projected_solid_angles();
@@ -54,7 +54,7 @@ impl Halves {
         })
     }
 
-    /// Both parts of a matrix given by its entries (row, column).
+    /// Returns both parts of a matrix given by its entries (row, column).
     pub fn matrix(&self, at: impl Fn(usize, usize) -> f64) -> Flux {
         let sums = |row: usize, column: usize, sign: f64| {
             let ([a, b], [c, d]) = (self.members[row], self.members[column]);
@@ -64,12 +64,12 @@ impl Halves {
         Flux { even: Mat::from_fn(n, n, |r, c| sums(r, c, 1.0)), odd: Mat::from_fn(m, m, |r, c| sums(r, c, -1.0)) }
     }
 
-    /// A cell that is its own image is counted twice in sums over pairs.
+    /// Returns the weight of a pair; a cell that is its own image is counted twice in sums over pairs.
     fn factor(&self, member: usize) -> f64 {
         if member < self.pairs { 1.0 } else { FRAC_1_SQRT_2 }
     }
 
-    /// An entry of the whole matrix.
+    /// Returns an entry of the whole matrix.
     pub fn entry(&self, flux: &Flux, row: usize, column: usize) -> f64 {
         let ((r, sign_r), (c, sign_c)) = (self.of[row], self.of[column]);
         let even = |member: usize| if member < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
@@ -77,57 +77,57 @@ impl Halves {
         flux.even[(r, c)] * even(r) * even(c) + odd
     }
 
-    /// The even part of a list over all cells, of which the images have the same value.
+    /// Returns the even part of a list over all cells whose images have the same value.
     pub fn list(&self, at: impl Fn(usize) -> f64) -> Vec<f64> {
         let one = |(e, &[a, b]): (usize, &[usize; 2])| (at(a) + at(b)) * FRAC_1_SQRT_2 * self.factor(e);
         self.members.iter().enumerate().map(one).collect()
     }
 
-    /// The list over all cells of an even part.
+    /// Returns the list over all cells of an even part.
     pub fn unfolded(&self, even: &[f64]) -> Vec<f64> {
         let value = |&(e, _): &(usize, f64)| even[e] * if e < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
         self.of.iter().map(value).collect()
     }
 }
 
-/// A flux matrix in two parts.
+/// Flux matrix in two parts, even and odd.
 pub(super) struct Flux {
     even: Mat<f64>,
     odd: Mat<f64>,
 }
 
 impl Flux {
-    /// Light that has gone through `other` first.
+    /// Returns the product: light that has gone through `other` first.
     pub fn times(&self, other: &Self) -> Self {
         Self { even: &self.even * &other.even, odd: &self.odd * &other.odd }
     }
 
-    /// Light of both ways.
+    /// Returns the sum of both matrices.
     pub fn plus(&self, other: &Self) -> Self {
         Self { even: &self.even + &other.even, odd: &self.odd + &other.odd }
     }
 
-    /// (1 − self)⁻¹, ready to be applied.
+    /// Returns (1 − self)⁻¹, ready to be applied.
     pub fn series(&self) -> Series {
         let one = |part: &Mat<f64>| (Mat::<f64>::identity(part.nrows(), part.nrows()) - part).partial_piv_lu();
         Series { even: one(&self.even), odd: one(&self.odd) }
     }
 
-    /// Rows weighted by an even list and summed, for every column.
+    /// Returns the sum of the rows weighted by an even list, for every column.
     pub fn weighted(&self, weights: &[f64]) -> Vec<f64> {
         let n = weights.len();
         (0..n).map(|i| (0..n).map(|k| self.even[(k, i)] * weights[k]).sum()).collect()
     }
 }
 
-/// Light that goes to and fro without end, summed.
+/// Sum of all reflections between two layers, (1 − R)⁻¹.
 pub(super) struct Series {
     even: PartialPivLu<f64>,
     odd: PartialPivLu<f64>,
 }
 
 impl Series {
-    /// All light that `light` becomes by going to and fro, itself included.
+    /// Returns all light that `light` becomes by reflections between the layers, itself included.
     pub fn of(&self, light: &Flux) -> Flux {
         Flux { even: self.even.solve(&light.even), odd: self.odd.solve(&light.odd) }
     }

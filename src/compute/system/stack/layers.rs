@@ -1,26 +1,26 @@
-//! Stacks as described: layers by name, from outside to inside. Only a library can find them.
+//! Stacks as described: layers by name, from outside to inside. Only a library can find the layers.
 
 use crate::compute::system::family::{Family, NoSpecimen, Polygons};
 use crate::compute::system::measure::Specimen;
 
-/// One layer of a stack.
+/// Layer of a stack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// What it is, as the description names it: a system file, a dataset file, a product of the catalogue, or the
+    /// Source of the layer in the description: a system file, a dataset file, a product of the catalogue, or the
     /// description itself.
     pub source: LayerSource,
-    /// Key of its state; empty for the only one.
+    /// Key of the layer's state; empty for the only one.
     pub state: String,
 }
 
-/// Where a layer comes from.
+/// Source of a layer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LayerSource {
-    /// A file, its path relative to the description's.
+    /// File, its path relative to the description's.
     File(String),
-    /// A product of the catalogue.
+    /// Product of the catalogue.
     Catalogue(String),
-    /// The layer's own description: text of a system file. Text, since layers are what descriptions are made of.
+    /// Description of the layer: text of a system file. Text, because descriptions contain layers.
     Text(String),
 }
 

@@ -1,4 +1,4 @@
-//! Layers one behind the other.
+//! Stacks of layers one behind the other.
 
 mod adding;
 mod data;

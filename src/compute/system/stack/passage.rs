@@ -1,7 +1,7 @@
-//! Beams to and fro between the layers of a stack, followed one by one.
+//! Beams reflected and transmitted between the layers of a stack, followed one by one.
 //!
-//! All names are those of light from the side that is asked about. A layer that is met from the other side knows the same
-//! light by the name turned by 180°.
+//! All through directions are those of light from the side that is asked about. A layer that is met from the other side
+//! has the same light at the through direction rotated by 180°.
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::{middle, pieces};
@@ -10,53 +10,54 @@ use crate::compute::system::measure::{Beam, Side, Specimen};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Light still on its way at which following ends, in all: for a very direction, and where neighbours may share an answer.
+/// Share of light still between the layers below which following ends: for an exact direction, and where neighbouring
+/// directions share a result.
 const ENOUGH: [f64; 2] = [1e-7, 1e-5];
-/// So much of it may be left out of every round, the faintest beams.
+/// Share of [`ENOUGH`] that may be dropped per bounce, faintest beams first.
 const FAINT: f64 = 0.1;
-/// Width of the parts in which a fan meets a layer. \[rad\]
+/// Width of the parts into which a fan is divided at a layer. \[rad\]
 const PIECE: f64 = 0.25 * std::f64::consts::PI / 180.0;
-/// Layers asked, each for another direction: up to the first number every beam is followed, up to the second those of at
-/// least [`WEAK`]. Panes and cut panels need a handful; prisms make ever more directions of ever less light.
+/// Numbers of pairs of layer and direction: up to the first number every beam is followed, up to the second those of at
+/// least [`WEAK`]. Panes and cut panels need a handful; prisms produce ever more directions of ever less light.
 const ASKED: [usize; 2] = [200, 600];
-/// See [`ASKED`].
+/// Share from which a beam is followed beyond the first number of [`ASKED`].
 const WEAK: f64 = 1e-5;
 
-/// Light in a gap: number of the gap (0 is outside) and whether it travels inwards.
+/// Place of light: number of the gap (0 is outside) and whether it travels inwards.
 pub(super) type Place = (usize, bool);
 
-/// Light of one direction at a layer.
+/// Light of one direction that arrives at a layer.
 pub(super) struct Arrival {
     pub layer: usize,
-    /// The side it comes from.
+    /// Side that the light comes from.
     pub side: Side,
-    /// As the layer names it.
+    /// Through direction for the layer.
     pub name: Dir<Facade>,
-    /// Of the light on the stack, all passages together.
+    /// Share of the light on the stack, all bounces together.
     pub share: f64,
-    /// What the layer makes of it.
+    /// Beams that the layer makes of it.
     beams: Vec<Beam>,
 }
 
-/// What becomes of parallel light between layers.
+/// Parallel light after all bounces between layers.
 #[derive(Default)]
 pub(super) struct Passage {
     /// Beams that leave the stack.
     pub leaving: Vec<Beam>,
-    /// What reached the layers.
+    /// Light that arrived at the layers.
     pub arrivals: Vec<Arrival>,
-    /// Beams that were not followed any more, with their places.
+    /// Beams that were not followed any further, with their places.
     pub left: Vec<(Place, Beam)>,
 }
 
-/// The same light for the other side's names: turned by 180° about the normal.
+/// Returns the through direction for light from the other side: rotated by 180° about the normal.
 pub(super) fn half_turn(name: Dir<Facade>) -> Dir<Facade> {
     let v = name.vector();
     Dir::from_unit(DVec3::new(-v.x, -v.y, v.z))
 }
 
-/// Follows light of a name from a side through the layers, outside first; layers may answer for a name no farther than
-/// `within` \[rad\] from the one asked for.
+/// Follows light of a through direction from a side through the layers, outside first; layers may use a direction at
+/// most `within` \[rad\] from the one asked for.
 pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
     let n = layers.len();
     let enough = ENOUGH[usize::from(within > 0.0)];

@@ -1,7 +1,7 @@
-//! A stack for single directions: its beams, and what its layers scatter of them.
+//! Single directions of a stack: its beams, and the light that its layers scatter from them.
 //!
-//! What a layer scatters is known on the cells asked for. Where it goes straight on through the layers that are left, it
-//! stays on those; the rest, what goes to and fro and what is scattered again, is followed on coarser cells by matrices.
+//! The light that a layer scatters is known on the cells asked for. Where it passes the remaining layers undeviated, it
+//! stays on those; the rest, reflected between layers and scattered again, is followed on coarser cells by matrices.
 
 use super::flows::{Flows, Sources};
 use super::passage::{Arrival, Passage, Place, follow};
@@ -13,24 +13,24 @@ use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen, fron
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Light that reaches the layers from directions of which each brings little, and beams too many to be followed: so much
-/// of each, in all, is taken for absorbed.
+/// Maximum share of light that is neglected in all, each for arrivals of little light at the layers and for beams too
+/// many to be followed; it counts as absorbed.
 const NEGLECTED: f64 = 1e-4;
 
-/// What is found once for all directions.
+/// Cache of results for all directions.
 #[derive(Default)]
 pub(super) struct Singles {
     flows: Once<Flows>,
 }
 
-/// Emergent cells beside those of the matrices.
+/// Conversion between emergent cells and those of the matrices.
 struct Emergent {
     to_coarse: Resampling,
     from_coarse: Resampling,
 }
 
 impl Emergent {
-    /// The same for all stacks.
+    /// Returns the conversion for a basis, cached for all stacks.
     fn of(cells: &RingBasis) -> Arc<Self> {
         static KEPT: Kept<Emergent> = Kept::new();
         KEPT.get(cells, || {
@@ -41,12 +41,12 @@ impl Emergent {
 }
 
 impl Singles {
-    /// Beams that leave the layers, of which each may answer for a name that far away.
+    /// Returns the beams that leave the layers, each of which may use a direction at most `within` \[rad\] away.
     pub fn beams(&self, layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
         follow(layers, name, side, within).leaving
     }
 
-    /// What is scattered.
+    /// Computes the scattered light on emergent cells.
     pub fn scattered(
         &self,
         layers: &[Box<dyn Specimen>],
@@ -57,10 +57,11 @@ impl Singles {
         let Passage { mut arrivals, left, .. } = follow(layers, name, side, 0.0);
         let faint = drop_faint(&mut arrivals);
         let mut error = 0.0;
-        // q on the cells asked for, and its names as light from `side`.
+        // q on the cells asked for, by through directions of light from `side`.
         let mut arising: Vec<(Place, Vec<f64>)> = Vec::new();
         let azimuth = cells.azimuth();
-        // A layer that is met from the other side has the names turned by 180°: so do its cells, in the same order.
+        // A layer that is met from the other side has the through directions rotated by 180°: so do its cells, in the
+        // same order.
         let turned = cells.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + PI, ..azimuth });
         for arrival in &arrivals {
             let own = if arrival.side == side { cells } else { &turned };
@@ -87,7 +88,7 @@ impl Singles {
         let flows = self.flows.get(|| Flows::new(layers));
         let emergent = Emergent::of(cells);
         let mut sources = Sources::dark(layers.len(), flows.cells.len());
-        // What goes straight out, on the cells asked for; and the same on the coarse ones, to be taken from the whole.
+        // Undeviated light on the cells asked for; and the same on the coarse ones, to be subtracted from the whole.
         let mut straight = [true, false].map(|_| vec![0.0; cells.len()]);
         let mut known = [true, false].map(|_| vec![0.0; flows.cells.len()]);
         for (place, q) in &arising {
@@ -128,7 +129,7 @@ impl Singles {
     }
 }
 
-/// Leaves out the arrivals that bring least, and says how much light they are.
+/// Removes the faintest arrivals and returns their share of light.
 fn drop_faint(arrivals: &mut Vec<Arrival>) -> f64 {
     arrivals.sort_by(|a, b| b.share.total_cmp(&a.share));
     let mut dropped = 0.0;
