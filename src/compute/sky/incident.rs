@@ -71,17 +71,17 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
             // Wide cells in quarters, as without surroundings.
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
             let step = cell.width / pieces;
-            let absolute = PAST * whole * cell.projected_solid_angle() / PI;
+            let share = whole * cell.projected_solid_angle() / PI;
             let (mut sum, mut error, mut met) = (Parts::default(), 0.0, false);
             let mut untouched = 0.0;
             let piece = |piece: usize| {
                 let from = cell.phi - 0.5 * cell.width + piece as f64 * step;
                 let region =
                     Region { frame: *frame, theta: (cell.theta_min, cell.theta_max), phi: (from, from + step) };
-                on_dome::over(&prospect, &region, Weight::Projected, PAST, absolute / pieces)
+                on_dome::over(&prospect, &region, Weight::Projected, PAST, PAST * share / pieces)
             };
             let found = if basis.len() == 1 {
-                on_dome::over_hemisphere(&prospect, frame, PAST, absolute)
+                on_dome::over_hemisphere(&prospect, frame, PAST_ALL, PAST_ALL * share)
             } else {
                 (0..pieces as usize).map(piece).collect()
             };
@@ -115,3 +115,6 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
 
 /// Relative accuracy of the change by the surroundings.
 const PAST: f64 = 5e-4;
+/// Relative accuracy of the change that obstructions make to the light of the whole hemisphere, which is one sweep: its
+/// error then is small beside what a part of an aperture adds.
+const PAST_ALL: f64 = 1e-4;
