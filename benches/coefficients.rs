@@ -65,7 +65,7 @@ fn scene(system: &str) -> Scene {
     if system == "indicatrices" {
         let dataset = Arc::new(clear_lobe());
         scene.apertures[0].system =
-            Arc::new(System { label: "clear lobe".into(), state: String::new(), dataset, very: None });
+            Arc::new(System { label: "clear lobe".into(), state: String::new(), dataset, model: None });
     }
     scene
 }

@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// Maximum waiting time for results.
-const PATIENCE: Duration = Duration::from_secs(600);
+const TIMEOUT: Duration = Duration::from_secs(600);
 /// Step of the clock from one frame to the next. \[min\]
 const STEP: i32 = 1;
 
@@ -82,7 +82,7 @@ impl Window {
             if there && !self.app.busy() {
                 return Ok(());
             }
-            anyhow::ensure!(start.elapsed() < PATIENCE, "no results within {PATIENCE:?}");
+            anyhow::ensure!(start.elapsed() < TIMEOUT, "no results within {TIMEOUT:?}");
             std::thread::sleep(Duration::from_millis(5));
         }
     }
@@ -127,7 +127,7 @@ fn search(window: &mut Window) -> anyhow::Result<Vec<Duration>> {
         let start = Instant::now();
         window.frame(vec![Event::Text(letter.to_string())]);
         while Arc::ptr_eq(&before, &window.app.state.found) {
-            anyhow::ensure!(start.elapsed() < PATIENCE, "no answer to a letter within {PATIENCE:?}");
+            anyhow::ensure!(start.elapsed() < TIMEOUT, "no answer to a letter within {TIMEOUT:?}");
             std::thread::sleep(Duration::from_millis(1));
             window.frame(vec![]);
         }
@@ -139,8 +139,8 @@ fn search(window: &mut Window) -> anyhow::Result<Vec<Duration>> {
 fn milliseconds(mut list: Vec<Duration>) -> String {
     list.sort_unstable();
     let at = |share: f64| list.get(((list.len() as f64 * share) as usize).min(list.len().saturating_sub(1)));
-    let told = |share| at(share).map_or(0.0, |time| 1e3 * time.as_secs_f64());
-    format!("median {:6.2}   nine tenths {:6.2}   longest {:6.2}", told(0.5), told(0.9), told(1.0))
+    let quantile = |share| at(share).map_or(0.0, |time| 1e3 * time.as_secs_f64());
+    format!("median {:6.2}   nine tenths {:6.2}   longest {:6.2}", quantile(0.5), quantile(0.9), quantile(1.0))
 }
 
 fn main() -> anyhow::Result<()> {

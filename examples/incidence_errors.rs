@@ -67,8 +67,8 @@ impl Sensor {
     /// remaining uncertainty of the sun.
     fn stated(&self, c: &Constants, sun: bool) -> f64 {
         let rest = if sun { (c.sun_rest + c.beyond * self.beyond) * self.given } else { 0.0 };
-        let doubts = [c.linear * self.linear, c.place / PLACE * self.place, rest];
-        c.rest * self.given + doubts.iter().map(|doubt| doubt * doubt).sum::<f64>().sqrt()
+        let uncertainties = [c.linear * self.linear, c.place / PLACE * self.place, rest];
+        c.rest * self.given + uncertainties.iter().map(|uncertainty| uncertainty * uncertainty).sum::<f64>().sqrt()
     }
 }
 
@@ -102,7 +102,7 @@ fn under_sun(
     let sensor = |view: &Vec<usize>| Sensor {
         given: seen(fine, view, &light.luminance),
         truth: seen(fine, view, &truth),
-        linear: seen(fine, view, &light.doubt),
+        linear: seen(fine, view, &light.uncertainty),
         place: light.shifts[..2].iter().map(|shift| seen(fine, view, shift).powi(2)).sum::<f64>().sqrt(),
         beyond,
     };
@@ -130,7 +130,7 @@ fn under_sky(judge: &Judge, name: &str, model: &Model, sky: fn(DVec3) -> f64) ->
     let sensor = |view: &Vec<usize>| Sensor {
         given: seen(grid, view, &light.luminance),
         truth: seen(grid, view, &truth),
-        linear: seen(grid, view, &light.doubt),
+        linear: seen(grid, view, &light.uncertainty),
         place: 0.0,
         beyond: 0.0,
     };

@@ -256,13 +256,13 @@ fn change(before: &Dataset, after: &Dataset) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
     /// Automatic repair that is correct.
-    Mended,
+    Repaired,
     /// Correct repair among those offered.
     Asked,
     /// Correct repair, offered by the finding that every file with a preferred direction gets.
     General,
     /// New finding, without the correct repair.
-    Told,
+    Reported,
     /// No new finding.
     Missed,
     /// Automatic repair that is wrong.
@@ -270,7 +270,7 @@ enum Outcome {
 }
 
 impl Outcome {
-    const ALL: [Self; 6] = [Self::Mended, Self::Asked, Self::General, Self::Told, Self::Missed, Self::Worse];
+    const ALL: [Self; 6] = [Self::Repaired, Self::Asked, Self::General, Self::Reported, Self::Missed, Self::Worse];
 }
 
 /// Returns the repairs that a finding offers: its own, and the alternatives that its message names.
@@ -280,7 +280,8 @@ fn offered(one: &Diagnosis) -> Vec<Repair> {
 }
 
 fn outcome(good: &Dataset, planted: &Dataset, before: &[Diagnosis], found: &[Diagnosis]) -> Outcome {
-    let right = |repairs: &[Repair]| repaired_all(planted, repairs).is_ok_and(|mended| change(good, &mended) < NOTHING);
+    let right =
+        |repairs: &[Repair]| repaired_all(planted, repairs).is_ok_and(|repaired| change(good, &repaired) < NOTHING);
     let mut sure: Vec<Repair> = Vec::new();
     for repair in found.iter().filter(|one| one.sure).filter_map(|one| one.repair) {
         if !sure.contains(&repair) {
@@ -288,7 +289,7 @@ fn outcome(good: &Dataset, planted: &Dataset, before: &[Diagnosis], found: &[Dia
         }
     }
     if !sure.is_empty() {
-        return if right(&sure) { Outcome::Mended } else { Outcome::Worse };
+        return if right(&sure) { Outcome::Repaired } else { Outcome::Worse };
     }
     for one in found {
         // A finding about several blocks offers one repair for each.
@@ -303,7 +304,7 @@ fn outcome(good: &Dataset, planted: &Dataset, before: &[Diagnosis], found: &[Dia
         list.iter().filter(|one| one.finding.code == code && one.finding.severity > Severity::Info).count()
     };
     let new = found.iter().any(|one| count(found, one.finding.code) > count(before, one.finding.code));
-    if new { Outcome::Told } else { Outcome::Missed }
+    if new { Outcome::Reported } else { Outcome::Missed }
 }
 
 fn main() -> anyhow::Result<()> {

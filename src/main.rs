@@ -15,7 +15,7 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            cfs::cli::tell_error(&error);
+            cfs::cli::report_error(&error);
             ExitCode::from(cfs::cli::status(&error))
         }
     }

@@ -208,9 +208,9 @@ fn figure_12() -> Result<Figure> {
     first.push(disc("truth", &between.truth));
     let (mut rows, mut key) = (vec![first], Vec::new());
     let mut shown = Vec::new();
-    for (name, q, error, foretold) in &between.schemes {
-        table.row(&[name], &[*error, *foretold]);
-        key.push(format!("{name} {} (predicted {})", percent(*error), percent(*foretold)));
+    for (name, q, error, predicted) in &between.schemes {
+        table.row(&[name], &[*error, *predicted]);
+        key.push(format!("{name} {} (predicted {})", percent(*error), percent(*predicted)));
         shown.push(disc(&name.replace('-', " "), q));
     }
     rows.push(shown);

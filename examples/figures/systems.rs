@@ -215,7 +215,7 @@ impl SystemLibrary for Only {
             label: self.0.name.clone(),
             state: String::new(),
             dataset: Arc::clone(&self.0),
-            very: None,
+            model: None,
         }))
     }
 

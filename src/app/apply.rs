@@ -1,8 +1,8 @@
 //! Acting on commands: the only place where the window's state changes by the user's actions.
 
 use super::command::Command;
+use super::export_choices::What;
 use super::first_choice::first_choice;
-use super::hand_on::What;
 use super::jobs::Lane;
 use super::moment;
 use super::outside;
@@ -37,10 +37,10 @@ impl App {
         match command {
             Command::Open => self.ask_paths(),
             Command::SaveScene => self.ask_target(PathUse::SaveScene),
-            Command::ExportLid => self.hand_on(What::Luminaire, None),
-            Command::ExportTile(tile) => self.hand_on(What::Picture, Some(tile)),
-            Command::HandOn(choices) => self.choose_hand_on(*choices),
-            Command::BrowseHandOn => self.browse_hand_on(),
+            Command::ExportLid => self.open_export(What::Luminaire, None),
+            Command::ExportTile(tile) => self.open_export(What::Picture, Some(tile)),
+            Command::ExportChoices(choices) => self.set_export_choices(*choices),
+            Command::BrowseExport => self.browse_export(),
             Command::CopyTile(tile) => self.copy_tile(tile),
             Command::CopyPicture(tile) => self.copy_picture(tile),
             Command::CopyValue => self.copy_value(),
@@ -99,15 +99,15 @@ impl App {
             Command::Sheet(sheet) => {
                 // The key that opens a sheet also closes it.
                 state.sheet = if state.sheet == sheet { None } else { sheet };
-                if state.sheet == Some(Sheet::HandOn) {
-                    self.offer_hand_on();
+                if state.sheet == Some(Sheet::Export) {
+                    self.propose_export_path();
                 }
             }
             Command::Cancel(lane) => {
                 let stopped = self.jobs.cancel(lane);
-                if lane == Lane::Mend {
+                if lane == Lane::Repair {
                     for product in state.import.iter_mut().flat_map(|import| &mut import.products) {
-                        product.wished = None;
+                        product.requested_repairs = None;
                     }
                 }
                 if lane == Lane::Import {
@@ -136,21 +136,21 @@ impl App {
                     self.jobs.cancel(Lane::Surfaces);
                     self.stop_computing();
                 }
-                let told = match lane {
+                let message = match lane {
                     Lane::Goniophotometer => shell::STOPPED_STATES.into(),
                     Lane::Builtin => shell::STOPPED_BUILTIN.into(),
                     Lane::Product => shell::STOPPED_PRODUCT.into(),
                     Lane::Annual => crate::texts::year::STOPPED.into(),
                     Lane::Rank => crate::texts::choose::STOPPED.into(),
                     Lane::Lid if !self.results.lid.stale => shell::STOPPED_PEAK.into(),
-                    Lane::Import | Lane::Arrange | Lane::Mend | Lane::Dialog | Lane::Export => {
+                    Lane::Import | Lane::Arrange | Lane::Repair | Lane::Dialog | Lane::Export => {
                         shell::stopped(lane.word())
                     }
                     _ => shell::stopped_older(lane.word()),
                 };
                 // The job may have ended between the picture and the click: then nothing was lost, and nothing is said.
                 if stopped {
-                    self.toasts.info(told);
+                    self.toasts.info(message);
                 }
             }
             Command::Select(product) => self.select_product(product),
@@ -189,7 +189,7 @@ impl App {
                 self.search();
             }
             Command::Favourite(key, favourite) => self.star(key, favourite),
-            Command::Shelve(what) => self.shelve(what),
+            Command::Catalogue(what) => self.apply_catalogue_command(what),
             Command::OpenPaths(paths) => self.read_paths(paths),
             Command::Write(what, path) => self.write(what, path),
             Command::EditPath(text) => {
@@ -210,7 +210,7 @@ impl App {
             Command::DiscardImport => self.discard_import(None),
             Command::DiscardDraft(number) => self.discard_import(Some(number)),
             Command::OpenDraft(number) => self.open_draft(number),
-            Command::PutAside => self.put_aside(),
+            Command::KeepDraft => self.keep_draft(),
             Command::Import(step) => self.import_step(step),
             Command::MeasureAccuracy => self.measure_accuracy(),
             Command::WeighObstructions => self.weigh_obstructions(),

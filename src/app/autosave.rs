@@ -25,7 +25,7 @@ const PAUSE: Duration = Duration::from_millis(200);
 
 /// Maximum waiting time for what must be written at once. A disk that does not answer must not block the window for
 /// ever.
-const PATIENCE: Duration = Duration::from_secs(5);
+const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
 /// Time after the start within which a fault may come from the restored session.
 const SOON: Duration = Duration::from_secs(60);
 /// Number of such faults in a row after which a session is set aside, because the program must start.
@@ -48,7 +48,7 @@ pub struct Found {
 enum Order {
     Write(Box<Snapshot>),
     /// Request for a reply when everything ordered before is written.
-    Tell(Sender<()>),
+    Notify(Sender<()>),
     /// Session to write as the program ends at a fault.
     Fault(Box<Snapshot>, KeptFault),
     Close,
@@ -162,11 +162,11 @@ impl Autosave {
             }
         }
         let (orders, received) = channel();
-        let (told, problems) = channel();
+        let (errors, problems) = channel();
         let target = file.clone();
         let writer = std::thread::Builder::new()
             .name("cfs session".to_owned())
-            .spawn(move || write_all(&target, &received, &told))?;
+            .spawn(move || write_all(&target, &received, &errors))?;
         let faults = found.kept.as_ref().and_then(|kept| kept.fault.as_ref()).map_or(0, |fault| fault.times);
         let keeper = Self {
             folder: folder.to_owned(),
@@ -206,10 +206,10 @@ impl Autosave {
 
     /// Waits until the state kept last is written, or cannot be written.
     pub fn write_now(&self) {
-        let (told, written) = channel();
-        if self.orders.send(Order::Tell(told)).is_ok() {
+        let (reply, written) = channel();
+        if self.orders.send(Order::Notify(reply)).is_ok() {
             // After the timeout it is written later, or reported as an error.
-            let _ = written.recv_timeout(PATIENCE);
+            let _ = written.recv_timeout(WRITE_TIMEOUT);
         }
     }
 
@@ -267,22 +267,22 @@ fn remove(file: &Path) {
 
 /// Writes the ordered sessions until the order to close; of several at once only the last. What is written is safe from
 /// the end of the program at once; a second thread waits for the disk, which takes seconds when it is busy.
-fn write_all(file: &Path, orders: &Receiver<Order>, told: &Sender<SessionError>) {
+fn write_all(file: &Path, orders: &Receiver<Order>, errors: &Sender<SessionError>) {
     let (written, waiting) = channel::<File>();
     std::thread::scope(|scope| {
         scope.spawn(move || {
             while let Ok(file) = waiting.recv() {
                 // Of several the last: the others are no longer there under any name.
                 if let Err(error) = waiting.try_iter().last().unwrap_or(file).sync_all() {
-                    drop(told.send(SessionError::NotSafe(error.to_string())));
+                    drop(errors.send(SessionError::NotSafe(error.to_string())));
                 }
             }
         });
-        write_until_closed(file, orders, told, written);
+        write_until_closed(file, orders, errors, written);
     });
 }
 
-fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<SessionError>, written: Sender<File>) {
+fn write_until_closed(file: &Path, orders: &Receiver<Order>, errors: &Sender<SessionError>, written: Sender<File>) {
     let mut failing = false;
     let mut closing = false;
     while !closing {
@@ -293,7 +293,7 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
             match order {
                 Order::Write(snapshot) => newest = Some((snapshot, None)),
                 Order::Fault(snapshot, fault) => newest = Some((snapshot, Some(fault))),
-                Order::Tell(teller) => waiting.push(teller),
+                Order::Notify(reply) => waiting.push(reply),
                 Order::Close => closing = true,
             }
             match orders.try_recv() {
@@ -312,15 +312,15 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, told: &Sender<Sessi
                 }
                 // Reported once; the receiver may be gone.
                 Err(error) if !failing => {
-                    drop(told.send(SessionError::NotKept(error)));
+                    drop(errors.send(SessionError::NotKept(error)));
                     failing = true;
                 }
                 Err(_) => {}
             }
         }
-        for teller in waiting {
+        for reply in waiting {
             // Who asked may have lost patience.
-            let _ = teller.send(());
+            let _ = reply.send(());
         }
         if !closing {
             std::thread::sleep(PAUSE);

@@ -1,10 +1,10 @@
 //! Services of the window in production: catalogue file, study, luminaire files.
 
-use super::at_work::AtWork;
 use super::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures, subject};
 use super::error::AppError;
 use super::shelf::{Addition, Found, Query, Shelf};
 use super::shelf_library::WindowLibrary;
+use super::states_in_progress::StatesInProgress;
 use crate::catalogue::{
     Catalogue, Collection, Deleted, Event, Known, NewProduct, Product, Replacement, Snapshot, StateKey, StateName,
     Stored, Subscription, Words, default_path,
@@ -20,7 +20,7 @@ use crate::study::compact::stored_by_default;
 use crate::study::control::{ControlQuestion, Device, pick_state};
 use crate::study::goniophotometer::Withdrawn;
 use crate::study::luminaire_file::{LidFormat, describe, encode};
-use crate::study::luminaire_set::{LuminaireSet, Wish, make, tile_name};
+use crate::study::luminaire_set::{LuminaireOptions, LuminaireSet, make, tile_name};
 use crate::study::rank::{Answer, Group, Item, Stage, run as rank};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
@@ -40,14 +40,14 @@ struct CatalogueShelf {
     /// block readers.
     filler: Option<Mutex<Catalogue>>,
     /// States that are being computed because a request waits for them.
-    at_work: AtWork,
+    in_progress: StatesInProgress,
     /// States that cannot be computed; each was tried once.
     failing: Mutex<Vec<StateKey>>,
 }
 
 impl CatalogueShelf {
     fn new(catalogue: Mutex<Catalogue>, filler: Option<Mutex<Catalogue>>) -> Self {
-        Self { catalogue, filler, at_work: AtWork::default(), failing: Mutex::default() }
+        Self { catalogue, filler, in_progress: StatesInProgress::default(), failing: Mutex::default() }
     }
 }
 
@@ -123,7 +123,7 @@ impl Shelf for CatalogueShelf {
             let dataset = builtin::compute(&product, &one.state, &Library::default(), progress)?;
             Ok(self.lock().keep_state(&product, &dataset)?)
         };
-        self.at_work.once(&one, progress, is_there, compute)
+        self.in_progress.once(&one, progress, is_there, compute)
     }
 
     fn product(&self, product: &str) -> Result<Arc<Product>, AppError> {
@@ -363,11 +363,11 @@ impl Engine for StudyEngine {
         groups: &[Group],
         items: &[Item],
         shelf: &dyn Shelf,
-        told: &(dyn Fn(Answer<'_>) + Sync),
+        report: &(dyn Fn(Answer<'_>) + Sync),
         progress: &dyn Progress,
     ) -> Result<(), AppError> {
         let library = WindowLibrary { files: &self.files, shelf, progress };
-        rank(groups, items, &library, &self.ranking, &[Stage::Coarse, Stage::Full], told, progress)?;
+        rank(groups, items, &library, &self.ranking, &[Stage::Coarse, Stage::Full], report, progress)?;
         Ok(())
     }
 
@@ -388,14 +388,14 @@ impl Engine for StudyEngine {
     fn luminaires(
         &self,
         question: &Question,
-        wish: &Wish,
+        options: &LuminaireOptions,
         path: &Path,
         progress: &dyn Progress,
     ) -> Result<LuminaireSet, AppError> {
         let scene = self.scene(question, progress)?;
         let first = scene.apertures.first().ok_or(AppError::NoAperture)?;
         let text = describe(&first.system.label, &question.scene, &question.base, 0, "");
-        Ok(make(&self.session, &scene, 0, &text, wish, |tile| tile_name(path, tile), progress)?)
+        Ok(make(&self.session, &scene, 0, &text, options, |tile| tile_name(path, tile), progress)?)
     }
 }
 

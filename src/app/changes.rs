@@ -114,7 +114,7 @@ pub struct Looked {
 #[derive(Debug, Clone)]
 pub struct Reread {
     /// Differences from the stored product, one line per state.
-    pub told: Vec<String>,
+    pub differences: Vec<String>,
     /// Change that applies the differences; `None` if there are none.
     pub change: Option<Change>,
 }

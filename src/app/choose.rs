@@ -88,7 +88,7 @@ pub fn ranked_apertures(scene: &SceneFile, chosen: Option<usize>) -> Vec<usize> 
 fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> SceneFile {
     let written = scene.aperture.iter().any(|one| one.system == SystemKeys::Ranked);
     let mut open = SceneFile { rank: None, ..question(scene) };
-    let told = scene.control.clone();
+    let scene_control = scene.control.clone();
     if !written && control == RankControlKey::Product {
         open.control = None;
     }
@@ -99,7 +99,7 @@ fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> Scene
                 aperture.control = None;
             }
         } else if open.control.is_none() && aperture.control.is_none() {
-            aperture.control.clone_from(&told);
+            aperture.control.clone_from(&scene_control);
         }
     }
     open

@@ -91,8 +91,8 @@ impl App {
                 self.results.rank.put(Arc::new(figures));
             }
         }
-        let looked_at = self.bench.in_sight(self.state.maximised).contains(&tiles::CHOOSE)
-            || self.state.sheet == Some(Sheet::HandOn);
+        let looked_at = self.bench.visible_tiles(self.state.maximised).contains(&tiles::CHOOSE)
+            || self.state.sheet == Some(Sheet::Export);
         if !looked_at || self.jobs.busy(Lane::Rank) && self.results.rank.value.is_none() {
             return;
         }
@@ -161,14 +161,14 @@ impl App {
                 }
             }
             let by_scene = figures.asked.control == RankControlKey::Scene && product.states.len() > 1;
-            let told = document.scene.control.clone().filter(|_| by_scene);
+            let scene_control = document.scene.control.clone().filter(|_| by_scene);
             let (rule, stands) = product.representative();
             let state = product.states.get(stands).filter(|_| product.states.len() > 1);
             first_choice(document, product.key.clone(), rule, state.map(|state| state.key.as_str()));
-            if let Some(told) = told {
+            if let Some(scene_control) = scene_control {
                 document.selection = Selection { product: product.key.clone(), state: CONTROLLED.to_owned() };
                 fill(&mut document.scene, &document.selection);
-                document.scene.control = Some(told);
+                document.scene.control = Some(scene_control);
             }
         }
         self.state.control_of = None;
@@ -211,7 +211,7 @@ fn ranked(
         return Ok(());
     }
     let names: Arc<[String]> = group.figures.clone().into();
-    let told = |answer: Answer<'_>| {
+    let report = |answer: Answer<'_>| {
         let Item { product, .. } = answer.item;
         let known = Arc::new(Known {
             product: group.products[product].key.clone(),
@@ -225,5 +225,5 @@ fn ranked(
         }
         board.put(known);
     };
-    engine.rank(&groups, &missing, shelf, &told, job)
+    engine.rank(&groups, &missing, shelf, &report, job)
 }

@@ -1,11 +1,11 @@
 //! Product list beside searching: recent products, stars, collections, folders of packages. Undo covers everything that
 //! is stored.
 
+use super::catalogue_command::CatalogueCommand;
 use super::changes::Change;
 use super::error::AppError;
 use super::jobs::Lane;
 use super::shelf::{Query, Sets};
-use super::shelving::Shelving;
 use super::state::{PathUse, Sheet};
 use super::window::{App, end_step};
 use super::work::Outcome;
@@ -18,20 +18,20 @@ const RECENT: usize = 20;
 
 impl App {
     /// Acts on a command about the product list.
-    pub(super) fn shelve(&mut self, what: Shelving) {
+    pub(super) fn apply_catalogue_command(&mut self, what: CatalogueCommand) {
         match what {
-            Shelving::Gallery => self.state.settings.gallery ^= true,
-            Shelving::First => {
+            CatalogueCommand::Gallery => self.state.settings.gallery ^= true,
+            CatalogueCommand::First => {
                 self.state.first_due = true;
                 self.choose_first();
             }
-            Shelving::Recent => {
+            CatalogueCommand::Recent => {
                 let query = Query { recent: !self.state.query.recent, ..self.state.query.clone() };
                 self.state.settings.catalogue_open = true;
                 self.state.query = query;
                 self.search();
             }
-            Shelving::Star => {
+            CatalogueCommand::Star => {
                 let key = self.state.document.selection.product.clone();
                 let starred = self.state.product.as_ref().filter(|product| product.key == key).map(|one| one.favourite);
                 let listed = self.state.found.entries.iter().find(|entry| entry.key == key).map(|one| one.favourite);
@@ -39,7 +39,7 @@ impl App {
                     self.star(key, !starred);
                 }
             }
-            Shelving::Collect { name, product, put } => {
+            CatalogueCommand::Collect { name, product, put } => {
                 let name = name.trim().to_owned();
                 let Some(key) = self.meant(product).filter(|_| !name.is_empty()) else { return };
                 let collection = self.state.sets.collections.iter().find(|one| one.name == name);
@@ -52,16 +52,16 @@ impl App {
                     self.mark(Change::Collected { name, products: vec![key], put });
                 }
             }
-            Shelving::Disband(name) => {
+            CatalogueCommand::Disband(name) => {
                 if let Some(one) = self.state.sets.collections.iter().find(|one| one.name == name) {
                     let products = one.products.clone();
                     self.mark(Change::Collected { name, products, put: false });
                 }
             }
-            Shelving::EditName(text) => self.state.collection = text,
-            Shelving::Subscribe => self.ask_subscription(),
-            Shelving::SubscribeTo(path) => self.subscribe(path),
-            Shelving::Unsubscribe(folder) => {
+            CatalogueCommand::EditName(text) => self.state.collection = text,
+            CatalogueCommand::Subscribe => self.ask_subscription(),
+            CatalogueCommand::SubscribeTo(path) => self.subscribe(path),
+            CatalogueCommand::Unsubscribe(folder) => {
                 self.toasts.info(words::unsubscribed(&folder));
                 self.mark(Change::Subscribed { folder, on: false });
             }
@@ -158,7 +158,7 @@ impl App {
     pub(super) fn take_sets(&mut self, sets: Result<Sets, AppError>) {
         match sets {
             Ok(sets) => self.state.sets = sets,
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 }

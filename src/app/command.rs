@@ -2,10 +2,11 @@
 //! and [`super::offer`] lists those that menu, palette and keys offer.
 
 use super::arrange::Arrange;
+use super::catalogue_command::CatalogueCommand;
 use super::choose::ChooseAct;
 use super::compare::Act;
+use super::export_choices::Choices;
 use super::goniophotometer::Setup;
-use super::hand_on::Choices;
 use super::import::{ImportFields, StateWords};
 use super::import_steps::Step;
 use super::jobs::Lane;
@@ -13,7 +14,6 @@ use super::language::LanguageChoice;
 use super::outside;
 use super::room_look::{RoomLook, RoomView};
 use super::shelf::Query;
-use super::shelving::Shelving;
 use super::state::{PathUse, Sheet, Tile};
 use super::text_size::TextSize;
 use super::theme::ThemeChoice;
@@ -41,9 +41,9 @@ pub enum Command {
     /// Export a tile, as a picture or as numbers.
     ExportTile(Tile),
     /// Set the choices of the export: content, format and options.
-    HandOn(Box<Choices>),
+    ExportChoices(Box<Choices>),
     /// Ask for folder and name of the export.
-    BrowseHandOn,
+    BrowseExport,
     /// Copy a tile's numbers to the clipboard.
     CopyTile(Tile),
     /// Copy a tile as a picture to the clipboard.
@@ -159,7 +159,7 @@ pub enum Command {
     /// Continue a draft of an import.
     OpenDraft(usize),
     /// Keep the import as a draft.
-    PutAside,
+    KeepDraft,
     /// Act on the table of the import.
     Import(Step),
     /// Run the current scene with rising effort by every method.
@@ -209,7 +209,7 @@ pub enum Command {
     /// Copy the report on a fault to the clipboard.
     CopyReport(PathBuf),
     /// Act on the product list.
-    Shelve(Shelving),
+    Catalogue(CatalogueCommand),
     /// Act on the comparison.
     Compare(Act),
     /// List products that are optically similar to this one; to the selected one if `None`.

@@ -11,7 +11,7 @@ use super::state::{CatalogueState, Daylight, Document, Results, Settings, Shown,
 use super::tiles::Bench;
 use super::views::Cache;
 use super::views::difference::{self, Picture};
-use super::work::{Compared, Shelved};
+use super::work::{Compared, LoadedSelection};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
 use crate::drawing::plot::Plot;
@@ -156,9 +156,9 @@ impl Column {
         self.state.daylight.take(daylight);
     }
 
-    fn take_shelf(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, String>) {
-        match shelved {
-            Ok(Shelved { product, state, dataset }) => {
+    fn take_shelf(&mut self, loaded: Result<LoadedSelection, AppError>, daylight: Result<Daylight, String>) {
+        match loaded {
+            Ok(LoadedSelection { product, state, dataset }) => {
                 self.state.product = Some(product);
                 self.state.shown_state = state;
                 match dataset {
@@ -174,7 +174,7 @@ impl Column {
     /// Stores the result of a job.
     pub fn take(&mut self, what: Compared) {
         match what {
-            Compared::Shelf(shelved, daylight) => self.take_shelf(shelved, daylight.map_err(|error| error.to_string())),
+            Compared::Shelf(loaded, daylight) => self.take_shelf(loaded, daylight.map_err(|error| error.to_string())),
             Compared::Own(own, daylight) => self.take_own(own, daylight.map_err(|error| error.to_string())),
             Compared::Surfaces(result) => self.results.surfaces.take(result),
             Compared::Lid(result) => self.results.lid.take(result),

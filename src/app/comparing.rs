@@ -12,7 +12,7 @@ use super::shelf_library::WindowLibrary;
 use super::state::{Document, State};
 use super::tiles;
 use super::window::{App, end_step};
-use super::work::{Compared, Outcome, Shelved, daylight, take_from_shelf};
+use super::work::{Compared, LoadedSelection, Outcome, daylight, take_from_shelf};
 use super::{control, title};
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
@@ -80,7 +80,7 @@ impl App {
     /// Acts on a command about the comparison.
     pub(super) fn act(&mut self, act: Act) {
         self.compare.stopped = false;
-        let tray = self.state.document.scene.compare.len();
+        let count = self.state.document.scene.compare.len();
         match act {
             Act::Add => self.add_candidate(keys_of(&self.state.document, shown_words(&self.state))),
             Act::AddMoment => {
@@ -103,22 +103,22 @@ impl App {
                 });
             }
             Act::AddProduct(key) => self.add_product(key),
-            Act::Take(place) if place < tray => self.take_candidate(place),
-            Act::Remove(place) if place < tray => self.edit_tray(|tray| drop(tray.remove(place))),
-            Act::Move(place, step) if place < tray => {
-                let to = place.saturating_add_signed(step).min(tray - 1);
-                self.edit_tray(|tray| {
-                    let one = tray.remove(place);
-                    tray.insert(to, one);
+            Act::Take(place) if place < count => self.take_candidate(place),
+            Act::Remove(place) if place < count => self.edit_comparison(|comparison| drop(comparison.remove(place))),
+            Act::Move(place, step) if place < count => {
+                let to = place.saturating_add_signed(step).min(count - 1);
+                self.edit_comparison(|comparison| {
+                    let one = comparison.remove(place);
+                    comparison.insert(to, one);
                 });
             }
             Act::EditName(naming) => self.state.compare.naming = naming,
-            Act::Rename(place, name) if place < tray => {
+            Act::Rename(place, name) if place < count => {
                 self.state.compare.naming = None;
-                self.edit_tray(|tray| tray[place].name = name.trim().to_owned());
+                self.edit_comparison(|comparison| comparison[place].name = name.trim().to_owned());
             }
-            Act::Clear => self.edit_tray(Vec::clear),
-            Act::Show if tray == 0 && !self.state.compare.open => self.say_empty(),
+            Act::Clear => self.edit_comparison(Vec::clear),
+            Act::Show if count == 0 && !self.state.compare.open => self.say_empty(),
             Act::Show => {
                 self.state.compare.open ^= true;
                 self.state.compare.swapped = None;
@@ -130,7 +130,7 @@ impl App {
             Act::Swap => self.swap(),
             Act::SwapWith(place) => {
                 self.state.compare.open = false;
-                self.state.compare.swapped = (place < tray).then_some(place);
+                self.state.compare.swapped = (place < count).then_some(place);
                 self.state.compare.other = self.state.compare.swapped;
             }
             Act::Copy => {
@@ -157,7 +157,7 @@ impl App {
     }
 
     fn say_empty(&mut self) {
-        self.toasts.info(texts::TRAY_EMPTY);
+        self.toasts.info(texts::COMPARISON_EMPTY);
     }
 
     fn look_at(&mut self, change: impl FnOnce(&mut super::compare::View)) {
@@ -170,7 +170,7 @@ impl App {
     }
 
     /// Changes the list of candidates, as one undo step.
-    fn edit_tray(&mut self, change: impl FnOnce(&mut Vec<CompareKeys>)) {
+    fn edit_comparison(&mut self, change: impl FnOnce(&mut Vec<CompareKeys>)) {
         end_step(&mut self.undoer, &self.state.document);
         change(&mut self.state.document.scene.compare);
         end_step(&mut self.undoer, &self.state.document);
@@ -181,16 +181,16 @@ impl App {
     }
 
     fn add_candidate(&mut self, keys: CompareKeys) {
-        let tray = &self.state.document.scene.compare;
+        let comparison = &self.state.document.scene.compare;
         let known = |other: &CompareKeys| CompareKeys { name: keys.name.clone(), ..other.clone() } == keys;
-        if tray.len() >= MOST {
-            self.toasts.info(texts::tray_full(MOST));
+        if comparison.len() >= MOST {
+            self.toasts.info(texts::comparison_full(MOST));
         } else if keys.system.is_none() && keys.aperture.is_empty() {
             self.toasts.info(texts::NOTHING_SHOWN);
-        } else if tray.iter().any(known) {
-            self.toasts.info(texts::IN_TRAY_ALREADY);
+        } else if comparison.iter().any(known) {
+            self.toasts.info(texts::ALREADY_IN_COMPARISON);
         } else {
-            self.edit_tray(|tray| tray.push(keys));
+            self.edit_comparison(|comparison| comparison.push(keys));
         }
     }
 
@@ -229,10 +229,10 @@ impl App {
     /// Starts the computation of the next missing part of the candidates that are shown.
     pub(super) fn ask_compared(&mut self) {
         // The list may have changed by undo, or by a scene that was opened.
-        let tray = self.state.document.scene.compare.len();
+        let count = self.state.document.scene.compare.len();
         let view = &mut self.state.compare;
-        view.swapped = view.swapped.filter(|place| *place < tray);
-        view.open &= tray > 0;
+        view.swapped = view.swapped.filter(|place| *place < count);
+        view.open &= count > 0;
         if self.compare.follow(&self.state, &self.results) {
             self.jobs.cancel(Lane::Compare);
         }
@@ -242,7 +242,7 @@ impl App {
             return;
         }
         let (columns, parts) = match (view.open, view.swapped) {
-            (true, _) => (0..tray, parts(view.look, TileKind::titled(view.tile()))),
+            (true, _) => (0..count, parts(view.look, TileKind::titled(view.tile()))),
             (false, Some(place)) => (place..place + 1, ALL),
             (false, None) => return,
         };
@@ -372,7 +372,7 @@ fn shelf_part(question: &Question, files: &Library, progress: &dyn Progress) -> 
         }
         shelf.provide(&selection.product, Some(&found.state), progress)?;
         let dataset = Some(shelf.load(&selection.product, Some(&found.state))?);
-        Ok(Shelved { dataset, ..found })
+        Ok(LoadedSelection { dataset, ..found })
     });
     Compared::Shelf(found, daylight)
 }

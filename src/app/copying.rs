@@ -2,8 +2,8 @@
 //! [`super::export`].
 
 use super::error::AppError;
-use super::hand_on::{Choices, What};
-use super::hand_on_files::Order;
+use super::export_choices::{Choices, What};
+use super::export_files::Order;
 use super::jobs::Lane;
 use super::paint::tile::pointed_foot;
 use super::state::Tile;
@@ -14,13 +14,13 @@ use crate::report::{Size, TileKind};
 use crate::texts::tiles as say;
 
 /// Maximum length of the copied text that is repeated in a message. \[characters\]
-const SAID: usize = 80;
+const MAX_EXCERPT: usize = 80;
 
 impl App {
     /// Draws a tile as it is exported, for the clipboard.
     pub(super) fn copy_picture(&mut self, tile: Tile) {
         let Some(kind) = TileKind::titled(tile.title) else { return };
-        let Some(order) = self.order() else { return self.tell(&AppError::NoProduct) };
+        let Some(order) = self.order() else { return self.report_error(&AppError::NoProduct) };
         let size = Size::default();
         let choices = Choices { what: What::Picture, tile: kind, size, caption: true, print: false, ..order.choices };
         let order = Order { choices, ..order };
@@ -39,7 +39,7 @@ impl App {
                 self.ctx.copy_image(egui::ColorImage::from_rgb([width, height], &pixels));
                 self.toasts.success(say::picture_copied(tile.name));
             }
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 
@@ -48,7 +48,7 @@ impl App {
         let Some(text) = pointed_foot(&self.ctx).filter(|text| !text.is_empty()) else {
             return self.toasts.info(say::NO_VALUE);
         };
-        let short: String = text.chars().take(SAID).collect();
+        let short: String = text.chars().take(MAX_EXCERPT).collect();
         let more = if short.len() < text.len() { "…" } else { "" };
         self.ctx.copy_text(text);
         self.toasts.success(say::copied(format!("{short}{more}")));

@@ -90,8 +90,8 @@ impl FileDialogs for NativeDialogs {
                 .add_filter(shell::PACKAGE_OF_ALL, &["cfsp"])
                 .add_filter(shell::BSDF, &["xml"])
                 .add_filter(shell::BTDF_TEXT, &["btdf.txt"]),
-            PathUse::HandOn => match start.extension() {
-                Some(ending) => dialog.add_filter(shell::WHAT_IS_HANDED_ON, &[ending.to_string_lossy()]),
+            PathUse::Export => match start.extension() {
+                Some(ending) => dialog.add_filter(shell::EXPORTED_FILES, &[ending.to_string_lossy()]),
                 None => dialog,
             },
             PathUse::SaveScene | PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe => {

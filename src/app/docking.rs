@@ -45,13 +45,13 @@ impl App {
         }
         let bench = &mut self.bench;
         let mut layout = bench.layout();
-        let in_sight = layout.in_sight();
-        if !in_sight.contains(&bench.in_hand) {
-            bench.in_hand = in_sight.first().copied().unwrap_or(bench.in_hand);
+        let visible = layout.visible_tiles();
+        if !visible.contains(&bench.in_hand) {
+            bench.in_hand = visible.first().copied().unwrap_or(bench.in_hand);
         }
         let own = bench.in_hand;
-        let number = in_sight.iter().position(|tile| *tile == own).unwrap_or(0) as i32;
-        let next = |step: i32| in_sight[(number + step).rem_euclid(in_sight.len() as i32) as usize];
+        let number = visible.iter().position(|tile| *tile == own).unwrap_or(0) as i32;
+        let next = |step: i32| visible[(number + step).rem_euclid(visible.len() as i32) as usize];
         let mut nothing: Option<String> = None;
         let changed = match what {
             Arrange::Preset(_) => None,
@@ -89,8 +89,8 @@ impl App {
             Arrange::Width(more) | Arrange::Height(more) => {
                 let wide = matches!(what, Arrange::Width(_));
                 let done = layout.resize(own, wide, more);
-                let told = || if wide { say::shares_no_width(own.name) } else { say::shares_no_height(own.name) };
-                nothing = (!done).then(told);
+                let message = || if wide { say::shares_no_width(own.name) } else { say::shares_no_height(own.name) };
+                nothing = (!done).then(message);
                 Some(layout)
             }
         };

@@ -60,7 +60,7 @@ fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, A
     if paths.len() != states.len() {
         return Err(AppError::NotAFileEach { files: paths.len(), states: states.len() });
     }
-    let (mut list, mut told) = (Vec::new(), Vec::new());
+    let (mut list, mut differences) = (Vec::new(), Vec::new());
     for (place, path) in paths.iter().enumerate() {
         let file = read(reader, Path::new(path))?;
         let [dataset] = file.datasets.as_slice() else {
@@ -73,7 +73,7 @@ fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, A
         let one = replacement(&before, &state.key, &file, dataset)?;
         let tau = one.dataset.transmission().map(|btdf| btdf.tau_hemispherical());
         let word = |tau: Option<f64>| tau.map_or_else(|| "–".to_owned(), |tau| fixed(tau, 3));
-        told.push(text::tau_becomes(&file.name, word(state.tau_hemispherical), word(tau)));
+        differences.push(text::tau_becomes(&file.name, word(state.tau_hemispherical), word(tau)));
         list.push(one);
     }
     let change = (!list.is_empty()).then(|| Change::Replaced {
@@ -81,7 +81,7 @@ fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, A
         before: Arc::new(before),
         list: Arc::new(list),
     });
-    Ok(Reread { told, change })
+    Ok(Reread { differences, change })
 }
 
 impl App {
@@ -118,7 +118,7 @@ impl App {
                 self.change(change);
                 self.toasts.success(text::REPLACED);
             }
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 
@@ -133,7 +133,7 @@ impl App {
         match (result, &mut self.state.editing) {
             (Ok(reread), Some(editing)) => editing.reread = Some(reread),
             (Ok(_), None) => {}
-            (Err(error), _) => self.tell(&error),
+            (Err(error), _) => self.report_error(&error),
         }
     }
 

@@ -9,7 +9,7 @@ use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::lid::{Interpolator, Lid};
 use crate::formats::luminaire::Description;
 use crate::study::accuracy::Accuracy;
-use crate::study::luminaire_set::{LuminaireSet, Wish};
+use crate::study::luminaire_set::{LuminaireOptions, LuminaireSet};
 use crate::study::rank::{Answer, Group, Item};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
@@ -126,7 +126,7 @@ pub trait Engine: Send + Sync {
         _groups: &[Group],
         _items: &[Item],
         _shelf: &dyn Shelf,
-        _told: &(dyn Fn(Answer<'_>) + Sync),
+        _report: &(dyn Fn(Answer<'_>) + Sync),
         _: &dyn Progress,
     ) -> Result<(), AppError> {
         Err(AppError::NoNumbers)
@@ -137,7 +137,13 @@ pub trait Engine: Send + Sync {
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError>;
     /// Computes the requested luminaire files of the first aperture; `path`: that of the single file, from which the
     /// files of a grid get their names. Engines that compute no light return an error.
-    fn luminaires(&self, _: &Question, _: &Wish, _: &Path, _: &dyn Progress) -> Result<LuminaireSet, AppError> {
+    fn luminaires(
+        &self,
+        _: &Question,
+        _: &LuminaireOptions,
+        _: &Path,
+        _: &dyn Progress,
+    ) -> Result<LuminaireSet, AppError> {
         Err(AppError::NoLid)
     }
 }

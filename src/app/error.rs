@@ -82,7 +82,7 @@ pub enum AppError {
     ManyFiles(usize, usize),
     /// File name with a wrong extension, and the right one.
     #[error("{}", shell::wrong_ending(.0))]
-    HandOnEnding(&'static str),
+    ExportEnding(&'static str),
     /// Picture of a tile that cannot be encoded.
     #[error("{}", shell::no_picture(.0))]
     Picture(#[from] png::EncodingError),

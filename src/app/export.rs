@@ -7,7 +7,7 @@ use std::path::PathBuf;
 /// Destination of a tile's numbers.
 enum Target {
     Clipboard,
-    HandOn,
+    ExportDialog,
     File(PathBuf),
 }
 
@@ -15,7 +15,7 @@ enum Target {
 #[derive(Default)]
 pub struct Exports {
     numbers: Option<(Tile, Target)>,
-    handed_on: Option<String>,
+    dialog_numbers: Option<String>,
     done: Vec<(Tile, PathBuf, String)>,
 }
 
@@ -26,8 +26,8 @@ impl Exports {
     }
 
     /// Requests a tile's numbers for the export dialog.
-    pub fn ask_hand_on(&mut self, tile: Tile) {
-        self.numbers = Some((tile, Target::HandOn));
+    pub fn ask_for_dialog(&mut self, tile: Tile) {
+        self.numbers = Some((tile, Target::ExportDialog));
     }
 
     /// Requests a tile's numbers for a file (.csv).
@@ -54,8 +54,8 @@ impl Exports {
     pub fn numbers(&mut self, ctx: &egui::Context, text: String) {
         match self.numbers.take() {
             Some((_, Target::Clipboard)) => ctx.copy_text(text),
-            Some((_, Target::HandOn)) => {
-                self.handed_on = Some(text);
+            Some((_, Target::ExportDialog)) => {
+                self.dialog_numbers = Some(text);
                 ctx.request_repaint();
             }
             Some((tile, Target::File(path))) => {
@@ -72,7 +72,7 @@ impl Exports {
     }
 
     /// Returns the numbers for the export dialog.
-    pub fn handed_on(&mut self) -> Option<String> {
-        self.handed_on.take()
+    pub fn take_dialog_numbers(&mut self) -> Option<String> {
+        self.dialog_numbers.take()
     }
 }

@@ -56,8 +56,8 @@ impl App {
             Lane::Arrange => self.stop_arranging(),
             Lane::Import => self.state.under_way = None,
             Lane::Preview => {
-                self.state.hand_on.revision += 1;
-                self.state.hand_on.shown = Some(Err(text));
+                self.state.export.revision += 1;
+                self.state.export.shown = Some(Err(text));
             }
             // Only where nothing else waits is it sure whose fault it was.
             Lane::Store if self.pending_changes.is_empty() => {
@@ -114,7 +114,7 @@ impl App {
         }
         let fault = fault::newest().unwrap_or_default();
         let doing =
-            self.jobs.views().iter().fold("window".to_owned(), |said, job| said + "; " + job.lane.word().english());
+            self.jobs.views().iter().fold("window".to_owned(), |text, job| text + "; " + job.lane.word().english());
         let report = self.report(&fault, &doing).and_then(Result::ok);
         if let Some(path) = &report {
             fault::reported(&fault, path.clone());
@@ -131,7 +131,7 @@ impl App {
                 self.ctx.copy_text(String::from_utf8_lossy(&bytes).into_owned());
                 self.toasts.success(shell::REPORT_COPIED);
             }
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 }

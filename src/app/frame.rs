@@ -7,7 +7,7 @@ use super::offer::pressed;
 use super::restoring::sessions_folder;
 use super::text_size::SMALLEST_WINDOW;
 use super::window::{App, Services};
-use super::window_place::{bring_on_screen, mend_saved};
+use super::window_place::{bring_on_screen, repair_saved};
 use super::{fonts, language, panels, right_to_left, theme, title};
 use crate::catalogue::SourceFile;
 use crate::study::{Library, fault};
@@ -119,7 +119,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     let icon =
         eframe::icon_data::from_png_bytes(ICON).map_err(|error| anyhow::anyhow!("the window's icon: {error}"))?;
     if let Some(folder) = eframe::storage_dir(APP_ID) {
-        mend_saved(&folder.join("app.ron"));
+        repair_saved(&folder.join("app.ron"));
     }
     let options = eframe::NativeOptions {
         viewport: egui::ViewportBuilder::default()

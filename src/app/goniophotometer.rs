@@ -191,7 +191,7 @@ fn check(text: &str, base: PathBuf) -> Result<Described, AppError> {
     if !matches!(system.kind, SystemKind::Stack(_)) {
         let nothing_else = Library::default();
         for state in system.states() {
-            described.specimen(&state, &nothing_else)?;
+            described.optical_model(&state, &nothing_else)?;
         }
     }
     Ok(described)
@@ -247,16 +247,16 @@ pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
 /// Writes all states: one package (.cfsp), or one file per state (.xml, .btdf.txt), named by the states if there are
 /// several.
 pub fn export(run: &Run, path: &Path, made_from: &[PathBuf]) -> Result<PathBuf, AppError> {
-    let told = |error: AppError| error.about(path.display());
+    let about_path = |error: AppError| error.about(path.display());
     if ends_in(path, "cfsp") {
-        return write_whole(path, &package(run).map_err(|error| told(error.into()))?, made_from);
+        return write_whole(path, &package(run).map_err(|error| about_path(error.into()))?, made_from);
     }
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let format = Format::from_name(&name).ok_or_else(|| told(AppError::MeasuredEnding))?;
+    let format = Format::from_name(&name).ok_or_else(|| about_path(AppError::MeasuredEnding))?;
     let mut files = Vec::new();
     for (one, path) in run.finished.iter().zip(targets(run, path)) {
         let written = write_dataset(format, std::slice::from_ref(&*one.dataset));
-        files.push((path, written.map_err(|error| told(error.into()))?.bytes));
+        files.push((path, written.map_err(|error| about_path(error.into()))?.bytes));
     }
     write_several(&files, made_from)?;
     Ok(path.to_owned())

@@ -1,10 +1,10 @@
 //! Imported files that are not stored yet: proposed products with their states, and what was left out and why.
 
 use super::shelf::Addition;
-use crate::catalogue::{Doubt, Grouping, Known, NewProduct, Provenance, SourceFile, StateName, key_of_angle};
+use crate::catalogue::{Ambiguity, Grouping, Known, NewProduct, Provenance, SourceFile, StateName, key_of_angle};
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{Diagnosis, Repair, record};
-use crate::texts::{Text, take_in as text};
+use crate::texts::{Text, import as text};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -91,13 +91,13 @@ pub struct Proposed {
     /// Repairs made, in order; recorded when the product is stored.
     pub repairs: Vec<Repair>,
     /// Repairs that are being made instead of [`Proposed::repairs`].
-    pub wished: Option<Vec<Repair>>,
+    pub requested_repairs: Option<Vec<Repair>>,
     /// Texts for the user to fill in.
     pub fields: ImportFields,
     /// Other information from the files: provenance, description, control curve, key.
-    pub told: NewProduct,
+    pub file_info: NewProduct,
     /// Ambiguity to be resolved before the product is stored.
-    pub doubt: Option<Doubt>,
+    pub ambiguity: Option<Ambiguity>,
     /// File of this import that holds the same data.
     pub same_as: Option<String>,
     /// Products of the catalogue that hold all of its data.
@@ -121,7 +121,7 @@ impl Proposed {
     pub fn problem(&self) -> Option<String> {
         if let Some(place) = (0..self.datasets.len()).find(|&place| !transmits(&self.datasets[place])) {
             let file = self.sources.get(place).map_or("", String::as_str);
-            return Some(text::tells_nothing(file).trim().to_owned());
+            return Some(text::no_transmission(file).trim().to_owned());
         }
         if !self.named() {
             return Some(text::NAME_MISSING.into());
@@ -144,7 +144,7 @@ impl Proposed {
 
     /// Whether it is stored when the import is added.
     pub fn ready(&self) -> bool {
-        self.wanted() && self.doubt.is_none() && self.wished.is_none() && self.problem().is_none()
+        self.wanted() && self.ambiguity.is_none() && self.requested_repairs.is_none() && self.problem().is_none()
     }
 
     /// Returns the addition to the catalogue.
@@ -164,9 +164,9 @@ impl Proposed {
         };
         let name = |place: &usize| {
             let words = self.states.get(*place).cloned().unwrap_or_default();
-            let told = self.told.states.get(*place).cloned().unwrap_or_default();
-            let label = if words.name.trim().is_empty() { told.label } else { words.name.trim().to_owned() };
-            StateName { label, value: words.number().or(told.value) }
+            let reported = self.file_info.states.get(*place).cloned().unwrap_or_default();
+            let label = if words.name.trim().is_empty() { reported.label } else { words.name.trim().to_owned() };
+            StateName { label, value: words.number().or(reported.value) }
         };
         let fields = &self.fields;
         let product = NewProduct {
@@ -177,13 +177,13 @@ impl Proposed {
             license: fields.license.trim().to_owned(),
             provenance: Provenance {
                 author: fields.author.trim().to_owned(),
-                method: record(&self.told.provenance.method, &self.repairs),
-                ..self.told.provenance.clone()
+                method: record(&self.file_info.provenance.method, &self.repairs),
+                ..self.file_info.provenance.clone()
             },
             states: order.iter().map(name).collect(),
             contents: order.iter().map(|&place| self.contents.get(place).cloned().unwrap_or_default()).collect(),
             paths: self.paths(&order),
-            ..self.told.clone()
+            ..self.file_info.clone()
         };
         Addition { datasets: order.iter().map(named).collect(), product }
     }
@@ -288,7 +288,7 @@ impl Import {
 
     /// Returns the number of unresolved ambiguities of products that are to be stored.
     pub fn questions(&self) -> usize {
-        self.wanted().filter(|product| product.doubt.is_some()).count()
+        self.wanted().filter(|product| product.ambiguity.is_some()).count()
     }
 
     /// Returns all rows, from top to bottom.
@@ -353,11 +353,17 @@ impl KeptProduct {
     /// Creates the entry for a product as it is now.
     pub fn of(product: &Proposed) -> Self {
         Self {
-            source_hash: product.told.provenance.source_hash.clone(),
+            source_hash: product.file_info.provenance.source_hash.clone(),
             files: product.files.clone(),
             fields: product.fields.clone(),
             states: product.states.clone(),
-            repairs: product.wished.as_ref().unwrap_or(&product.repairs).iter().map(ToString::to_string).collect(),
+            repairs: product
+                .requested_repairs
+                .as_ref()
+                .unwrap_or(&product.repairs)
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
             add_anyway: product.add_anyway,
         }
     }
@@ -370,7 +376,7 @@ impl KeptProduct {
     /// Whether the entry was kept for the same files.
     pub fn is_about(&self, product: &Proposed) -> bool {
         if self.files.is_empty() {
-            self.source_hash == product.told.provenance.source_hash
+            self.source_hash == product.file_info.provenance.source_hash
         } else {
             self.files == product.files
         }

@@ -4,7 +4,7 @@ use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed, StateWords, file_id};
 use super::shelf::Shelf;
 use super::work::Outcome;
-use crate::catalogue::{Doubt, Gathered, Grouping, Known, NewProduct, SourceFile, content_of, gathered, propose};
+use crate::catalogue::{Ambiguity, Gathered, Grouping, Known, NewProduct, SourceFile, content_of, gathered, propose};
 use crate::compute::btdf::Dataset;
 use crate::compute::doctor::{examine_all, repaired_all};
 use crate::compute::estimate::Progress;
@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 struct Part {
     files: Vec<usize>,
     angles: Option<Vec<f64>>,
-    doubt: Option<Doubt>,
+    ambiguity: Option<Ambiguity>,
     /// Name of the file that holds the same data.
     same_as: Option<String>,
 }
@@ -36,7 +36,7 @@ fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -
             Some(&other) => list.push(Part {
                 files: vec![place],
                 angles: None,
-                doubt: None,
+                ambiguity: None,
                 same_as: Some(sources[other].name.clone()),
             }),
             None => {
@@ -49,7 +49,7 @@ fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -
     list.extend(propose(&files, grouping).into_iter().map(|one| Part {
         files: one.files.into_iter().map(|place| own[place]).collect(),
         angles: one.angles,
-        doubt: one.doubt,
+        ambiguity: one.ambiguity,
         same_as: None,
     }));
     list
@@ -76,7 +76,7 @@ fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<
             files: one.files.iter().map(|&place| files[place]).collect(),
             // A single file names its state itself, if it does.
             angles: one.angles.filter(|_| files.len() > 1),
-            doubt: None,
+            ambiguity: None,
             same_as: None,
         }));
         let same = |one: &Part| one.files == files;
@@ -113,7 +113,7 @@ impl Arranging<'_> {
                 // The question may be another one in another company.
                 Some(old) => {
                     let old = self.before.swap_remove(old);
-                    list.push((place, Proposed { doubt: part.doubt, same_as: part.same_as, ..old }));
+                    list.push((place, Proposed { ambiguity: part.ambiguity, same_as: part.same_as, ..old }));
                 }
                 None => fresh.push((place, ids, part)),
             }
@@ -144,7 +144,7 @@ impl Arranging<'_> {
             // A catalogue that does not answer keeps nobody from adding: it will say so itself.
             product.known = self.shelf.map(|shelf| known(product, shelf)).unwrap_or_default();
             if product.files.iter().any(|file| import.answered.contains(file)) {
-                product.doubt = None;
+                product.ambiguity = None;
             }
         }
     }
@@ -203,8 +203,8 @@ pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)])
     new.answered.clone_from(&now.answered);
     for product in &mut new.products {
         if let Some(same) = now.products.iter().find(|one| one.files == product.files) {
-            let (doubt, known) = (product.doubt.take(), std::mem::take(&mut product.known));
-            *product = Proposed { doubt, known, same_as: product.same_as.take(), ..same.clone() };
+            let (ambiguity, known) = (product.ambiguity.take(), std::mem::take(&mut product.known));
+            *product = Proposed { ambiguity, known, same_as: product.same_as.take(), ..same.clone() };
         } else {
             carry_over(&now.products, product);
             let holding =
@@ -216,14 +216,14 @@ pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)])
             }
         }
         if product.files.iter().any(|file| new.answered.contains(file)) {
-            product.doubt = None;
+            product.ambiguity = None;
         }
     }
 }
 
 /// Returns the products of the catalogue that hold all data of this one.
 fn known(product: &Proposed, shelf: &dyn Shelf) -> Vec<Known> {
-    let mut list = shelf.products_from(&product.told.provenance.source_hash).unwrap_or_default();
+    let mut list = shelf.products_from(&product.file_info.provenance.source_hash).unwrap_or_default();
     let mut holding: Option<Vec<Known>> = None;
     for content in &product.contents {
         let these = shelf.products_holding(content).unwrap_or_default();
@@ -249,7 +249,7 @@ fn of_files(files: &[&SourceFile], ids: Vec<String>, part: Part) -> Proposed {
     let contents = datasets.iter().zip(&parts).map(content).collect();
     let mut product = of_datasets(meta, datasets, &file_stem);
     (product.files, product.contents, product.sources, product.parts) = (ids, contents, sources, parts);
-    (product.doubt, product.same_as) = (part.doubt, part.same_as);
+    (product.ambiguity, product.same_as) = (part.ambiguity, part.same_as);
     product
 }
 
@@ -273,7 +273,7 @@ fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed
         originals: datasets.clone(),
         datasets,
         fields,
-        told: meta,
+        file_info: meta,
         ..Proposed::default()
     }
 }
@@ -312,14 +312,14 @@ fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
 
 /// Returns the product with its repairs made on all states, and its data checked.
 fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
-    let mended: Result<Vec<Arc<Dataset>>, _> =
+    let results: Result<Vec<Arc<Dataset>>, _> =
         product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs).map(Arc::new)).collect();
-    let datasets = mended?;
+    let datasets = results?;
     let diagnoses = examine_all(&datasets);
     Ok(Proposed { diagnoses, taus: taus(&datasets), datasets, ..product.clone() })
 }
 
 /// Makes repairs on all states of a product and checks the results.
-pub fn mend(product: &Proposed) -> Outcome {
-    Outcome::Mended(product.files.clone(), repaired(product).map(Box::new))
+pub fn repair_product(product: &Proposed) -> Outcome {
+    Outcome::Repaired(product.files.clone(), repaired(product).map(Box::new))
 }

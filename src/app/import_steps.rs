@@ -70,7 +70,7 @@ pub enum Step {
     /// Make the selected files the states of one product.
     Together,
     /// Make each selected file a product of its own.
-    Apart,
+    Separate,
     /// Make the selected files states of this product.
     StatesOf(usize),
     /// Set name and angle of a state.

@@ -6,7 +6,7 @@ use super::import_steps::{Choose, Step};
 use super::jobs::Lane;
 use super::window::{App, end_step};
 use crate::catalogue::Grouping;
-use crate::texts::take_in as text;
+use crate::texts::import as text;
 use std::collections::BTreeSet;
 
 impl Import {
@@ -62,7 +62,7 @@ impl App {
                     import.folded.insert(product);
                 }
             }
-            Step::Together | Step::Apart => {
+            Step::Together | Step::Separate => {
                 let files = import.files_of_selected();
                 let mut groups = import.without(&files);
                 import.answered.extend(files.iter().cloned());
@@ -96,13 +96,13 @@ impl App {
             }
             Step::Settle(product) => {
                 if let Some(one) = import.products.get_mut(product) {
-                    one.doubt = None;
+                    one.ambiguity = None;
                     import.answered.extend(one.files.iter().cloned());
                 }
             }
             Step::SettleAll => {
                 for one in &mut import.products {
-                    if one.doubt.take().is_some() {
+                    if one.ambiguity.take().is_some() {
                         import.answered.extend(one.files.iter().cloned());
                     }
                 }
@@ -147,7 +147,7 @@ impl App {
         if let Some(now) = self.state.import.as_ref().filter(|now| now.paths == new.paths) {
             catch_up(&mut new, now, names);
             self.state.import = Some(new);
-            self.mend_next();
+            self.repair_next();
         }
     }
 

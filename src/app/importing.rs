@@ -2,7 +2,7 @@
 
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed};
-use super::import_arranging::mend;
+use super::import_arranging::repair_product;
 use super::jobs::Lane;
 use super::reading::{Asked, read_files};
 use super::shelf::Addition;
@@ -10,7 +10,7 @@ use super::state::{Added, CatalogueState, Sheet};
 use super::window::{App, end_step};
 use crate::catalogue::Grouping;
 use crate::compute::doctor::Repair;
-use crate::texts::take_in as text;
+use crate::texts::import as text;
 use std::path::PathBuf;
 
 impl App {
@@ -64,7 +64,7 @@ impl App {
         self.keep_draft_of(|old| old.paths != import.paths);
         self.state.import = Some(import);
         self.state.sheet = Some(Sheet::Import);
-        self.mend_next();
+        self.repair_next();
     }
 
     /// Moves the open import to the drafts, if it holds something.
@@ -87,7 +87,7 @@ impl App {
     }
 
     /// Keeps the open import as a draft.
-    pub(super) fn put_aside(&mut self) {
+    pub(super) fn keep_draft(&mut self) {
         self.keep_draft_of(|_| true);
         self.state.sheet = None;
         if let Some(draft) = self.state.drafts.last() {
@@ -151,40 +151,42 @@ impl App {
     /// Changes the repairs of a product, which are made and checked in the background; until then it is not stored.
     pub(super) fn repair_import(&mut self, number: usize, change: impl FnOnce(&mut Vec<Repair>)) {
         if let Some(product) = self.proposed(number) {
-            change(product.wished.get_or_insert_with(|| product.repairs.clone()));
-            self.mend_next();
+            change(product.requested_repairs.get_or_insert_with(|| product.repairs.clone()));
+            self.repair_next();
         }
     }
 
     /// Starts the repair of the next product that waits for one.
-    pub(super) fn mend_next(&mut self) {
-        let import = self.state.import.as_ref().filter(|_| !self.jobs.busy(Lane::Mend));
-        let Some(product) = import.and_then(|import| import.products.iter().find(|one| one.wished.is_some())) else {
+    pub(super) fn repair_next(&mut self) {
+        let import = self.state.import.as_ref().filter(|_| !self.jobs.busy(Lane::Repair));
+        let Some(product) =
+            import.and_then(|import| import.products.iter().find(|one| one.requested_repairs.is_some()))
+        else {
             return;
         };
-        let repairs = product.wished.clone().unwrap_or_default();
+        let repairs = product.requested_repairs.clone().unwrap_or_default();
         let product = Proposed { repairs, ..product.clone() };
-        self.start(Lane::Mend, move |_| mend(&product));
+        self.start(Lane::Repair, move |_| repair_product(&product));
     }
 
     /// Stores the repaired data; texts typed meanwhile stay.
-    pub(super) fn take_mended(&mut self, files: &[String], mended: Result<Box<Proposed>, AppError>) {
+    pub(super) fn take_repaired(&mut self, files: &[String], repaired: Result<Box<Proposed>, AppError>) {
         let products = self.state.import.iter_mut().flat_map(|import| &mut import.products);
         if let Some(product) = products.into_iter().find(|product| product.files == files) {
-            match mended {
-                Ok(mended) => {
+            match repaired {
+                Ok(repaired) => {
                     // Another one may have been wished since: it is made next.
-                    product.wished.take_if(|wished| *wished == mended.repairs);
-                    (product.datasets, product.taus) = (mended.datasets, mended.taus);
-                    (product.diagnoses, product.repairs) = (mended.diagnoses, mended.repairs);
+                    product.requested_repairs.take_if(|requested| *requested == repaired.repairs);
+                    (product.datasets, product.taus) = (repaired.datasets, repaired.taus);
+                    (product.diagnoses, product.repairs) = (repaired.diagnoses, repaired.repairs);
                 }
                 Err(error) => {
-                    product.wished = None;
-                    self.tell(&error);
+                    product.requested_repairs = None;
+                    self.report_error(&error);
                 }
             }
         }
-        self.mend_next();
+        self.repair_next();
     }
 
     /// Stores all products that are ready, as one undo step. The others stay in the sheet.

@@ -195,7 +195,7 @@ impl<M: Send + 'static> Jobs<M> {
         self.next += 1;
         let generation = self.next;
         let gives_way = (lane.priority() == Priority::Background).then(|| self.sight.clone());
-        let awaited = (lane.priority() == Priority::InSight).then(|| Awaited::new(&self.sight));
+        let awaited = (lane.priority() == Priority::Visible).then(|| Awaited::new(&self.sight));
         let state = JobState::default();
         if gives_way.is_some() {
             state.report(self.background.stage(), self.background.done(), self.background.total());

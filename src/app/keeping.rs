@@ -31,7 +31,7 @@ impl App {
                 self.state.editing = Some(Editing::of(looked));
                 self.state.sheet = Some(Sheet::Product);
             }
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 
@@ -96,7 +96,7 @@ impl App {
                 self.state.document.changes.retain(|&other| other != number);
                 self.state.document.marks.retain(|&other| other != number);
             }
-            self.tell(&error);
+            self.report_error(&error);
         }
         let change = self.state.changes.get(number);
         let mark = change.is_some_and(Change::is_mark);
@@ -148,7 +148,7 @@ impl App {
                 }
                 self.look_up_sets();
             }
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 
@@ -160,7 +160,7 @@ impl App {
     pub(super) fn take_deleted(&mut self, list: Result<Vec<Deleted>, AppError>) {
         match list {
             Ok(list) => self.state.deleted = list,
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 }

@@ -14,7 +14,7 @@ pub enum Lane {
     /// Grouping imported files into other products.
     Arrange,
     /// Repairs of imported products.
-    Mend,
+    Repair,
     /// Searching for fonts of the system.
     Fonts,
     /// Asking for paths in a dialog of the desktop.
@@ -75,7 +75,7 @@ impl Lane {
             Self::Palette => shell::LANE_PALETTE,
             Self::Import => shell::LANE_IMPORT,
             Self::Arrange => shell::LANE_ARRANGE,
-            Self::Mend => shell::LANE_MEND,
+            Self::Repair => shell::LANE_REPAIR,
             Self::Fonts => shell::LANE_FONTS,
             Self::Dialog => shell::LANE_DIALOG,
             Self::Findings => products::LANE_FINDINGS,
@@ -112,7 +112,7 @@ impl Lane {
             Self::Import | Self::Export => Priority::Asking,
             // A share may take its time.
             Self::Subscribed => Priority::Asking,
-            _ => Priority::InSight,
+            _ => Priority::Visible,
         }
     }
 }
@@ -121,7 +121,7 @@ impl Lane {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Priority {
     /// Priority of jobs that visible results depend on.
-    InSight,
+    Visible,
     /// Priority of jobs that may wait for an answer of the user: they neither give way nor are given way to.
     Asking,
     /// Priority of jobs without visible results: they rest while any visible result is being computed.

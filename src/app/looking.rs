@@ -35,7 +35,7 @@ impl App {
         let state = &self.state;
         let look = state.data_look;
         let Some(dataset) = state.dataset.value.clone().filter(|_| look != DataLook::default()) else { return };
-        if !self.bench.in_sight(state.maximised).contains(&TILE) {
+        if !self.bench.visible_tiles(state.maximised).contains(&TILE) {
             return;
         }
         let Some(btdf) = dataset.transmission() else { return };

@@ -41,8 +41,8 @@ impl App {
             return;
         };
         bench.failure = None;
-        let goes_on = bench.run.take().filter(|run| bench.is_current(run) && !run.complete());
-        let run = goes_on.unwrap_or(Run { described, setup: bench.setup, states: None, finished: Vec::new() });
+        let resumed = bench.run.take().filter(|run| bench.is_current(run) && !run.complete());
+        let run = resumed.unwrap_or(Run { described, setup: bench.setup, states: None, finished: Vec::new() });
         bench.run = Some(run);
         self.measure_next_state();
     }

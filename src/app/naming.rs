@@ -1,6 +1,6 @@
 //! Proposed file names: product, state and moment, in characters that every system accepts.
 
-use super::hand_on::{ReportKind, What};
+use super::export_choices::{ReportKind, What};
 use super::moment;
 use super::safe_name::safe;
 use super::scene::own_system;
@@ -49,7 +49,7 @@ pub fn file_name(state: &State, what: PathUse) -> String {
         PathUse::ExportTile(tile) => {
             format!("{}_{}.csv", study(state, TileKind::titled(tile.title)), safe(&tile.title.to_lowercase()))
         }
-        PathUse::HandOn => handed_on(state),
+        PathUse::Export => export_name(state),
         PathUse::ExportMeasured => {
             let described = state.goniophotometer.run.as_ref().map(|run| &run.described.file);
             let name = described.map(|file| if file.key.is_empty() { &file.system.name } else { &file.key });
@@ -60,8 +60,8 @@ pub fn file_name(state: &State, what: PathUse) -> String {
 }
 
 /// Returns the proposed name of an export.
-fn handed_on(state: &State) -> String {
-    let choices = &state.settings.hand_on;
+fn export_name(state: &State) -> String {
+    let choices = &state.settings.export;
     let (ending, tile) = (choices.ending(), choices.tile.word());
     let product = product(state);
     match choices.what {

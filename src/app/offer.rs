@@ -2,6 +2,7 @@
 //! new one is an entry here and its effect in [`super::apply`].
 
 use super::arrange::{self, Way};
+use super::catalogue_command::CatalogueCommand;
 use super::choose::ChooseAct;
 use super::command::{Command, SYSTEM_EDITOR};
 use super::compare::{Act, Look};
@@ -10,7 +11,6 @@ use super::examples::EXAMPLES;
 use super::language::LanguageChoice;
 use super::outside;
 use super::room_look::RoomView;
-use super::shelving::Shelving;
 use super::state::{self, PathUse};
 use super::text_size::TextSize as Size;
 use super::theme::ThemeChoice;
@@ -140,28 +140,29 @@ fn table() -> Vec<Offer> {
             .unlisted(),
         offer(OpenFolder, words::OPEN_FOLDER, words::OPEN_FOLDER_TIP).keys(CTRL.plus(SHIFT), Key::O).menu(FILE, 0),
         offer(SyncSubscribed, words::READ_SUBSCRIBED, words::READ_SUBSCRIBED_TIP).menu(FILE, 3),
-        offer(Shelve(Shelving::Subscribe), catalogue::SUBSCRIBE_MENU, catalogue::SUBSCRIBE_TIP).menu(FILE, 3),
+        offer(Catalogue(CatalogueCommand::Subscribe), catalogue::SUBSCRIBE_MENU, catalogue::SUBSCRIBE_TIP)
+            .menu(FILE, 3),
         offer(sheet(state::Sheet::Subscriptions), catalogue::SUBSCRIPTIONS_MENU, catalogue::SUBSCRIPTIONS_TIP)
             .menu(FILE, 3),
         offer(sheet(state::Sheet::Import), words::IMPORT, words::IMPORT_TIP).keys(PLAIN, Key::I).menu(FILE, 2),
-        offer(PutAside, words::PUT_ASIDE, words::PUT_ASIDE_TIP),
+        offer(KeepDraft, words::KEEP_DRAFT, words::KEEP_DRAFT_TIP),
         offer(SaveScene, words::SAVE_SCENE, words::SAVE_SCENE_TIP).keys(CTRL, Key::S).menu(FILE, 10),
-        offer(sheet(state::Sheet::HandOn), words::HAND_ON, words::HAND_ON_TIP).keys(CTRL, Key::E).menu(FILE, 11),
+        offer(sheet(state::Sheet::Export), words::EXPORT, words::EXPORT_TIP).keys(CTRL, Key::E).menu(FILE, 11),
         offer(ExportLid, words::EXPORT_LID, words::EXPORT_LID_TIP).menu(FILE, 12),
         offer(Undo, words::UNDO, words::UNDO_TIP).keys(CTRL, Key::Z).menu(EDIT, 0),
         offer(Redo, words::REDO, words::REDO_TIP).keys(CTRL.plus(SHIFT), Key::Z).menu(EDIT, 1),
         offer(EditProduct(None), words::EDIT_PRODUCT, words::EDIT_PRODUCT_TIP).keys(PLAIN, Key::F2).menu(EDIT, 10),
         offer(sheet(state::Sheet::Collections), catalogue::COLLECTIONS_MENU, catalogue::COLLECTIONS_TIP).menu(EDIT, 10),
-        offer(Shelve(Shelving::Star), catalogue::STAR_MENU, catalogue::STAR_MENU_TIP).menu(EDIT, 10),
+        offer(Catalogue(CatalogueCommand::Star), catalogue::STAR_MENU, catalogue::STAR_MENU_TIP).menu(EDIT, 10),
         offer(DeleteProduct(None), words::DELETE_PRODUCT, words::DELETE_PRODUCT_TIP).menu(EDIT, 11),
         offer(sheet(state::Sheet::Deleted), words::DELETED, words::DELETED_TIP).menu(EDIT, 12),
         offer(AddImport, words::ADD_IMPORT, words::ADD_IMPORT_TIP),
         offer(sheet(state::Sheet::Messages), words::MESSAGES, words::MESSAGES_TIP).menu(HELP, 3),
-        offer(Shelve(Shelving::Gallery), catalogue::GALLERY_MENU, catalogue::GALLERY_TIP)
+        offer(Catalogue(CatalogueCommand::Gallery), catalogue::GALLERY_MENU, catalogue::GALLERY_TIP)
             .keys(CTRL, Key::G)
             .menu(VIEW, 22),
-        offer(Shelve(Shelving::Recent), catalogue::RECENT_MENU, catalogue::RECENT_ALONE).menu(VIEW, 22),
-        offer(Shelve(Shelving::First), catalogue::FIRST_MENU, catalogue::FIRST_MENU_TIP),
+        offer(Catalogue(CatalogueCommand::Recent), catalogue::RECENT_MENU, catalogue::RECENT_ALONE).menu(VIEW, 22),
+        offer(Catalogue(CatalogueCommand::First), catalogue::FIRST_MENU, catalogue::FIRST_MENU_TIP),
         offer(Search, words::SEARCH, words::SEARCH_TIP).keys(CTRL, Key::F),
         offer(Palette, words::PALETTE, words::PALETTE_TIP).keys(CTRL, Key::K).menu(HELP, 0),
     ];
@@ -253,7 +254,7 @@ fn table() -> Vec<Offer> {
     }));
     list.extend([
         offer(act(Act::Copy), words::COPY_COMPARED, words::COPY_COMPARED_TIP).menu(COMPARE, 30),
-        offer(act(Act::Clear), words::CLEAR_TRAY, words::CLEAR_TRAY_TIP).menu(COMPARE, 31),
+        offer(act(Act::Clear), words::CLEAR_COMPARISON, words::CLEAR_COMPARISON_TIP).menu(COMPARE, 31),
         offer(Like(None), words::LIKE, words::LIKE_TIP).menu(COMPARE, 40),
     ]);
     let outdoors =
@@ -340,7 +341,7 @@ pub fn of(command: &Command) -> Option<&'static Offer> {
 /// Whether a command opens something to type in.
 const fn opens_field(command: &Command) -> bool {
     use Command::{Open, OpenFolder, Palette, SaveScene, Search, Sheet};
-    matches!(command, Open | OpenFolder | Palette | SaveScene | Search | Sheet(Some(state::Sheet::HandOn)))
+    matches!(command, Open | OpenFolder | Palette | SaveScene | Search | Sheet(Some(state::Sheet::Export)))
 }
 
 /// Returns the commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard,

@@ -11,7 +11,7 @@ use super::state::{CatalogueState, Daylight, Document, PathUse, Sheet, Shown};
 use super::tiles;
 use super::title;
 use super::window::{App, end_step, fresh_undoer};
-use super::work::{Outcome, Shelved, daylight, fill_some, obstructions, take_from_shelf};
+use super::work::{LoadedSelection, Outcome, daylight, fill_some, obstructions, take_from_shelf};
 use crate::catalogue::{Product, Stored};
 use crate::compute::lid::c_gamma::Peaks;
 use crate::study::files;
@@ -175,7 +175,7 @@ impl App {
             }
             Outcome::Found(Err(error)) => self.state.search_error = Some(error.to_string()),
             Outcome::Hits(found) => self.take_hits(found),
-            Outcome::Scene(shelved, daylight) => self.take_scene(shelved, daylight),
+            Outcome::Scene(loaded, daylight) => self.take_scene(loaded, daylight),
             Outcome::Year(result) => self.results.year.take(result),
             Outcome::Annual(result) => self.results.annual.take(result.map(|annual| *annual)),
             Outcome::Ranked(result) => self.take_ranked(result),
@@ -192,17 +192,17 @@ impl App {
             Outcome::Compared(id, what) => self.compare.take(id, *what),
             Outcome::Chosen(Ok(paths)) => self.apply(Command::OpenPaths(paths)),
             // Who pressed a button for it sees nothing else.
-            Outcome::Target(PathUse::HandOn, Err(error)) => self.toasts.info(error.to_string()),
+            Outcome::Target(PathUse::Export, Err(error)) => self.toasts.info(error.to_string()),
             // Without a dialog the sheet's path field is the way, and it is open already.
             Outcome::Chosen(Err(_)) | Outcome::Target(_, Err(_) | Ok(None)) => {}
             // Chosen, not yet written: the preview continues.
-            Outcome::Target(PathUse::HandOn, Ok(Some(path))) => self.state.path = path.display().to_string(),
+            Outcome::Target(PathUse::Export, Ok(Some(path))) => self.state.path = path.display().to_string(),
             Outcome::Target(what, Ok(Some(path))) => self.apply(Command::Write(what, path)),
             Outcome::Several(list) => list.into_iter().for_each(|outcome| self.take(outcome)),
             Outcome::Rearranged(import, names) => self.take_rearranged(*import, &names),
             Outcome::Examined(dataset, found) => self.state.examined = Some((dataset, found)),
             Outcome::Read(import) => self.take_import(*import),
-            Outcome::Mended(files, mended) => self.take_mended(&files, mended),
+            Outcome::Repaired(files, repaired) => self.take_repaired(&files, repaired),
             Outcome::ReadScene(path, Ok(scene)) => {
                 end_step(&mut self.undoer, &self.state.document);
                 self.state.document.scene = *scene;
@@ -217,7 +217,7 @@ impl App {
             Outcome::ReadSystem(Ok((text, base))) => self.open_system(text, base),
             Outcome::Measured(result) => self.take_measured(result),
             Outcome::ReadScene(_, Err(error)) | Outcome::ReadCurve(Err(error)) | Outcome::ReadSystem(Err(error)) => {
-                self.tell(&error);
+                self.report_error(&error);
             }
             Outcome::Added(numbers, Ok(products)) => self.take_added(&numbers, products),
             Outcome::Added(numbers, Err(error)) => {
@@ -225,7 +225,7 @@ impl App {
                 self.take_not_added(&numbers, &error);
             }
             Outcome::Choice(Ok(product)) => self.choose_product(&product),
-            Outcome::Choice(Err(error)) => self.tell(&error),
+            Outcome::Choice(Err(error)) => self.report_error(&error),
             Outcome::Changed(number, forth, result) => self.take_changed(number, forth, result),
             Outcome::Editing(looked) => self.take_editing(looked),
             Outcome::ToReplace(change) => self.take_replacement(change),
@@ -242,8 +242,8 @@ impl App {
                 self.search();
             }
             Outcome::Preview(result) => {
-                self.state.hand_on.revision += 1;
-                self.state.hand_on.shown = Some(result.map_err(|error| error.to_string()));
+                self.state.export.revision += 1;
+                self.state.export.shown = Some(result.map_err(|error| error.to_string()));
             }
             Outcome::Copied(tile, drawn) => self.take_copied(tile, drawn),
             Outcome::There(what, path, there) => self.take_there(what, path, there),
@@ -254,15 +254,15 @@ impl App {
                     self.state.scene_path = Some(path);
                 }
             }
-            Outcome::Written(_, Err(error)) => self.tell(&error),
+            Outcome::Written(_, Err(error)) => self.report_error(&error),
             Outcome::Warning(text) => self.toasts.warning(text),
             Outcome::Fonts(fonts, missing) => self.take_fonts(fonts, missing),
         }
     }
 
-    fn take_scene(&mut self, shelved: Result<Shelved, AppError>, daylight: Result<Daylight, SkyKeyError>) {
-        match shelved {
-            Ok(Shelved { product, state, dataset }) => {
+    fn take_scene(&mut self, loaded: Result<LoadedSelection, AppError>, daylight: Result<Daylight, SkyKeyError>) {
+        match loaded {
+            Ok(LoadedSelection { product, state, dataset }) => {
                 self.state.product = Some(product.clone());
                 self.state.shown_state.clone_from(&state);
                 self.state.dataset.error = None;
@@ -327,12 +327,12 @@ impl App {
         if let Some(selection) = selection_of(&self.state.document.scene) {
             self.state.document.selection = selection;
         } else if !self.state.document.selection.product.is_empty() {
-            self.tell_own_system(title::product(&self.state));
+            self.report_own_system(title::product(&self.state));
         }
     }
 
     /// Shows a message if the room has another system than the product that the other tiles show.
-    fn tell_own_system(&mut self, product: String) {
+    fn report_own_system(&mut self, product: String) {
         if let Some(system) = own_system(&self.state.document.scene) {
             self.toasts.info(shell::own_system(title::system(system), product));
         }
@@ -356,7 +356,7 @@ impl App {
         if own_system(&self.state.document.scene).is_some() {
             let state = state.unwrap_or_default().to_owned();
             self.state.document.selection = Selection { product: chosen.key.clone(), state };
-            self.tell_own_system(chosen.name.clone());
+            self.report_own_system(chosen.name.clone());
         } else {
             first_choice(&mut self.state.document, chosen.key.clone(), chosen.rule, state);
         }
@@ -390,7 +390,7 @@ impl App {
         let asked = self.asked_peaks.as_ref().is_some_and(|asked| Arc::ptr_eq(asked, figures));
         // A table of all directions takes seconds: not before the pictures are there.
         let sooner = [Lane::Scene, Lane::Product, Lane::Lid, Lane::Room].into_iter().any(|lane| self.jobs.busy(lane));
-        let hidden = !self.bench.in_sight(self.state.maximised).contains(&tiles::LID);
+        let hidden = !self.bench.visible_tiles(self.state.maximised).contains(&tiles::LID);
         if asked || sooner || hidden || self.ctx.input(|input| input.pointer.any_down()) {
             return;
         }

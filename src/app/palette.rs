@@ -153,7 +153,7 @@ impl App {
             }
             Err(error) => {
                 self.state.palette_hits.clear();
-                self.tell(&error);
+                self.report_error(&error);
             }
         }
     }

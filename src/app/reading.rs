@@ -10,7 +10,7 @@ use crate::catalogue::Grouping;
 use crate::compute::estimate::Progress;
 use crate::formats::control_curve::read_control_curve;
 use crate::formats::encoding::decode;
-use crate::study::intake::{Single, take_in};
+use crate::study::intake::{Single, import_files};
 use crate::study::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -59,7 +59,7 @@ fn read_single(single: Single, path: &Path) -> Outcome {
 /// Reads files: of scenes, systems and control curves the first that is named; datasets and packages as products to be
 /// added; other files are reported.
 pub fn read_files(asked: &Asked, progress: &dyn Progress) -> Outcome {
-    let taken = take_in(&asked.paths, asked.read, progress);
+    let taken = import_files(&asked.paths, asked.read, progress);
     // Restored with a session, files opened by themselves are open already: reading them again would undo later
     // changes.
     let singles = taken.singles.iter().filter(|_| asked.kept.is_none());

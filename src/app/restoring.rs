@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Maximum time that a closing window waits for what is still being stored.
-const PATIENCE: Duration = Duration::from_secs(60);
+const CLOSE_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Returns the folder of the user's sessions: beside the catalogue, in the user's data folder.
 pub fn sessions_folder() -> Option<PathBuf> {
@@ -78,7 +78,7 @@ impl App {
     pub fn close(&mut self) {
         let start = Instant::now();
         let storing = |app: &Self| app.jobs.busy(Lane::Store) || !app.pending_changes.is_empty() || app.writing;
-        while storing(self) && self.state.shelf().is_some() && start.elapsed() < PATIENCE {
+        while storing(self) && self.state.shelf().is_some() && start.elapsed() < CLOSE_TIMEOUT {
             self.poll();
             self.write_exports();
             std::thread::sleep(Duration::from_millis(5));

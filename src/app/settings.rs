@@ -1,6 +1,6 @@
 //! Settings that are kept from one start to the next, beside the session.
 
-use super::hand_on::Choices;
+use super::export_choices::Choices;
 use super::language::LanguageChoice;
 use super::room_look::RoomLook;
 use super::theme::ThemeChoice;
@@ -25,7 +25,8 @@ pub struct Settings {
     /// Folder that was written to or read from last.
     pub folder: Option<PathBuf>,
     /// Choices of the last export.
-    pub hand_on: Choices,
+    #[serde(rename = "hand_on")]
+    pub export: Choices,
     /// Arrangement of the tiles; `None`: as at a first start.
     pub layout: Option<String>,
     /// Display settings of the room.
@@ -53,7 +54,7 @@ impl Default for Settings {
             scene_open: true,
             last_scene: None,
             folder: None,
-            hand_on: Choices::default(),
+            export: Choices::default(),
             layout: None,
             room: RoomLook::default(),
             year: Look::default(),

@@ -25,16 +25,16 @@ pub struct WindowLibrary<'a> {
 impl SystemLibrary for WindowLibrary<'_> {
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError> {
         let SystemKeys::Catalogue { key, state } = keys else { return self.files.load(keys, base, need) };
-        let told = |error: AppError| match error {
+        let study_error = |error: AppError| match error {
             AppError::Study(error) => error,
             other => StudyError::Catalogue(other.to_string()),
         };
-        self.shelf.provide(key, state.as_deref(), self.progress).map_err(told)?;
-        let dataset = self.shelf.load(key, state.as_deref()).map_err(told)?;
-        let very = self.files.very_of(&dataset);
+        self.shelf.provide(key, state.as_deref(), self.progress).map_err(study_error)?;
+        let dataset = self.shelf.load(key, state.as_deref()).map_err(study_error)?;
+        let model = self.files.model_of(&dataset);
         // The product's name: a dataset's own may be that of another product with the same data.
         let label = self.shelf.product(key).map_err(|error| StudyError::Catalogue(error.to_string()))?.name.clone();
-        Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
+        Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, model }))
     }
 
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {

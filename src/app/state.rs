@@ -6,8 +6,8 @@ use super::compare::View;
 use super::control::{Year, YearKey};
 use super::data_looks::{DataLook, FormResult, SchemesResult};
 use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
+use super::export_choices::ExportState;
 use super::goniophotometer::Bench;
-use super::hand_on::HandOn;
 use super::import::{Arranged, Import, KeptImport};
 use super::outside::ObstructionEffects;
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
@@ -200,7 +200,7 @@ pub enum Sheet {
     /// Messages of the window.
     Messages,
     /// Export: pictures, reports, luminaires, data.
-    HandOn,
+    Export,
     /// Path to open or write.
     Path(PathUse),
 }
@@ -223,7 +223,7 @@ pub enum PathUse {
     /// Subscribe to a folder of packages.
     Subscribe,
     /// Write an export.
-    HandOn,
+    Export,
 }
 
 impl PathUse {
@@ -237,7 +237,7 @@ impl PathUse {
             Self::ExportMeasured => shell::EXPORT_THE_DATA,
             Self::ReplaceState => shell::REPLACE_A_STATE,
             Self::Subscribe => subscribing::SUBSCRIBE_TITLE,
-            Self::HandOn => shell::HAND_ON,
+            Self::Export => shell::EXPORT_SHEET,
         }
     }
 }
@@ -265,7 +265,7 @@ pub struct State {
     /// Path that was to be written but exists; the user is asked whether to replace it.
     pub replace: Option<PathBuf>,
     /// Export dialog.
-    pub hand_on: HandOn,
+    pub export: ExportState,
     /// Import that is open.
     pub import: Option<Import>,
     /// Import in progress: being read from its files, or written to the catalogue.
@@ -368,7 +368,7 @@ impl State {
             sheet: None,
             path: String::new(),
             replace: None,
-            hand_on: HandOn::default(),
+            export: ExportState::default(),
             import: None,
             under_way: None,
             storing: None,

@@ -15,12 +15,12 @@ pub enum Stop {
     /// Add a candidate to the comparison.
     Compare,
     /// Export.
-    HandOn,
+    Export,
 }
 
 impl Stop {
     /// All steps, in order.
-    pub const ALL: [Self; 5] = [Self::Product, Self::Sun, Self::Light, Self::Compare, Self::HandOn];
+    pub const ALL: [Self; 5] = [Self::Product, Self::Sun, Self::Light, Self::Compare, Self::Export];
 
     /// Returns the instruction.
     pub const fn words(self) -> Text {
@@ -29,7 +29,7 @@ impl Stop {
             Self::Sun => shell::TOUR_SUN,
             Self::Light => shell::TOUR_LIGHT,
             Self::Compare => shell::TOUR_COMPARE,
-            Self::HandOn => shell::TOUR_HAND_ON,
+            Self::Export => shell::TOUR_EXPORT,
         }
     }
 }
@@ -52,7 +52,7 @@ pub(super) struct Seen {
     pub(super) sun: (Option<TimeKey>, Option<f64>, Option<f64>),
     pub(super) light: bool,
     pub(super) candidates: usize,
-    pub(super) handing_on: bool,
+    pub(super) is_export_open: bool,
 }
 
 impl Seen {
@@ -63,7 +63,7 @@ impl Seen {
             Stop::Sun => now.sun != self.sun,
             Stop::Light => now.light && !self.light,
             Stop::Compare => now.candidates > self.candidates,
-            Stop::HandOn => now.handing_on && !self.handing_on,
+            Stop::Export => now.is_export_open && !self.is_export_open,
         }
     }
 }

@@ -14,7 +14,7 @@ fn seen(state: &State) -> Seen {
         sun: (sky.time.clone(), sky.sun.altitude, sky.sun.azimuth),
         light: state.maximised.is_some_and(|tile| tile == LID || tile == ROOM),
         candidates: compare.len(),
-        handing_on: state.sheet == Some(Sheet::HandOn),
+        is_export_open: state.sheet == Some(Sheet::Export),
     }
 }
 
@@ -46,7 +46,7 @@ impl App {
                 (state.sheet, state.compare.open, state.maximised) = (None, false, None);
                 self.bring_up(LID);
             }
-            Stop::Compare | Stop::HandOn => {}
+            Stop::Compare | Stop::Export => {}
         }
         self.state.tour = Some(Tour { stop, seen: seen(&self.state) });
     }

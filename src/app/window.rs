@@ -236,7 +236,7 @@ impl App {
     }
 
     /// Shows an error as a message.
-    pub(super) fn tell(&mut self, error: &AppError) {
+    pub(super) fn report_error(&mut self, error: &AppError) {
         self.toasts.error(error.to_string());
     }
 

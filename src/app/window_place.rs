@@ -12,11 +12,11 @@ const LEAST_SHOWN: i64 = 64;
 type Area = [i64; 4];
 
 /// Corrects the zoom factor in a saved window if it is out of range; what cannot be read stays as it is.
-pub(super) fn mend_saved(file: &Path) {
+pub(super) fn repair_saved(file: &Path) {
     let Ok(saved) = std::fs::read_to_string(file) else { return };
-    if let Some(mended) = with_sound_zoom(&saved) {
+    if let Some(repaired) = with_sound_zoom(&saved) {
         // If this fails, the window opens as it would without.
-        _ = write_whole(file, mended.as_bytes(), &[]);
+        _ = write_whole(file, repaired.as_bytes(), &[]);
     }
 }
 
@@ -75,10 +75,10 @@ mod tests {
         assert_eq!(with_sound_zoom("{}"), None);
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("app.ron");
-        mend_saved(&file);
+        repair_saved(&file);
         assert!(!file.exists());
         std::fs::write(&file, saved("0.0")).unwrap();
-        mend_saved(&file);
+        repair_saved(&file);
         assert_eq!(std::fs::read_to_string(&file).unwrap(), saved("1.0"));
     }
 

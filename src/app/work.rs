@@ -7,9 +7,9 @@ use super::data_looks::{FormResult, SchemesResult};
 use super::disk::write_whole;
 use super::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use super::error::AppError;
+use super::export_choices::Preview;
 use super::gallery::Made;
 use super::goniophotometer::Finished;
-use super::hand_on::Preview;
 use super::import::{Import, Proposed};
 use super::jobs::JobState;
 use super::outside::ObstructionEffects;
@@ -60,7 +60,7 @@ pub enum Outcome {
     /// Products of the catalogue that match the palette's text.
     Hits(Result<Found, AppError>),
     /// Product, state and dataset of the selection, and sky and sun.
-    Scene(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
+    Scene(Result<LoadedSelection, AppError>, Result<Daylight, SkyKeyError>),
     /// Year of shading control.
     Year(Result<Year, StudyError>),
     /// Annual simulation of the room.
@@ -103,7 +103,7 @@ pub enum Outcome {
     Several(Vec<Outcome>),
     /// Imported product, identified by its files, with the requested repairs made: its datasets, their findings, and
     /// the repairs; or the reason why not.
-    Mended(Vec<String>, Result<Box<Proposed>, AppError>),
+    Repaired(Vec<String>, Result<Box<Proposed>, AppError>),
     /// System file that was read: its text and folder.
     ReadSystem(Result<(String, PathBuf), AppError>),
     /// Computed state of a system, with the keys of all its states.
@@ -169,7 +169,7 @@ impl Outcome {
 #[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
 pub enum Compared {
     /// Product, state and dataset, and sky and sun.
-    Shelf(Result<Shelved, AppError>, Result<Daylight, SkyKeyError>),
+    Shelf(Result<LoadedSelection, AppError>, Result<Daylight, SkyKeyError>),
     /// State and dataset of a system that is not a product of the catalogue, and sky and sun.
     Own(Result<(String, Arc<Dataset>), AppError>, Result<Daylight, SkyKeyError>),
     /// LID of the first aperture.
@@ -189,7 +189,7 @@ pub enum Compared {
 }
 
 /// Product, state and dataset of the selection in the catalogue.
-pub struct Shelved {
+pub struct LoadedSelection {
     /// Selected product.
     pub product: Arc<Product>,
     /// Key of the state, picked by the scene's control if the state is controlled.
@@ -235,7 +235,7 @@ pub(super) fn take_from_shelf(
     scene: &SceneFile,
     daylight: Option<&Daylight>,
     (aperture, base): (usize, &Path),
-) -> Result<Shelved, AppError> {
+) -> Result<LoadedSelection, AppError> {
     let product = shelf.product(&selection.product)?;
     let state = if selection.state == CONTROLLED {
         let fixed = ControlKeys::of(ControlMode::Fixed);
@@ -259,7 +259,7 @@ pub(super) fn take_from_shelf(
     // What has to be computed is not waited for: sky, names and states are shown at once.
     let ready = shelf.is_ready(&selection.product, Some(&state))?;
     let dataset = if ready { Some(shelf.load(&selection.product, Some(&state))?) } else { None };
-    Ok(Shelved { product, state, dataset })
+    Ok(LoadedSelection { product, state, dataset })
 }
 
 /// Saves the scene.

@@ -1,16 +1,16 @@
 //! Files of the window: asking for paths, reading what was chosen, writing scene, luminaire, tiles and computed data.
 
+use super::catalogue_command::CatalogueCommand;
 use super::disk::write_whole;
+use super::exporting;
 use super::goniophotometer;
-use super::handing_on;
 use super::jobs::Lane;
 use super::naming::start_path;
-use super::shelving::Shelving;
 use super::state::{PathUse, Sheet, Tile};
 use super::typed_path::with_ending;
 use super::window::App;
 use super::work::{Outcome, export_lid, save_scene};
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 use std::path::{Path, PathBuf};
 
 impl App {
@@ -51,7 +51,7 @@ impl App {
         }
         let targets = match (what, &self.state.goniophotometer.run) {
             (PathUse::ExportMeasured, Some(run)) => goniophotometer::targets(run, &path),
-            (PathUse::HandOn, _) => handing_on::targets(&self.state, &path),
+            (PathUse::Export, _) => exporting::targets(&self.state, &path),
             _ => vec![path.clone()],
         };
         self.start(Lane::Export, move |_| {
@@ -64,7 +64,7 @@ impl App {
         if there {
             self.state.path = path.display().to_string();
             self.state.replace = Some(path);
-            self.state.sheet = Some(if what == PathUse::HandOn { Sheet::HandOn } else { Sheet::Path(what) });
+            self.state.sheet = Some(if what == PathUse::Export { Sheet::Export } else { Sheet::Path(what) });
         } else {
             self.write(what, path);
         }
@@ -89,14 +89,14 @@ impl App {
         match what {
             PathUse::Open => self.read_paths(vec![path]),
             PathUse::ReplaceState => self.replace_state(path),
-            PathUse::Subscribe => self.shelve(Shelving::SubscribeTo(path)),
+            PathUse::Subscribe => self.apply_catalogue_command(CatalogueCommand::SubscribeTo(path)),
             PathUse::SaveScene => {
                 let text = toml::to_string_pretty(&self.state.document.scene);
                 let made_from = self.state.files_of_scene();
                 self.start_writing(move || save_scene(&path, text, &made_from));
             }
             PathUse::ExportTile(tile) => self.export_tile(tile, path),
-            PathUse::HandOn => self.write_hand_on(path),
+            PathUse::Export => self.start_export(path),
             PathUse::ExportMeasured => {
                 self.state.sheet = Some(Sheet::Goniophotometer);
                 match self.state.goniophotometer.run.clone() {
@@ -128,7 +128,7 @@ impl App {
     fn export_tile(&mut self, tile: Tile, path: PathBuf) {
         match self.export.ask(tile, path) {
             Ok(()) => self.bring_up(tile),
-            Err(error) => self.tell(&error),
+            Err(error) => self.report_error(&error),
         }
     }
 

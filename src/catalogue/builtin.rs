@@ -239,7 +239,7 @@ pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
         // Where pages are broken the file has to be repaired first.
         damaged_rows(&tx).unwrap_or_default()
     };
-    let restored = take_out(&tx, &damaged)?;
+    let restored = remove_damaged(&tx, &damaged)?;
     for product in products.iter().map(|(_, product)| product).chain(ideals.iter().map(|record| &record.product)) {
         light_up(&tx, product)?;
     }
@@ -264,7 +264,7 @@ pub(super) fn restore_damaged(catalogue: &Catalogue) -> Result<bool, CatalogueEr
     if damaged.is_empty() || version(&tx)? != BUILTIN_VERSION {
         return Ok(false);
     }
-    let restored = take_out(&tx, &damaged)?;
+    let restored = remove_damaged(&tx, &damaged)?;
     put_missing(&tx, ideal_records()?)?;
     tx.commit()?;
     catalogue.restored.borrow_mut().extend(restored);
@@ -278,7 +278,7 @@ fn damaged_rows(db: &Connection) -> Result<Vec<i64>, CatalogueError> {
 }
 
 /// Removes damaged rows of built-in products and records that in their histories. Returns their keys.
-fn take_out(tx: &Transaction<'_>, ids: &[i64]) -> Result<Vec<String>, CatalogueError> {
+fn remove_damaged(tx: &Transaction<'_>, ids: &[i64]) -> Result<Vec<String>, CatalogueError> {
     let mut keys = Vec::new();
     for id in ids {
         let sql = "DELETE FROM product WHERE id = ? RETURNING CAST(key AS BLOB)";

@@ -7,7 +7,7 @@ use crate::compute::control::curve::{redirecting_tilt, retro_tilt};
 use crate::compute::control::cut_off::SlatRow;
 use crate::compute::direction::Dir;
 use crate::compute::sky::SUN_HALF_ANGLE;
-use crate::compute::system::measure::{Quality, Side, Specimen};
+use crate::compute::system::measure::{OpticalModel, Quality, Side};
 use crate::compute::system::slats::Venetian;
 use crate::compute::system::stack::{LayerSource, Stack};
 use crate::compute::system::{SystemDescription, SystemKind};
@@ -67,17 +67,17 @@ pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedStat
 /// Returns the normal–normal transmittance by the description itself; `None` where it cannot be read or names layers
 /// that only its author has.
 pub(super) fn view(described: &DescribedState) -> Option<f64> {
-    let specimen = specimen(&described.text, &described.state, 0)?;
-    Some(specimen.straight(Dir::from_unit(glam::DVec3::Z), Side::Front).clamp(0.0, 1.0))
+    let model = optical_model(&described.text, &described.state, 0)?;
+    Some(model.straight(Dir::from_unit(glam::DVec3::Z), Side::Front).clamp(0.0, 1.0))
 }
 
-fn specimen(text: &str, state: &str, depth: usize) -> Option<Box<dyn Specimen>> {
+fn optical_model(text: &str, state: &str, depth: usize) -> Option<Box<dyn OpticalModel>> {
     let system = system_toml::read(text.as_bytes()).ok()?.system;
-    let SystemKind::Stack(layers) = &system.kind else { return system.specimen(state).ok() };
+    let SystemKind::Stack(layers) = &system.kind else { return system.optical_model(state).ok() };
     let within = |layer: &crate::compute::system::stack::Layer| {
         let LayerSource::Text(own) = &layer.source else { return None };
         let state = if layer.state == EACH_STATE { state } else { &layer.state };
-        (depth < MOST_NESTED).then(|| specimen(own, state, depth + 1))?
+        (depth < MOST_NESTED).then(|| optical_model(own, state, depth + 1))?
     };
     // Upright ones too: light along the normal does not notice a turn about it.
     let layers: Option<Vec<_>> = layers.iter().map(within).collect();
@@ -144,8 +144,8 @@ pub fn stated_error(dataset: &Dataset) -> Option<f64> {
     if matches!(transmission.scattered, None | Some(Scattered::Lambert(_))) && dataset.described.is_none() {
         return Some(0.0);
     }
-    let told = dataset.findings.iter().find(|finding| finding.code == "computed")?;
-    let (_, number) = told.message.split_once(ERROR_WORDS)?;
+    let finding = dataset.findings.iter().find(|finding| finding.code == "computed")?;
+    let (_, number) = finding.message.split_once(ERROR_WORDS)?;
     // Half a digit more: it was rounded.
     number.trim_end_matches('.').parse::<f64>().ok().map(|error| error + 0.5e-4)
 }

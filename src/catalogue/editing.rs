@@ -91,21 +91,21 @@ impl Catalogue {
                 states.len()
             )));
         }
-        let mut told = Vec::new();
+        let mut notes = Vec::new();
         for (state, name) in states.iter_mut().zip(names) {
             let label = if name.label.trim().is_empty() { state.key.as_str() } else { name.label.trim() };
             let angle = |value: Option<f64>| value.map_or_else(|| "no angle".to_owned(), |value| format!("{value}°"));
             if state.label != label {
-                told.push(format!("state {}: “{}” became “{label}”", state.key, state.label));
+                notes.push(format!("state {}: “{}” became “{label}”", state.key, state.label));
             }
             if state.value != name.value {
-                told.push(format!("state {}: {} became {}", state.key, angle(state.value), angle(name.value)));
+                notes.push(format!("state {}: {} became {}", state.key, angle(state.value), angle(name.value)));
             }
             (state.label, state.value) = (label.to_owned(), name.value);
         }
-        if !told.is_empty() {
+        if !notes.is_empty() {
             replace(&tx, &record)?;
-            note(&tx, key, &told.join("; "))?;
+            note(&tx, key, &notes.join("; "))?;
         }
         tx.commit()?;
         Ok(())
@@ -126,7 +126,7 @@ impl Catalogue {
         }
         let tx = self.change()?;
         let mut record = own(&tx, key)?;
-        let mut told = Vec::new();
+        let mut notes = Vec::new();
         for (one, new) in list.iter().zip(fresh) {
             let product = &mut record.product;
             let Some(place) = product.states.iter().position(|state| state.key == one.state) else {
@@ -139,7 +139,7 @@ impl Catalogue {
             let old = &product.states[place];
             let Some(new_state) = new.product.states.into_iter().next() else { continue };
             let named = if one.state.is_empty() { String::new() } else { format!(" of state {}", one.state) };
-            told.push(format!(
+            notes.push(format!(
                 "data{named} replaced by {}: τ {} became {}",
                 one.file,
                 tau(old.tau_hemispherical),
@@ -159,7 +159,7 @@ impl Catalogue {
             record.datasets.extend(new.datasets);
         }
         replace(&tx, &record)?;
-        note(&tx, key, &told.join("; "))?;
+        note(&tx, key, &notes.join("; "))?;
         tx.commit()?;
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Errors of the catalogue.
 
-use super::told::{REMEDY, of_place, told};
+use super::messages::{REMEDY, of_place, user_message};
 use crate::formats::dataset_blob::BlobError;
 use crate::formats::package::PackageError;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogueError {
     /// File that cannot be opened or created.
-    #[error("catalogue {}: {}", path.display(), told(cause))]
+    #[error("catalogue {}: {}", path.display(), user_message(cause))]
     Open {
         /// Path of the file.
         path: PathBuf,
@@ -154,7 +154,7 @@ pub enum CatalogueError {
     #[error(transparent)]
     Package(#[from] PackageError),
     /// Database error.
-    #[error("catalogue: {}", told(.0))]
+    #[error("catalogue: {}", user_message(.0))]
     Sql(rusqlite::Error),
 }
 

@@ -1,6 +1,6 @@
 //! Products from dataset files: which files belong together, and the product data that they contain.
 
-use super::doubt::Doubt;
+use super::ambiguity::Ambiguity;
 use super::grouping::{Grouping, propose};
 use super::source_file::SourceFile;
 use super::{NewProduct, Origin, Provenance};
@@ -21,7 +21,7 @@ pub struct Gathered {
     /// Name of the first file without its extension, for products without a name.
     pub file_stem: String,
     /// Question for the user before the product is stored, if any.
-    pub doubt: Option<Doubt>,
+    pub ambiguity: Option<Ambiguity>,
 }
 
 /// Groups files into products according to `grouping`. States are named by their angles where the names contain them;
@@ -30,7 +30,7 @@ pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
     let files: Vec<&SourceFile> = files.iter().collect();
     let product = |one: super::Proposal| {
         let own: Vec<&SourceFile> = one.files.iter().map(|&place| files[place]).collect();
-        Gathered { doubt: one.doubt, ..gathered(&own, one.angles.as_deref()) }
+        Gathered { ambiguity: one.ambiguity, ..gathered(&own, one.angles.as_deref()) }
     };
     propose(&files, grouping).into_iter().map(product).collect()
 }
@@ -57,7 +57,7 @@ pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
             dataset.state = key_of_angle(*angle);
         }
         let parts: Vec<Vec<usize>> = (0..datasets.len()).map(|place| vec![place]).collect();
-        return Gathered { sources: named(&parts), parts, meta, datasets, file_stem, doubt: None };
+        return Gathered { sources: named(&parts), parts, meta, datasets, file_stem, ambiguity: None };
     }
     let mut datasets = merge_sides(files.iter().flat_map(|file| file.datasets.clone()).collect());
     let parts: Vec<Vec<usize>> = datasets
@@ -77,11 +77,11 @@ pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
             }
         }
     }
-    Gathered { sources: named(&parts), parts, meta, datasets, file_stem, doubt: None }
+    Gathered { sources: named(&parts), parts, meta, datasets, file_stem, ambiguity: None }
 }
 
 /// Returns what a dataset says of itself; empty if that is the text of the format's template.
-fn told(text: &str, template: &str) -> String {
+fn specified_text(text: &str, template: &str) -> String {
     let text = text.trim();
     if text == template { String::new() } else { text.to_owned() }
 }
@@ -90,7 +90,7 @@ fn told(text: &str, template: &str) -> String {
 /// beginning of the names.
 fn name(files: &[&SourceFile], stems: &[String]) -> String {
     let names: Vec<String> =
-        files.iter().flat_map(|file| &file.datasets).map(|dataset| told(&dataset.name, "Name")).collect();
+        files.iter().flat_map(|file| &file.datasets).map(|dataset| specified_text(&dataset.name, "Name")).collect();
     let first = names.first().cloned().unwrap_or_default();
     if names.iter().all(|name| *name == first) {
         return first;
@@ -123,7 +123,7 @@ fn meta(files: &[&SourceFile]) -> NewProduct {
     };
     let dataset = files.iter().flat_map(|file| &file.datasets).next();
     NewProduct {
-        manufacturer: dataset.map(|dataset| told(&dataset.manufacturer, "Manufacturer")).unwrap_or_default(),
+        manufacturer: dataset.map(|dataset| specified_text(&dataset.manufacturer, "Manufacturer")).unwrap_or_default(),
         kind: first(|fields| &fields.kind),
         tags: files.iter().flat_map(|file| file.fields.tags.clone()).collect(),
         provenance: Provenance {

@@ -4,7 +4,7 @@
 //! afterwards, one that is taken for two is seen at once. Where numbers might be angles the user is asked, see
 //! [`Doubt`].
 
-use super::doubt::{Doubt, confirmed, speaks_of_slats};
+use super::ambiguity::{Ambiguity, confirmed, speaks_of_slats};
 use super::numbered::{Pattern, distinct, plausible, unclear, wordless};
 use super::source_file::SourceFile;
 use crate::formats::{Format, is_one_function};
@@ -31,7 +31,7 @@ pub struct Proposal {
     /// Angle of every file according to its name; `None` where files name their states themselves. \[°\]
     pub angles: Option<Vec<f64>>,
     /// Question for the user about this grouping, if any.
-    pub doubt: Option<Doubt>,
+    pub ambiguity: Option<Ambiguity>,
 }
 
 /// Indices of a family's files, with their angles where the names contain them.
@@ -69,11 +69,11 @@ fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
         let guessed = (0..first.numbers.len()).rev().find(|&number| varies(number) && !first.other.contains(&number));
         let marked = first.marked;
         let Some(angle) = marked.or(if marked_alone { None } else { guessed }) else { continue };
-        let mut apart: BTreeMap<Vec<u64>, Vec<(usize, f64)>> = BTreeMap::new();
+        let mut by_others: BTreeMap<Vec<u64>, Vec<(usize, f64)>> = BTreeMap::new();
         for (place, _, pattern) in group {
-            apart.entry(pattern.others(angle)).or_default().push((*place, pattern.numbers[angle]));
+            by_others.entry(pattern.others(angle)).or_default().push((*place, pattern.numbers[angle]));
         }
-        for members in apart.into_values().filter(|members| members.len() > 1) {
+        for members in by_others.into_values().filter(|members| members.len() > 1) {
             let values: Vec<f64> = members.iter().map(|(_, value)| *value).collect();
             let unclear = unclear(&values, marked.and(first.called));
             let called = marked.is_some() && !unclear;
@@ -92,7 +92,7 @@ fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f
 
 /// Whether files of a series that is not a family could still be states. Numbers that cannot be angles, and two or
 /// three samples with their numbers, raise no question.
-fn worth_asking(one: &Series) -> bool {
+fn is_ambiguous(one: &Series) -> bool {
     let mut values: Vec<f64> = one.members.iter().map(|(_, value)| *value).collect();
     values.sort_by(f64::total_cmp);
     let (least, most) = (values[0], values[values.len() - 1]);
@@ -196,9 +196,9 @@ fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
             if one.family {
                 places.iter().for_each(|&place| taken[place] = true);
                 let sure = !one.unclear && confirmed(files, &one.members, &one.skeleton, one.marked);
-                let doubt = (!sure).then_some(Doubt::NumbersAlone);
-                list.push(Proposal { doubt, ..in_order(one.members).into() });
-            } else if worth_asking(&one) {
+                let ambiguity = (!sure).then_some(Ambiguity::NumbersAlone);
+                list.push(Proposal { ambiguity, ..in_order(one.members).into() });
+            } else if is_ambiguous(&one) {
                 asked.extend(places.iter().map(|&place| (place, places.clone())));
             }
         }
@@ -210,8 +210,8 @@ fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
         let mut others: Vec<String> = others.map(shown).collect();
         let family = asked.get(&place).into_iter().flatten().filter(|&&other| taken[other]);
         others.extend(family.map(shown));
-        let doubt = (!others.is_empty()).then_some(Doubt::PerhapsStates(others));
-        Proposal { files: vec![place], angles: None, doubt }
+        let ambiguity = (!others.is_empty()).then_some(Ambiguity::PerhapsStates(others));
+        Proposal { files: vec![place], angles: None, ambiguity }
     }));
     list
 }
@@ -237,7 +237,7 @@ fn strays(files: &[&SourceFile], list: &[Proposal], taken: &[bool], asked: &mut 
 
 impl From<Member> for Proposal {
     fn from((files, angles): Member) -> Self {
-        Self { files, angles, doubt: None }
+        Self { files, angles, ambiguity: None }
     }
 }
 
@@ -254,7 +254,7 @@ fn joined(files: &[&SourceFile]) -> Member {
 }
 
 /// Returns each file as a product of its own, except that functions of one state stay together.
-fn apart(files: &[&SourceFile]) -> Vec<Member> {
+fn separate(files: &[&SourceFile]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
     let key = |place: usize| {
         let file = files[place];
@@ -276,7 +276,7 @@ pub fn propose(files: &[&SourceFile], grouping: Grouping) -> Vec<Proposal> {
     }
     let mut list = match grouping {
         Grouping::Proposed => proposed(files),
-        Grouping::Each => apart(files).into_iter().map(Proposal::from).collect(),
+        Grouping::Each => separate(files).into_iter().map(Proposal::from).collect(),
         Grouping::One => vec![joined(files).into()],
     };
     list.sort_by_key(|one| one.files.iter().min().copied());
@@ -367,7 +367,7 @@ mod tests {
 
     /// Places of every product with what is asked about it, of files with these names, names of products and
     /// transmittances.
-    fn asked(files: &[(&str, &str, f64)]) -> Vec<(Vec<usize>, Option<Doubt>)> {
+    fn asked(files: &[(&str, &str, f64)]) -> Vec<(Vec<usize>, Option<Ambiguity>)> {
         let made: Vec<SourceFile> = files
             .iter()
             .map(|(name, product, tau)| {
@@ -377,14 +377,14 @@ mod tests {
             })
             .collect();
         let proposals = propose(&made.iter().collect::<Vec<_>>(), Grouping::Proposed);
-        proposals.into_iter().map(|one| (one.files, one.doubt)).collect()
+        proposals.into_iter().map(|one| (one.files, one.ambiguity)).collect()
     }
 
     #[test]
     fn numbers_that_nothing_else_confirms_are_a_question() {
         // Five, ten and twenty percent of holes let more and more light through; slats less and less.
         let cloth = asked(&[("tex05.xml", "", 0.05), ("tex10.xml", "", 0.1), ("tex20.xml", "", 0.2)]);
-        assert_eq!(cloth, [(vec![0, 1, 2], Some(Doubt::NumbersAlone))]);
+        assert_eq!(cloth, [(vec![0, 1, 2], Some(Ambiguity::NumbersAlone))]);
         let slats = asked(&[("tex05.xml", "", 0.5), ("tex10.xml", "", 0.45), ("tex20.xml", "", 0.3)]);
         assert_eq!(slats, [(vec![0, 1, 2], None)]);
         // Two are too few to see that, unless names speak of slats, or those of the products have the angles too.
@@ -403,7 +403,7 @@ mod tests {
         // Steps of seven degrees.
         let odd = asked(&[("a0.xml", "", 0.5), ("a7.xml", "", 0.4), ("a14.xml", "", 0.3)]);
         assert_eq!(odd.len(), 3);
-        assert_eq!(odd[0].1, Some(Doubt::PerhapsStates(vec!["a7.xml".to_owned(), "a14.xml".to_owned()])));
+        assert_eq!(odd[0].1, Some(Ambiguity::PerhapsStates(vec!["a7.xml".to_owned(), "a14.xml".to_owned()])));
         assert!(odd[0].1.as_ref().unwrap().question().contains("a7.xml, a14.xml"));
         // One angle twice, in two ways of writing.
         assert!(
@@ -414,9 +414,9 @@ mod tests {
         let ask = |files: &[SourceFile]| propose(&files.iter().collect::<Vec<_>>(), Grouping::Proposed);
         let found = ask(&files);
         assert_eq!((found[0].files.as_slice(), found[1].files.as_slice()), (&[0, 1][..], &[2][..]));
-        assert_eq!(found[1].doubt, Some(Doubt::PerhapsStates(vec!["v0.xml".to_owned(), "v30.xml".to_owned()])));
+        assert_eq!(found[1].ambiguity, Some(Ambiguity::PerhapsStates(vec!["v0.xml".to_owned(), "v30.xml".to_owned()])));
         files[2].folder = "elsewhere".to_owned();
-        assert_eq!(ask(&files)[1].doubt, None);
+        assert_eq!(ask(&files)[1].ambiguity, None);
         // Counted variants and widths of slats, also where a word of angles stands before them.
         for names in [
             ["x_rot1.xml", "x_rot2.xml", "x_rot3.xml"],
@@ -430,7 +430,7 @@ mod tests {
         }
         // Widths below 90 look like angles all the more.
         let widths = asked(&[("venetian_50.xml", "", 0.5), ("venetian_80.xml", "", 0.4)]);
-        assert_eq!(widths, [(vec![0, 1], Some(Doubt::NumbersAlone))]);
+        assert_eq!(widths, [(vec![0, 1], Some(Ambiguity::NumbersAlone))]);
         // A unit says that it is none, degrees that it is one.
         assert_eq!(asked(&[("slat_60mm.xml", "", 0.5), ("slat_80mm.xml", "", 0.4)]).len(), 2);
         for names in [["slat 1deg.xml", "slat 2deg.xml"], ["rot0.xml", "rot90.xml"], ["slat15.xml", "slat60.xml"]] {

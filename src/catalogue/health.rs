@@ -2,10 +2,10 @@
 
 use super::builtin::{differs, is_row_of_builtin, is_version_lost, restore_damaged};
 use super::history::RESTORED;
+use super::messages::sqlite_message;
 use super::open::{APPLICATION, READING, layout_of};
 use super::salvage::salvage;
 use super::store::{put_blob, read_product};
-use super::told::said;
 use super::verified::{blob_of, seal_rows, sealed};
 use super::{Catalogue, CatalogueError};
 use crate::formats::dataset_blob::{content_hash, decode};
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Maximum number of broken pages that are listed one by one.
-const MOST_TOLD: usize = 20;
+const MAX_REPORTED: usize = 20;
 /// Number of pages that SQLite's backup writes in one step.
 const PAGES: i32 = 1000;
 
@@ -69,7 +69,7 @@ pub struct Health {
 }
 
 impl Health {
-    fn tell(&mut self, place: Place, message: impl Into<String>) {
+    fn report(&mut self, place: Place, message: impl Into<String>) {
         self.damages.push(Damage { place, message: message.into() });
     }
 }
@@ -99,7 +99,7 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
         Ok(Some(layout)) if layout != found || application != APPLICATION => {
             let message =
                 format!("the layout is named {found} and is {layout}, or the file is not marked as a catalogue");
-            health.tell(Place::Layout, message);
+            health.report(Place::Layout, message);
         }
         Ok(Some(_)) => {}
         // Another version's, or nobody's.
@@ -109,7 +109,7 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
                 return Err(CatalogueError::Newer { path: shown(), found, known });
             }
             if pages.is_empty() {
-                health.tell(Place::Pages, "the tables are not those of a catalogue");
+                health.report(Place::Pages, "the tables are not those of a catalogue");
             }
         }
         Ok(None) if pages.is_empty() => return Err(CatalogueError::NotACatalogue(shown())),
@@ -117,11 +117,11 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
     }
     let broken = !pages.is_empty();
     for page in pages {
-        health.tell(Place::Pages, page);
+        health.report(Place::Pages, page);
     }
     let looked_at = products(db, &mut health).and_then(|()| {
         if is_version_lost(db)? {
-            health.tell(Place::Layout, "the version of the built-in products is not what was stored");
+            health.report(Place::Layout, "the version of the built-in products is not what was stored");
         }
         health.restored = restored(db)?;
         Ok(())
@@ -136,13 +136,13 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
 
 fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
     let mut messages = Vec::new();
-    for pragma in [format!("PRAGMA integrity_check({MOST_TOLD})"), "PRAGMA foreign_key_check".to_owned()] {
+    for pragma in [format!("PRAGMA integrity_check({MAX_REPORTED})"), "PRAGMA foreign_key_check".to_owned()] {
         let keys = pragma.contains("foreign");
         let mut ask = match db.prepare(&pragma) {
             Ok(ask) => ask,
             // Not even the list of tables can be read.
             Err(error) if error.sqlite_error_code() == Some(ErrorCode::DatabaseCorrupt) => {
-                messages.push(said(&error));
+                messages.push(sqlite_message(&error));
                 break;
             }
             Err(error) => return Err(error.into()),
@@ -152,26 +152,26 @@ fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
             match rows.next() {
                 Ok(None) => break,
                 Ok(Some(row)) => {
-                    let said: String = row.get(0)?;
+                    let text: String = row.get(0)?;
                     if keys {
-                        messages.push(format!("table {said} names something that is not there"));
-                    } else if said != "ok" {
-                        messages.push(said.replace('\n', "; "));
+                        messages.push(format!("table {text} names something that is not there"));
+                    } else if text != "ok" {
+                        messages.push(text.replace('\n', "; "));
                     }
                 }
                 // So broken that it cannot even be looked through.
                 Err(error) => {
-                    messages.push(said(&error));
+                    messages.push(sqlite_message(&error));
                     break;
                 }
             }
         }
     }
     if messages.is_empty() {
-        messages.extend(read_through(db).err().map(|error| said(&error)));
+        messages.extend(read_through(db).err().map(|error| sqlite_message(&error)));
     }
     messages.dedup();
-    messages.truncate(MOST_TOLD);
+    messages.truncate(MAX_REPORTED);
     Ok(messages)
 }
 
@@ -214,22 +214,22 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
         let product = match read_product(db, &key).and_then(|product| sealed(db, product)) {
             Ok(product) => product,
             Err(CatalogueError::Damaged(how)) => {
-                health.tell(place(), how);
+                health.report(place(), how);
                 continue;
             }
             Err(CatalogueError::Sql(error)) => {
-                health.tell(place(), format!("product \"{key}\" cannot be read: {}", said(&error)));
+                health.report(place(), format!("product \"{key}\" cannot be read: {}", sqlite_message(&error)));
                 continue;
             }
             // A key that is not a text, or that its index does not have.
             Err(CatalogueError::NoProduct(key)) => {
-                health.tell(place(), format!("product \"{key}\" is not found by its key"));
+                health.report(place(), format!("product \"{key}\" is not found by its key"));
                 continue;
             }
             Err(other) => return Err(other),
         };
         if builtin && differs(&product) {
-            health.tell(place(), format!("product \"{key}\" is not what the program brings"));
+            health.report(place(), format!("product \"{key}\" is not what the program brings"));
         }
         for state in &product.states {
             let Some(hash) = &state.dataset else { continue };
@@ -237,14 +237,14 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
             let wrong = match blob_of(db, hash) {
                 Ok(blob) => decode(&blob).err().map(|error| error.to_string()),
                 Err(CatalogueError::Damaged(how)) => Some(how),
-                Err(CatalogueError::Sql(error)) => Some(said(&error)),
+                Err(CatalogueError::Sql(error)) => Some(sqlite_message(&error)),
                 Err(other) => return Err(other),
             };
             if let Some(how) = wrong {
                 let named = if state.key.is_empty() { String::new() } else { format!(", state \"{}\"", state.key) };
                 let (product, state, hash) = (key.clone(), state.key.clone(), hash.clone());
                 let message = format!("data of \"{key}\"{named}: {how}");
-                health.tell(Place::Data { product, state, hash, builtin }, message);
+                health.report(Place::Data { product, state, hash, builtin }, message);
             }
         }
     }
@@ -290,10 +290,10 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     if holds(health, &Place::Pages) {
         // An index is made of its table, on pages that may be of another kind: those are known when all pages have been
         // rewritten.
-        let mended = db.execute_batch("REINDEX; VACUUM").is_ok()
+        let is_repaired = db.execute_batch("REINDEX; VACUUM").is_ok()
             && broken_pages(&db).is_ok_and(|pages| pages.is_empty())
             && layout_of(&db)?.is_some();
-        if !mended {
+        if !is_repaired {
             let saved = salvage(&db)?;
             lost = saved.lost;
             Backup::new(&saved.db, &mut db)?.run_to_completion(PAGES, Duration::ZERO, None)?;
@@ -310,9 +310,9 @@ pub fn repair_file(path: &Path, health: &Health) -> Result<Vec<String>, Catalogu
     let tx = db.transaction()?;
     for damage in &rest.damages {
         match &damage.place {
-            Place::Product { key, builtin: true } => come_anew(&tx, key)?,
+            Place::Product { key, builtin: true } => reset_builtin(&tx, key)?,
             // Without a description its data are not computed: they come with the product.
-            Place::Data { product, builtin: true, .. } if !is_described(&tx, product)? => come_anew(&tx, product)?,
+            Place::Data { product, builtin: true, .. } if !is_described(&tx, product)? => reset_builtin(&tx, product)?,
             Place::Data { hash, builtin: true, .. } => {
                 // Found in the data, and found in them again.
                 tx.execute(
@@ -355,7 +355,7 @@ fn is_described(db: &Connection, key: &str) -> Result<bool, CatalogueError> {
 }
 
 /// Removes a built-in product, so that it is added again when the file is opened.
-fn come_anew(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
+fn reset_builtin(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE key = ? AND builtin = 1", [key])?;
     Ok(())
 }

@@ -8,7 +8,7 @@
 
 use super::ProductRow;
 use super::index_words::{Numbered, place, places, words_of};
-use super::like::{Apart, Likeness};
+use super::like::{Likeness, ProductDistance};
 use super::query::{Figure, Filter, Query, Sort};
 use super::query_facets::{Facet, Facets};
 use super::rows::Sought;
@@ -258,8 +258,8 @@ impl Index {
             (*errors, *longer, usize::MAX - self.words[*at].products.len(), &self.words[*at].text)
         });
         let read_as = meant.map(|(at, ..)| self.words[*at].text.clone());
-        let worth = |errors: usize, longer: usize| 0.3 - 0.05 * errors as f32 - if longer > 2 { 0.05 } else { 0.0 };
-        (near.into_iter().map(|(at, errors, longer)| (at, worth(errors, longer))).collect(), read_as)
+        let weight = |errors: usize, longer: usize| 0.3 - 0.05 * errors as f32 - if longer > 2 { 0.05 } else { 0.0 };
+        (near.into_iter().map(|(at, errors, longer)| (at, weight(errors, longer))).collect(), read_as)
     }
 
     /// Returns the filters that a product does not pass, one bit each.
@@ -328,18 +328,18 @@ impl Index {
         let other = &self.items.iter().find(|item| item.row.key == key)?.row;
         let of = |number: usize| {
             let row = &self.items[number].row;
-            if row.key == key { None } else { Some((number, Apart::of(row, other)?)) }
+            if row.key == key { None } else { Some((number, ProductDistance::of(row, other)?)) }
         };
-        let mut list: Vec<(usize, Apart)> = order.iter().filter_map(|number| of(*number)).collect();
+        let mut list: Vec<(usize, ProductDistance)> = order.iter().filter_map(|number| of(*number)).collect();
         if query.sort == Sort::Match {
             list.sort_by(|a, b| a.1.distance.total_cmp(&b.1.distance));
             if query.descending {
                 list.reverse();
             }
         }
-        let apart;
-        (*order, apart) = list.into_iter().unzip();
-        Some(Likeness { key: key.to_owned(), name: other.name.clone(), apart })
+        let distances;
+        (*order, distances) = list.into_iter().unzip();
+        Some(Likeness { key: key.to_owned(), name: other.name.clone(), distances })
     }
 
     fn facets(&self, query: &Query, misses: &[u16]) -> Facets {

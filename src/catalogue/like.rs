@@ -20,15 +20,16 @@ use super::{PROFILE_ANGLES, ProductRow};
 use crate::texts::{Text, catalogue as text, fixed};
 
 /// Labels of the terms, in the order of [`Apart::terms`].
-const TERMS: [Text; 5] = [text::APART_TAU, text::APART_PROFILE, text::APART_CEILING, text::APART_SUN, text::APART_VIEW];
+const TERMS: [Text; 5] =
+    [text::DISTANCE_TAU, text::DISTANCE_PROFILE, text::DISTANCE_CEILING, text::DISTANCE_SUN, text::DISTANCE_VIEW];
 /// Smallest difference that is visible with two decimals.
 const SHOWN: f64 = 0.005;
 /// Maximum number of terms in the text.
-const MOST_TOLD: usize = 3;
+const MAX_TERMS: usize = 3;
 
 /// Distance of a product from another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Apart {
+pub struct ProductDistance {
     /// Root mean square of the terms that are known for both.
     pub distance: f64,
     /// Differences, this product minus the other: τ, profile (never negative), ceiling, sun blocked, view; `None` where
@@ -44,10 +45,10 @@ pub struct Likeness {
     /// Name of that product.
     pub name: String,
     /// Distance of each entry from that product, in the order of the entries.
-    pub apart: Vec<Apart>,
+    pub distances: Vec<ProductDistance>,
 }
 
-impl Apart {
+impl ProductDistance {
     /// Returns the distance of one product from another; `None` where no term is known for both.
     pub fn of(one: &ProductRow, other: &ProductRow) -> Option<Self> {
         let less = |a: Option<f64>, b: Option<f64>| Some(a? - b?);
@@ -71,20 +72,20 @@ impl Apart {
 
     /// Returns a text such as `0.03 apart: ceiling +0.06, τ −0.01`, with the largest terms in falling order.
     pub fn words(&self) -> String {
-        let mut told: Vec<(Text, f64)> =
+        let mut terms: Vec<(Text, f64)> =
             TERMS.into_iter().zip(self.terms).filter_map(|(word, term)| Some((word, term?))).collect();
-        told.retain(|(_, term)| term.abs() >= SHOWN);
-        told.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        terms.retain(|(_, term)| term.abs() >= SHOWN);
+        terms.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         let one = |(word, term): &(Text, f64)| match (*word == TERMS[1], *term < 0.0) {
             (true, _) => format!("{word} {}", fixed(*term, 2)),
             (false, true) => format!("{word} −{}", fixed(-term, 2)),
             (false, false) => format!("{word} +{}", fixed(*term, 2)),
         };
-        let told: Vec<String> = told.iter().take(MOST_TOLD).map(one).collect();
-        if told.is_empty() {
+        let parts: Vec<String> = terms.iter().take(MAX_TERMS).map(one).collect();
+        if parts.is_empty() {
             text::no_difference(fixed(SHOWN, 3))
         } else {
-            text::apart(fixed(self.distance, 2), told.join(", "))
+            text::distance_is(fixed(self.distance, 2), parts.join(", "))
         }
     }
 }
@@ -136,24 +137,24 @@ mod tests {
     #[test]
     fn the_distance_is_the_root_mean_square_of_shares_of_the_light() {
         let (a, b) = (row(0.5, 0.4), row(0.4, 0.4));
-        let apart = Apart::of(&a, &b).unwrap();
+        let apart = ProductDistance::of(&a, &b).unwrap();
         // τ, profile and sun differ by 0.1, the light to the ceiling by 0.04, the view not at all.
         assert!((apart.distance - ((0.03 + 0.0016) / 5.0_f64).sqrt()).abs() < 1e-12);
         assert_eq!(apart.words(), "0.08 apart: τ +0.10, profile 0.10, sun blocked −0.10");
-        let back = Apart::of(&b, &a).unwrap();
+        let back = ProductDistance::of(&b, &a).unwrap();
         assert_eq!(back.distance, apart.distance);
         assert!((back.terms[0].unwrap() + 0.1).abs() < 1e-12);
-        assert_eq!(Apart::of(&a, &a).unwrap().distance, 0.0);
-        assert_eq!(Apart::of(&a, &a).unwrap().words(), "no difference above 0.005");
+        assert_eq!(ProductDistance::of(&a, &a).unwrap().distance, 0.0);
+        assert_eq!(ProductDistance::of(&a, &a).unwrap().words(), "no difference above 0.005");
     }
 
     #[test]
     fn what_is_not_known_is_left_out() {
         let (a, mut b) = (row(0.5, 0.4), row(0.4, 0.4));
         (b.to_ceiling, b.sun_blocked, b.view, b.tau_profile) = (None, None, None, Vec::new());
-        let apart = Apart::of(&a, &b).unwrap();
+        let apart = ProductDistance::of(&a, &b).unwrap();
         assert!((apart.distance - 0.1).abs() < 1e-12 && apart.terms[1..] == [None; 4]);
         b.tau_hemispherical = None;
-        assert_eq!(Apart::of(&a, &b), None);
+        assert_eq!(ProductDistance::of(&a, &b), None);
     }
 }

@@ -30,7 +30,7 @@ pub(super) const READING: OpenFlags = OpenFlags::SQLITE_OPEN_READ_ONLY.union(Ope
 pub(super) const APPLICATION: i64 = 0x4346_5358;
 
 /// Maximum time that a connection waits for another one to finish writing.
-const PATIENCE: Duration = Duration::from_secs(10);
+const TIMEOUT: Duration = Duration::from_secs(10);
 
 /// Returns the error with the file's name added.
 fn located(error: CatalogueError, path: &Path) -> CatalogueError {
@@ -103,7 +103,7 @@ impl Catalogue {
         let waiting = std::fs::metadata(wal).is_ok_and(|meta| meta.len() > 0);
         let open = |name: &Path, more: OpenFlags| {
             let db = Connection::open_with_flags(name, READING | more)?;
-            db.busy_timeout(PATIENCE)?;
+            db.busy_timeout(TIMEOUT)?;
             let catalogue = Self::of(db);
             let found = catalogue.judge()?;
             let known = MIGRATIONS.len() as i64;
@@ -142,7 +142,7 @@ impl Catalogue {
     }
 
     fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
-        db.busy_timeout(PATIENCE)?;
+        db.busy_timeout(TIMEOUT)?;
         db.pragma_update(None, "foreign_keys", true)?;
         let mut catalogue = Self::of(db);
         // Judged before anything is written: a foreign file stays as it is.

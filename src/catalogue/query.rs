@@ -276,8 +276,10 @@ impl Query {
     /// Returns the condition of a filter as a translated text: `moving`, `venetian or woven`, `τ normal 0.20 to 0.40`.
     pub fn words_of(&self, filter: Filter) -> String {
         let either = |list: &[String]| {
-            let words: Vec<&str> =
-                list.iter().map(|word| if word.is_empty() { text::NOT_TOLD.get() } else { word.as_str() }).collect();
+            let words: Vec<&str> = list
+                .iter()
+                .map(|word| if word.is_empty() { text::NOT_SPECIFIED.get() } else { word.as_str() })
+                .collect();
             words.join(text::OR.get())
         };
         let one_of = |choice: Option<bool>, [yes, no]: [Text; 2]| match choice {

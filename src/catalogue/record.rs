@@ -50,7 +50,9 @@ fn prepared(
         return refuse("there is no dataset".to_owned());
     };
     // Composed: equal names are to be equal texts, whatever keyboard or file system they come from.
-    let or = |told: String, own: &str| composed(if told.trim().is_empty() { own.trim() } else { told.trim() });
+    let or = |specified: String, own: &str| {
+        composed(if specified.trim().is_empty() { own.trim() } else { specified.trim() })
+    };
     let name = or(meta.name, &first.name);
     if name.is_empty() {
         return refuse("the product has no name, and the dataset does not give one".to_owned());
@@ -80,9 +82,9 @@ fn prepared(
         .collect();
     let (mut states, mut findings, mut blobs, mut contents) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for one in ready {
-        let Ready { state, told, dataset, content } = one?;
+        let Ready { state, state_findings, dataset, content } = one?;
         states.push(state);
-        findings.extend(told);
+        findings.extend(state_findings);
         blobs.push(dataset);
         contents.push(content);
     }
@@ -104,7 +106,7 @@ fn prepared(
 /// Results of preparing one state.
 struct Ready {
     state: State,
-    told: Vec<ProductFinding>,
+    state_findings: Vec<ProductFinding>,
     /// Hash and bytes.
     dataset: (String, Vec<u8>),
     content: String,
@@ -116,20 +118,20 @@ fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -
     let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
         return Err(CatalogueError::Import(format!("dataset \"{}\" has no visible transmission", dataset.name)));
     };
-    let mut told = dataset.findings.clone();
-    told.extend(own.into_iter().filter(|finding| !dataset.findings.contains(finding)));
-    let told = told.into_iter().map(|finding| ProductFinding {
+    let mut findings = dataset.findings.clone();
+    findings.extend(own.into_iter().filter(|finding| !dataset.findings.contains(finding)));
+    let findings = findings.into_iter().map(|finding| ProductFinding {
         state: dataset.state.clone(),
         severity: finding.severity,
         code: finding.code.to_owned(),
         message: finding.message,
     });
-    let told = told.collect();
+    let state_findings = findings.collect();
     let state = State {
         dataset: Some(hash.clone()),
         ..figured(named_state(&dataset.state, named), transmission, given.described.as_ref())
     };
-    Ok(Ready { state, told, dataset: (hash, blob), content })
+    Ok(Ready { state, state_findings, dataset: (hash, blob), content })
 }
 
 /// Returns the figures of the transmitted light; the view is that of the description, where it gives a more exact one

@@ -2,7 +2,7 @@
 
 use super::query::Figure;
 use super::representative::{FirstRule, Numbers, representative};
-use super::sight::IN_SIGHT;
+use super::sight::VISIBLE;
 use super::verified::damaged_products;
 use super::{CatalogueError, CurvePoint, Origin};
 use rusqlite::{Connection, Row};
@@ -167,7 +167,7 @@ pub(super) fn read(db: &Connection) -> Result<(Vec<Sought>, Vec<String>), Catalo
                        OR NOT EXISTS (SELECT 1 FROM state WHERE product = p.id AND position = 1)
                      THEN '' ELSE p.system END,
                 coalesce((SELECT folder FROM subscribed WHERE product_key = p.key), '')
-         FROM product p WHERE 1{IN_SIGHT} ORDER BY p.builtin DESC, p.rank, p.name COLLATE NOCASE, p.key"
+         FROM product p WHERE 1{VISIBLE} ORDER BY p.builtin DESC, p.rank, p.name COLLATE NOCASE, p.key"
     ))?;
     let mut rows = statement.query([])?;
     let (mut list, mut left_out) = (Vec::new(), Vec::new());

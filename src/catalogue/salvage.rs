@@ -1,8 +1,8 @@
 //! Recovery of a catalogue with broken pages: what can still be read of it is copied into a new one.
 
 use super::builtin::is_builtin;
+use super::messages::sqlite_message;
 use super::sealing::seal_what_is_left;
-use super::told::said;
 use super::{Catalogue, CatalogueError};
 use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
@@ -44,7 +44,7 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
     let mut lost = Vec::new();
     for table in TABLES {
         if let Err(error) = copied(damaged, &db, table) {
-            lost.push(format!("rows of table {table} that lie on broken pages ({})", said(&error)));
+            lost.push(format!("rows of table {table} that lie on broken pages ({})", sqlite_message(&error)));
         }
     }
     // What is left of others' rows.
@@ -64,7 +64,7 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
          DELETE FROM product WHERE builtin = 1;
          DELETE FROM dataset WHERE hash NOT IN (SELECT dataset FROM state WHERE dataset IS NOT NULL);",
     )?;
-    all_come_anew(&db)?;
+    reset_builtins(&db)?;
     let incomplete = seal_what_is_left(&db)?.into_iter();
     lost.extend(incomplete.map(|key| format!("some words, findings or figures of product \"{key}\"")));
     let stateless: Vec<String> = {
@@ -101,7 +101,7 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
 ///
 /// # Errors
 /// Returns an error if the database cannot be written.
-fn all_come_anew(db: &Connection) -> Result<(), CatalogueError> {
+fn reset_builtins(db: &Connection) -> Result<(), CatalogueError> {
     db.execute("DELETE FROM meta WHERE key = 'builtin_version'", [])?;
     Ok(())
 }

@@ -4,7 +4,7 @@ use super::CatalogueError;
 use rusqlite::Connection;
 
 /// SQL condition that a product `p` is visible, for queries that have a WHERE or a join's ON.
-pub(super) const IN_SIGHT: &str = " AND NOT EXISTS (SELECT 1 FROM deleted WHERE product_key = p.key)";
+pub(super) const VISIBLE: &str = " AND NOT EXISTS (SELECT 1 FROM deleted WHERE product_key = p.key)";
 
 /// Whether a product is hidden.
 pub(super) fn is_deleted(db: &Connection, key: &str) -> Result<bool, CatalogueError> {

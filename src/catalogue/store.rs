@@ -357,7 +357,7 @@ impl Catalogue {
         let (mut findings, mut waiting) = (Vec::new(), 0);
         let states = read_product(&snapshot, key)?.states;
         for state in &states {
-            let mut tell = |severity, code: &str, message: String| {
+            let mut report = |severity, code: &str, message: String| {
                 findings.push(ProductFinding { state: state.key.clone(), severity, code: code.to_owned(), message });
             };
             let Some(hash) = &state.dataset else {
@@ -367,17 +367,17 @@ impl Catalogue {
             let blob = match blob_of(&snapshot, hash) {
                 Ok(blob) => blob,
                 Err(CatalogueError::Damaged(how)) => {
-                    tell(Severity::Error, "hash-differs", how);
+                    report(Severity::Error, "hash-differs", how);
                     continue;
                 }
                 Err(other) => return Err(other),
             };
             match decode(&blob) {
-                Err(error) => tell(Severity::Error, "unreadable", error.to_string()),
+                Err(error) => report(Severity::Error, "unreadable", error.to_string()),
                 Ok(dataset) => {
                     let own = check(&dataset).into_iter().filter(|finding| !dataset.findings.contains(finding));
                     for finding in dataset.findings.iter().cloned().chain(own) {
-                        tell(finding.severity, finding.code, finding.message);
+                        report(finding.severity, finding.code, finding.message);
                     }
                 }
             }

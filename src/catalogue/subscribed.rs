@@ -40,7 +40,7 @@ fn folder_of(db: &Connection, key: &str) -> Result<Option<String>, CatalogueErro
 }
 
 /// Removes the products that came from a package, and returns their keys.
-fn take_out(tx: &Transaction<'_>, folder: &str, package: &str) -> Result<Vec<String>, CatalogueError> {
+fn remove_package(tx: &Transaction<'_>, folder: &str, package: &str) -> Result<Vec<String>, CatalogueError> {
     let mut ask = tx.prepare_cached("SELECT product_key FROM subscribed WHERE folder = ? AND package = ?")?;
     let keys: Vec<String> = ask.query_map([folder, package], |row| row.get(0))?.collect::<Result<_, _>>()?;
     drop(ask);
@@ -73,7 +73,7 @@ impl Catalogue {
         }
         let mut gone = 0;
         for package in packages(&tx, folder)?.keys() {
-            for key in take_out(&tx, folder, package)? {
+            for key in remove_package(&tx, folder, package)? {
                 forget(&tx, &key)?;
                 gone += 1;
             }
@@ -131,7 +131,7 @@ impl Catalogue {
             records.push(prepare(&datasets, meta)?);
         }
         let tx = self.change()?;
-        let before = take_out(&tx, folder, package)?;
+        let before = remove_package(&tx, folder, package)?;
         let mut synced = Synced::default();
         let mut now = Vec::new();
         for mut record in records {
@@ -161,7 +161,7 @@ impl Catalogue {
     /// Returns an error if the database cannot be written.
     pub fn drop_package(&mut self, folder: &str, package: &str) -> Result<usize, CatalogueError> {
         let tx = self.change()?;
-        let keys = take_out(&tx, folder, package)?;
+        let keys = remove_package(&tx, folder, package)?;
         for key in &keys {
             forget(&tx, key)?;
         }

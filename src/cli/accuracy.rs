@@ -174,7 +174,7 @@ fn of_rank(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     if let Some(path) = args.csv.as_deref() {
         args.tables.put(Some(path), FileKind::Csv, &accuracy_rank::csv(&accuracy)?)?;
     }
-    accuracy_rank::tell(&accuracy, args.json)
+    accuracy_rank::print_accuracy(&accuracy, args.json)
 }
 
 /// Tests the annual simulation of the scene (`--year`), and writes or prints the result.
@@ -187,7 +187,7 @@ fn of_year(args: &AccuracyArgs, library: &Library) -> anyhow::Result<()> {
     if let Some(path) = args.csv.as_deref() {
         args.tables.put(Some(path), FileKind::Csv, &accuracy_year::csv(&accuracy)?)?;
     }
-    accuracy_year::tell(&accuracy, args.json)
+    accuracy_year::print_accuracy(&accuracy, args.json)
 }
 
 fn is_png(path: &Path) -> anyhow::Result<bool> {
@@ -202,7 +202,10 @@ fn is_png(path: &Path) -> anyhow::Result<bool> {
 fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung, Option<String>)> {
     accuracy.series.iter().flat_map(|series| {
         let reference = accuracy.reference(series.quantity);
-        series.rungs.iter().map(move |rung| (series, rung, reference.and_then(|one| words::untold(rung, one))))
+        series
+            .rungs
+            .iter()
+            .map(move |rung| (series, rung, reference.and_then(|one| words::undetermined_reason(rung, one))))
     })
 }
 
@@ -236,7 +239,7 @@ fn csv(accuracy: &Accuracy) -> anyhow::Result<String> {
     for (series, rung, remark) in rows(accuracy) {
         let coverage = rung.coverage();
         // Errors that the reference cannot give stay empty.
-        let told = |value: f64| if remark.is_none() { number(value) } else { String::new() };
+        let reported = |value: f64| if remark.is_none() { number(value) } else { String::new() };
         writer.write_record([
             series.method.to_owned(),
             quantity(series.quantity).to_owned(),
@@ -246,11 +249,11 @@ fn csv(accuracy: &Accuracy) -> anyhow::Result<String> {
             number(rung.sky),
             rung.sun.map_or_else(String::new, number),
             number(rung.reached()),
-            told(rung.rms()),
-            told(rung.max()),
+            reported(rung.rms()),
+            reported(rung.max()),
             coverage.count.to_string(),
-            told(coverage.kept),
-            told(coverage.padded),
+            reported(coverage.kept),
+            reported(coverage.padded),
             number(rung.data),
             remark.clone().unwrap_or_default(),
         ])?;
@@ -300,7 +303,7 @@ fn table(accuracy: &Accuracy) -> String {
                 percent(rung.reached()),
             );
             let coverage = rung.coverage();
-            let _ = match reference.and_then(|one| words::untold(rung, one)) {
+            let _ = match reference.and_then(|one| words::undetermined_reason(rung, one)) {
                 Some(remark) => writeln!(text, "{remark}"),
                 None => writeln!(
                     text,
@@ -379,11 +382,11 @@ fn to_json(accuracy: &Accuracy) -> serde_json::Value {
         })
     };
     let rung = |rung: &Rung, one: Option<&Reference>| {
-        let remark = one.and_then(|one| words::untold(rung, one));
-        let told = |value: f64| remark.is_none().then_some(value);
+        let remark = one.and_then(|one| words::undetermined_reason(rung, one));
+        let reported = |value: f64| remark.is_none().then_some(value);
         json!({
             "setting": rung.setting, "error_target": rung.target, "setup_s": rung.setup, "sky_s": rung.sky,
-            "sun_s": rung.sun, "reached": rung.reached(), "error_rms": told(rung.rms()), "error_max": told(rung.max()),
+            "sun_s": rung.sun, "reached": rung.reached(), "error_rms": reported(rung.rms()), "error_max": reported(rung.max()),
             "coverage": remark.is_none().then(|| coverage(rung.coverage())), "remark": remark,
             "numerical": rung.numerical, "data_open": rung.data, "limited_by_data": rung.is_limited_by_data(),
         })

@@ -6,7 +6,7 @@ use serde_json::json;
 use std::fmt::Write as _;
 
 /// Prints error and run time of a ranking, as a table or as JSON.
-pub(super) fn tell(accuracy: &RankAccuracy, as_json: bool) -> anyhow::Result<()> {
+pub(super) fn print_accuracy(accuracy: &RankAccuracy, as_json: bool) -> anyhow::Result<()> {
     if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
 }
 
@@ -39,20 +39,20 @@ pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
     for rung in &accuracy.rungs {
         // The finest ranking has no reference.
         let coverage = rung.coverage();
-        let told = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
+        let reported = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
         let pairs = rung.pairs;
         writer.write_record([
             setting(rung),
             number(rung.seconds),
             number(rung.stated),
-            told(rung.rms()),
-            told(rung.max()),
+            reported(rung.rms()),
+            reported(rung.max()),
             coverage.map_or_else(String::new, |one| one.count.to_string()),
             coverage.map_or_else(String::new, |one| number(one.kept)),
             coverage.map_or_else(String::new, |one| number(one.padded)),
             pairs.all.to_string(),
-            pairs.apart.to_string(),
-            pairs.told.to_string(),
+            pairs.distinct.to_string(),
+            pairs.same_order.to_string(),
             pairs.reversed.to_string(),
         ])?;
     }
@@ -79,7 +79,7 @@ fn table(accuracy: &RankAccuracy) -> String {
     for rung in &accuracy.rungs {
         let _ = write!(text, "  {:<22} {:>7.2} s {:>12.5} ", setting(rung), rung.seconds, rung.stated);
         let pairs = rung.pairs;
-        let open = pairs.apart - pairs.told - pairs.reversed;
+        let open = pairs.distinct - pairs.same_order - pairs.reversed;
         let _ = match rung.coverage() {
             None => writeln!(text, "{:>10}", "finest"),
             Some(one) => writeln!(
@@ -89,7 +89,7 @@ fn table(accuracy: &RankAccuracy) -> String {
                 rung.max(),
                 100.0 * one.kept,
                 100.0 * one.padded,
-                pairs.told,
+                pairs.same_order,
                 open,
                 pairs.reversed
             ),
@@ -102,7 +102,7 @@ fn table(accuracy: &RankAccuracy) -> String {
         "{ranked} of {all} products ranked in {} list(s). The finest has {} of {} pairs apart by more than twice what it states \
          of both: these are told apart by the others, left open or reversed. Times of {} thread(s), each in a room of its own; the first computes \
          data of built-in products where they are missing.",
-        accuracy.lists, pairs.apart, pairs.all, accuracy.threads
+        accuracy.lists, pairs.distinct, pairs.all, accuracy.threads
     );
     text
 }
@@ -110,14 +110,14 @@ fn table(accuracy: &RankAccuracy) -> String {
 fn to_json(accuracy: &RankAccuracy) -> serde_json::Value {
     let rung = |rung: &RankRung| {
         let coverage = rung.coverage();
-        let told = |value: f64| coverage.is_some().then_some(value);
+        let reported = |value: f64| coverage.is_some().then_some(value);
         let target = if let Effort::Target(target) = rung.effort { target } else { None };
         let pairs = rung.pairs;
         json!({
             "setting": setting(rung), "error_target": target, "seconds": rung.seconds, "stated_mean": rung.stated,
-            "error_rms": told(rung.rms()), "error_max": told(rung.max()),
+            "error_rms": reported(rung.rms()), "error_max": reported(rung.max()),
             "coverage": coverage.map(|one| json!({"values": one.count, "held": one.kept, "padded_10": one.padded})),
-            "pairs": {"all": pairs.all, "apart": pairs.apart, "told": pairs.told, "reversed": pairs.reversed},
+            "pairs": {"all": pairs.all, "apart": pairs.distinct, "told": pairs.same_order, "reversed": pairs.reversed},
         })
     };
     json!({

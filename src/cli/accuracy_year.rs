@@ -7,7 +7,7 @@ use serde_json::json;
 use std::fmt::Write as _;
 
 /// Prints error and run time of a year, as a table or as JSON.
-pub(super) fn tell(accuracy: &YearAccuracy, as_json: bool) -> anyhow::Result<()> {
+pub(super) fn print_accuracy(accuracy: &YearAccuracy, as_json: bool) -> anyhow::Result<()> {
     if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
 }
 
@@ -28,18 +28,18 @@ pub(super) fn csv(accuracy: &YearAccuracy) -> anyhow::Result<String> {
     for rung in &accuracy.rungs {
         // The finest year has no reference.
         let coverage = rung.coverage();
-        let told = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
+        let reported = |value: f64| if coverage.is_some() { number(value) } else { String::new() };
         let own = [
             setting(rung),
             number(rung.seconds),
             number(rung.stated),
-            told(rung.rms()),
-            told(rung.max()),
+            reported(rung.rms()),
+            reported(rung.max()),
             rung.errors.len().to_string(),
             coverage.map_or_else(String::new, |one| number(one.kept)),
             coverage.map_or_else(String::new, |one| number(one.padded)),
         ];
-        let figures = rung.figures.iter().flat_map(|one| [number(one.value), number(one.stated), told(one.real)]);
+        let figures = rung.figures.iter().flat_map(|one| [number(one.value), number(one.stated), reported(one.real)]);
         writer.write_record(own.into_iter().chain(figures))?;
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
@@ -87,15 +87,15 @@ fn table(accuracy: &YearAccuracy) -> String {
 fn to_json(accuracy: &YearAccuracy) -> serde_json::Value {
     let rung = |rung: &YearRung| {
         let coverage = rung.coverage();
-        let told = |value: f64| coverage.is_some().then_some(value);
+        let reported = |value: f64| coverage.is_some().then_some(value);
         let stages: serde_json::Map<String, serde_json::Value> =
             rung.stages.iter().map(|(stage, seconds)| ((*stage).to_owned(), json!(seconds))).collect();
         json!({
             "setting": setting(rung), "error_target": rung.target, "seconds": rung.seconds, "stages": stages,
-            "stated_mean": rung.stated, "error_rms": told(rung.rms()), "error_max": told(rung.max()),
+            "stated_mean": rung.stated, "error_rms": reported(rung.rms()), "error_max": reported(rung.max()),
             "coverage": coverage.map(|one| json!({"values": one.count, "held": one.kept, "padded_10": one.padded})),
             "figures": rung.figures.iter().map(|one| json!({
-                "key": one.key, "value": one.value, "stated": one.stated, "off": told(one.real),
+                "key": one.key, "value": one.value, "stated": one.stated, "off": reported(one.real),
             })).collect::<Vec<_>>(),
         })
     };

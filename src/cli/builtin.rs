@@ -43,7 +43,7 @@ fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> an
         return Ok(0);
     }
     let states = if waiting == 1 { "1 state".to_owned() } else { format!("{waiting} states") };
-    tell!("computing {states} of built-in products, once; what is finished stays when this is stopped");
+    report!("computing {states} of built-in products, once; what is finished stays when this is stopped");
     Ok(complete(catalogue, wanted, &Library::default(), &TerminalProgress::new())?)
 }
 
@@ -75,10 +75,10 @@ pub(super) fn build(catalogue: &mut Catalogue, args: &BuildArgs) -> anyhow::Resu
     args.tables.over.write_all(&outputs)?;
     let (products, states) = (keys.len(), catalogue.builtin_states()?);
     if args.json {
-        let told = json!({
+        let summary = json!({
             "products": products, "states": states, "computed": computed, "seconds": start.elapsed().as_secs_f64(),
         });
-        return output::print(&(serde_json::to_string_pretty(&told)? + "\n"));
+        return output::print(&(serde_json::to_string_pretty(&summary)? + "\n"));
     }
     output::print(&format!("{products} built-in products, {states} states, {computed} of them computed now\n"))
 }

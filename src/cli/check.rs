@@ -3,7 +3,7 @@
 use super::output::{print, print_text};
 use crate::catalogue::{Damage, Health, Place, check_file, default_path};
 use crate::study::files;
-use crate::study::health::{Mended, mend};
+use crate::study::health::{RepairResult, repair};
 use crate::texts::one_line;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -44,15 +44,15 @@ pub struct Damaged {
 pub(super) fn check(catalogue: Option<&Path>, args: &CheckArgs) -> anyhow::Result<()> {
     let path = catalogue.map_or_else(default_path, |path| Ok(path.to_owned()))?;
     let health = check_file(&path)?;
-    let mended = if args.repair && !health.damages.is_empty() { Some(mend(&path, &health)?) } else { None };
+    let result = if args.repair && !health.damages.is_empty() { Some(repair(&path, &health)?) } else { None };
     if args.json {
-        print(&(serde_json::to_string_pretty(&as_json(&health, mended.as_ref()))? + "\n"))?;
+        print(&(serde_json::to_string_pretty(&as_json(&health, result.as_ref()))? + "\n"))?;
     } else {
-        print_text(&as_text(&path, &health, mended.as_ref())?)?;
+        print_text(&as_text(&path, &health, result.as_ref())?)?;
     }
-    let left = mended.as_ref().map_or(health.damages.len(), |mended| mended.lost.len());
+    let left = result.as_ref().map_or(health.damages.len(), |result| result.lost.len());
     if left > 0 {
-        return Err(Damaged { path: path.display().to_string(), count: left, repair: mended.is_none() }.into());
+        return Err(Damaged { path: path.display().to_string(), count: left, repair: result.is_none() }.into());
     }
     Ok(())
 }
@@ -71,30 +71,30 @@ const fn outlook(damage: &Damage) -> &'static str {
     }
 }
 
-fn as_text(path: &Path, health: &Health, mended: Option<&Mended>) -> Result<String, std::fmt::Error> {
+fn as_text(path: &Path, health: &Health, result: Option<&RepairResult>) -> Result<String, std::fmt::Error> {
     let mut text = String::new();
     let whole = if health.damages.is_empty() { ": whole" } else { "" };
     writeln!(text, "{}: {} products, {} datasets{whole}", path.display(), health.products, health.datasets)?;
-    match mended {
+    match result {
         None => {
             for damage in &health.damages {
                 writeln!(text, "  {} ({})", one_line(&damage.message), outlook(damage))?;
             }
         }
-        Some(mended) => {
-            writeln!(text, "  as it was: {}", files::absolute(&mended.copy).display())?;
-            mended.mended.iter().try_for_each(|message| writeln!(text, "  mended: {message}"))?;
-            mended.lost.iter().try_for_each(|message| writeln!(text, "  lost: {message}"))?;
-            writeln!(text, "  now: {} products, {} datasets", mended.after.products, mended.after.datasets)?;
+        Some(result) => {
+            writeln!(text, "  as it was: {}", files::absolute(&result.copy).display())?;
+            result.repaired.iter().try_for_each(|message| writeln!(text, "  mended: {message}"))?;
+            result.lost.iter().try_for_each(|message| writeln!(text, "  lost: {message}"))?;
+            writeln!(text, "  now: {} products, {} datasets", result.after.products, result.after.datasets)?;
         }
     }
-    for (key, at) in &mended.map_or(health, |mended| &mended.after).restored {
+    for (key, at) in &result.map_or(health, |result| &result.after).restored {
         writeln!(text, "  product \"{}\" was damaged and restored on {at}", one_line(key))?;
     }
     Ok(text)
 }
 
-fn as_json(health: &Health, mended: Option<&Mended>) -> Value {
+fn as_json(health: &Health, result: Option<&RepairResult>) -> Value {
     let damages = health.damages.iter().map(|damage| {
         let (product, state) = match &damage.place {
             Place::Data { product, state, .. } => (Some(product), Some(state)),
@@ -103,12 +103,12 @@ fn as_json(health: &Health, mended: Option<&Mended>) -> Value {
         };
         json!({"product": product, "state": state, "message": damage.message, "outlook": outlook(damage)})
     });
-    let restored = mended.map_or(health, |mended| &mended.after).restored.iter();
+    let restored = result.map_or(health, |result| &result.after).restored.iter();
     let restored = restored.map(|(product, at)| json!({"product": product, "at": at}));
     json!({
         "products": health.products, "datasets": health.datasets, "damages": damages.collect::<Vec<_>>(),
-        "copy": mended.map(|mended| mended.copy.to_string_lossy()),
+        "copy": result.map(|result| result.copy.to_string_lossy()),
         "restored": restored.collect::<Vec<_>>(),
-        "mended": mended.map(|mended| &mended.mended), "lost": mended.map(|mended| &mended.lost),
+        "mended": result.map(|result| &result.repaired), "lost": result.map(|result| &result.lost),
     })
 }

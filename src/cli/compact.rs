@@ -111,7 +111,7 @@ pub fn run(args: &CompactArgs) -> anyhow::Result<()> {
     for dataset in &datasets {
         let made = compact(dataset, criterion).map_err(|error| anyhow!("{name}: {error}"))?;
         if made.functions.is_empty() {
-            tell!("note: {name}: nothing on cells or at single directions; closed forms and trees stay as they are");
+            report!("note: {name}: nothing on cells or at single directions; closed forms and trees stay as they are");
         }
         if let Some(out) = &args.out {
             args.over.write(out, FileKind::Compact, &dataset_blob::encode(&made.dataset))?;

@@ -56,11 +56,11 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     args.tables.check([&*args.scene], args.out.as_deref(), FileKind::Csv, !args.json)?;
     let file = read_scene_file(&args.scene)?;
     let base = files::folder(&args.scene);
-    let told = |error: crate::study::StudyError| anyhow!("{name}: {error}");
-    let list = moving(&file, base, &|keys| library.device(keys, base)).map_err(told)?;
-    let situation = Situation::of(&file).map_err(told)?;
+    let located = |error: crate::study::StudyError| anyhow!("{name}: {error}");
+    let list = moving(&file, base, &|keys| library.device(keys, base)).map_err(located)?;
+    let situation = Situation::of(&file).map_err(located)?;
     let progress = TerminalProgress::new();
-    let moments = year(&situation, base, &list, args.step, &situation.sky, &progress).map_err(told)?;
+    let moments = year(&situation, base, &list, args.step, &situation.sky, &progress).map_err(located)?;
     drop(progress);
     if args.out.is_some() || !args.json {
         args.tables.put(args.out.as_deref(), FileKind::Csv, &csv(&list, &moments))?;
@@ -75,7 +75,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             Some(hours) => format!("direct sun through it for {hours:.1} h"),
             None => "its slats are not known: whether direct sun passes is not told".to_owned(),
         };
-        tell!(
+        report!(
             "aperture {}: {} ({}), {} movements, sun on it for {:.1} h, {direct}",
             one.aperture,
             one.device.name,
@@ -84,7 +84,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             sum.sun_hours
         );
         if one.keys.open_below.is_some() && one.keys.indoor.is_none() {
-            tell!(
+            report!(
                 "aperture {}: open_below has no effect: no indoor illuminance is computed here; `cfs year` does",
                 one.aperture
             );

@@ -125,7 +125,7 @@ pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     args.over.write(&args.output, FileKind::Dataset(format), &written.bytes)?;
     // After the file is there: findings are about data that could be written. To stderr, as results alone go to stdout.
     for finding in datasets.iter().flat_map(|one| &one.findings).chain(&written.findings) {
-        tell!("{}: {}", finding.severity.word(), finding.message);
+        report!("{}: {}", finding.severity.word(), finding.message);
     }
     Ok(())
 }

@@ -181,14 +181,14 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
         drop(std::fs::create_dir_all(folder));
     }
     let kept = keep.as_deref().filter(|_| states.len() > 1);
-    let told = results(args, library, &target, &described, &request, &states, kept);
+    let summary = results(args, library, &target, &described, &request, &states, kept);
     // A refused description would be refused again; if only the files could not be written, the next run resumes.
-    let is_resumable = told.as_ref().is_err_and(|error| error.is::<StudyError>());
+    let is_resumable = summary.as_ref().is_err_and(|error| error.is::<StudyError>());
     if let Some(folder) = keep.filter(|_| !is_resumable) {
         // A folder of kept states that cannot be removed costs disk space only.
         drop(std::fs::remove_dir_all(folder));
     }
-    output::print(&told?)
+    output::print(&summary?)
 }
 
 /// Computes the states, writes them, and returns the summary.
@@ -211,10 +211,10 @@ fn results(
             let of =
                 if one.dataset.state.is_empty() { String::new() } else { format!("state {}: ", one.dataset.state) };
             let Request { error, .. } = request;
-            tell!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
+            report!("note: {of}error target {error} missed: {:.1e} at the worst incidence", quality.error);
         }
     }
-    let told = if args.json {
+    let summary = if args.json {
         let value = json!({
             "system": described.file.system.name,
             "kind": described.file.system.family().word(),
@@ -226,7 +226,7 @@ fn results(
         to_text(described, request, &computed)?
     };
     write_results(args.over, target, described, request, computed.into_iter().map(|one| one.dataset).collect())?;
-    Ok(told)
+    Ok(summary)
 }
 
 fn write_results(
@@ -248,7 +248,7 @@ fn write_results(
         }
         Target::States(path, format) => {
             let several = datasets.len() > 1;
-            let mut told = BTreeSet::new();
+            let mut reported = BTreeSet::new();
             let mut files = Vec::new();
             for mut dataset in datasets {
                 let path = path_of_state(path, &dataset.state, several);
@@ -257,8 +257,8 @@ fn write_results(
                 }
                 for (path, written) in written_state(&path, *format, &dataset)? {
                     for finding in written.findings {
-                        if told.insert(finding.message.clone()) {
-                            tell!("note: {}: {}", path.display(), finding.message);
+                        if reported.insert(finding.message.clone()) {
+                            report!("note: {}: {}", path.display(), finding.message);
                         }
                     }
                     files.push((path, written.bytes));
@@ -312,17 +312,17 @@ fn path_with(path: &Path, word: &str) -> PathBuf {
 
 /// Returns the files of one state, with their paths, bytes and findings.
 fn written_state(path: &Path, format: Format, dataset: &Dataset) -> anyhow::Result<Vec<(PathBuf, Written)>> {
-    let told = |error| anyhow!("{}: {error}", path.display());
+    let located = |error| anyhow!("{}: {error}", path.display());
     match format {
         Format::BsdfXml => {
-            let written = write_dataset(format, std::slice::from_ref(dataset)).map_err(told)?;
+            let written = write_dataset(format, std::slice::from_ref(dataset)).map_err(located)?;
             Ok(vec![(path.to_owned(), written)])
         }
         Format::BtdfText => {
             let mut files = Vec::new();
             for component in Component::ALL {
                 let path = path_of_component(path, component);
-                let written = btdf_text::write_component(dataset, component).map_err(told)?;
+                let written = btdf_text::write_component(dataset, component).map_err(located)?;
                 files.push((path, written));
             }
             Ok(files)

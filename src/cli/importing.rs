@@ -6,7 +6,7 @@ use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Silent;
 use crate::compute::wavelet::Criterion;
 use crate::study::compact::{Storage, stored_as, stored_by_default};
-use crate::study::intake::{Taken, take_in};
+use crate::study::intake::{Taken, import_files};
 use anyhow::{anyhow, bail};
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -85,9 +85,9 @@ pub enum Compactness {
 /// name gets that of its first file, with a note.
 fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     let meta = &mut product.meta;
-    let over = |told: &mut String, asked: &String| {
+    let over = |field: &mut String, asked: &String| {
         if !asked.is_empty() {
-            told.clone_from(asked);
+            field.clone_from(asked);
         }
     };
     over(&mut meta.name, &args.name);
@@ -96,7 +96,7 @@ fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     meta.tags.extend(args.tags.iter().cloned());
     if meta.name.is_empty() {
         meta.name.clone_from(&product.file_stem);
-        tell!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
+        report!("note: the file gives no name; taken from the file: {} (--name gives another)", meta.name);
     }
     product
 }
@@ -114,7 +114,7 @@ fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
 
 /// Prints on standard error which files are skipped, cannot be read, or hold the same data. Returns an error for a file
 /// that holds no product, such as a scene.
-fn tell(taken: &Taken) -> anyhow::Result<()> {
+fn report_files(taken: &Taken) -> anyhow::Result<()> {
     if let Some((single, path)) = taken.singles.first() {
         bail!(
             "{}: {}; expected dataset files, packages, folders or zip archives of them",
@@ -123,15 +123,15 @@ fn tell(taken: &Taken) -> anyhow::Result<()> {
         );
     }
     for reason in &taken.left_out {
-        tell!("note: left out: {reason}");
+        report!("note: left out: {reason}");
     }
     for failure in &taken.failures {
-        tell!("warning: not read: {failure}");
+        report!("warning: not read: {failure}");
     }
     let mut seen: HashMap<&str, &str> = HashMap::new();
     for file in &taken.sources {
         if let Some(other) = seen.insert(&file.content, &file.name).filter(|_| !file.content.is_empty()) {
-            tell!("note: {}: the same data as {other}", file.name);
+            report!("note: {}: the same data as {other}", file.name);
         }
     }
     Ok(())
@@ -140,13 +140,13 @@ fn tell(taken: &Taken) -> anyhow::Result<()> {
 /// Adds the products of files, folders and archives to the catalogue, in one step, and prints their keys.
 pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     // Everything is read before anything is stored.
-    let taken = take_in(&args.files, SourceFile::read, &Silent);
+    let taken = import_files(&args.files, SourceFile::read, &Silent);
     let several = |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("zip"));
     // One bad file among many does not stop the others; one that was asked for by name does.
     if let Some(failure) = taken.failures.first().filter(|_| !args.files.iter().any(several)) {
         bail!("{failure}");
     }
-    tell(&taken)?;
+    report_files(&taken)?;
     if args.compact.is_some() && !taken.packed.is_empty() {
         bail!("--compact is for dataset files; a package keeps the form that its data have");
     }
@@ -158,8 +158,8 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
         .collect();
     for product in gather(taken.sources, if args.name.is_empty() { args.group.grouping() } else { Grouping::One }) {
         let mut product = described(args, product);
-        if let Some(doubt) = &product.doubt {
-            tell!("question: {}: {} (--group each, or one, answers)", product.meta.name, doubt.question());
+        if let Some(ambiguity) = &product.ambiguity {
+            report!("question: {}: {} (--group each, or one, answers)", product.meta.name, ambiguity.question());
         }
         product.meta.contents = product.datasets.iter().map(content_of).collect();
         product.meta.paths = product.sources.iter().filter_map(|name| paths.get(name).cloned()).collect();
@@ -174,12 +174,12 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
     for Stored { imported: product, .. } in catalogue.import_all(list)? {
         writeln!(text, "{}", product.key)?;
         if product.same_content_as == [product.key.as_str()] {
-            tell!("note: {} is there already, the same; left as it is", product.key);
+            report!("note: {} is there already, the same; left as it is", product.key);
         } else if !product.same_content_as.is_empty() {
-            tell!("note: the same data are already in {}", product.same_content_as.join(", "));
+            report!("note: the same data are already in {}", product.same_content_as.join(", "));
         }
         for finding in catalogue.product(&product.key)?.findings {
-            tell!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
+            report!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
         }
     }
     print_text(&text)

@@ -1,6 +1,6 @@
 //! `cfs info`: contents of data files of every kind that the program reads, and the findings about them.
 
-use crate::cli::output::{Content, print, print_text, tell_error};
+use crate::cli::output::{Content, print, print_text, report_error};
 use crate::cli::{dataset_file, luminaire_info, system_info, weather_info};
 use crate::compute::btdf::{
     BandName, Btdf, Component, Dataset, Scattered, Severity, SolarSource, Thermal, ThermalKey, TreeRank,
@@ -62,7 +62,7 @@ pub fn run(args: &InfoArgs, library: &Library) -> anyhow::Result<()> {
             }
             Err(error) => {
                 if let Some(earlier) = failed.replace(error) {
-                    tell_error(&earlier);
+                    report_error(&earlier);
                 }
             }
         }
@@ -82,7 +82,7 @@ fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Con
     if let Some(content) = weather_info::describe(file, as_json)? {
         return Ok(content);
     }
-    if is_system_file(&files::telling_name(file)?) {
+    if is_system_file(&files::name_with_extension(file)?) {
         return system_info::describe(file, as_json, library);
     }
     let datasets = dataset_file::read(file)?;
@@ -95,16 +95,17 @@ fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Con
 
 /// Returns the description of each dataset by `say`, called once for equal datasets: many states may name one file.
 fn once_each<T: Clone>(datasets: &[Dataset], say: impl Fn(&Dataset, &[Diagnosis]) -> T) -> Vec<T> {
-    let mut said: Vec<(&Dataset, T)> = Vec::new();
-    let mut said_of = |(dataset, found): (_, Vec<Diagnosis>)| match said.iter().find(|(other, _)| *other == dataset) {
-        Some((_, text)) => text.clone(),
-        None => {
-            let text = say(dataset, &found);
-            said.push((dataset, text.clone()));
-            text
-        }
-    };
-    datasets.iter().zip(examine_all(datasets)).map(&mut said_of).collect()
+    let mut descriptions: Vec<(&Dataset, T)> = Vec::new();
+    let mut description_of =
+        |(dataset, found): (_, Vec<Diagnosis>)| match descriptions.iter().find(|(other, _)| *other == dataset) {
+            Some((_, text)) => text.clone(),
+            None => {
+                let text = say(dataset, &found);
+                descriptions.push((dataset, text.clone()));
+                text
+            }
+        };
+    datasets.iter().zip(examine_all(datasets)).map(&mut description_of).collect()
 }
 
 /// Returns a dataset as JSON, with the keys that the documentation of the scene file lists.

@@ -4,14 +4,14 @@ use super::lid_summary::{report, summary};
 use super::output::print;
 use super::progress::TerminalProgress;
 use super::weather_info::weather_notes;
-use super::writing::{Over, StreamFormat, Tables, refuse_stream, tell_written};
+use super::writing::{Over, StreamFormat, Tables, refuse_stream, report_written};
 use crate::compute::lid::c_gamma::{Aim, Step};
 use crate::formats::FileKind;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire_index::{self, Row};
 use crate::study::luminaire_file::{LidFormat, describe};
 use crate::study::luminaire_series::{Member, Series};
-use crate::study::luminaire_set::{SetError, TileFile, Tiles, Wish, make, tile_name};
+use crate::study::luminaire_set::{LuminaireOptions, SetError, TileFile, Tiles, make, tile_name};
 use crate::study::{Scene, Session, clock, files, read_scene_file, system::SystemLibrary};
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
@@ -119,7 +119,7 @@ pub enum AimArg {
 ///
 /// Options are checked before anything is computed; either all files are written or none.
 pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
-    let wish = wish(args)?;
+    let options = luminaire_options(args)?;
     let path = &args.scene;
     let keys = read_scene_file(path)?;
     let (index, count) = (args.aperture as usize - 1, keys.aperture.len());
@@ -137,9 +137,9 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         series.members(&keys, base, index).with_context(|| path.display().to_string())?
     };
     for time in &dark {
-        tell!("note: {time} is left out: the sun is below the horizon");
+        report!("note: {time} is left out: the sun is below the horizon");
     }
-    let kind = match wish.format {
+    let kind = match options.format {
         LidFormat::Eulumdat => FileKind::Eulumdat,
         LidFormat::Ies(_) => FileKind::Ies,
         LidFormat::Csv => FileKind::Csv,
@@ -147,7 +147,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         LidFormat::Svg => FileKind::Svg,
     };
     args.tables.check([&**path], None, kind, true)?;
-    if needs_index(&wish, &members) {
+    if needs_index(&options, &members) {
         refuse_stream(&args.out)?;
         if args.out.file_name().is_none_or(|name| name.to_str().is_none()) {
             bail!(
@@ -160,9 +160,9 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         args.tables.over.check([], Some(&args.out), kind)?;
     }
     let mut written = Written { over: args.tables.over, kind, paths: Vec::new(), new: Vec::new(), index: None };
-    let made = all(args, &wish, &members, library, &mut written);
+    let made = all(args, &options, &members, library, &mut written);
     if made.is_ok() {
-        tell_written(written.paths.iter().map(PathBuf::as_path));
+        report_written(written.paths.iter().map(PathBuf::as_path));
     }
     match made {
         Ok(summaries) if args.json => {
@@ -211,14 +211,14 @@ impl Written {
 }
 
 /// Returns whether the files need an index, which a single file does not.
-fn needs_index(wish: &Wish, members: &[Member]) -> bool {
-    wish.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty())
+fn needs_index(options: &LuminaireOptions, members: &[Member]) -> bool {
+    options.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty())
 }
 
 /// Computes and writes all members of a series, or the scene alone. Returns a summary of each.
 fn all(
     args: &LidArgs,
-    wish: &Wish,
+    options: &LuminaireOptions,
     members: &[Member],
     library: &dyn SystemLibrary,
     written: &mut Written,
@@ -239,17 +239,17 @@ fn all(
         };
         let scene = Scene::resolve(&member.scene, base, library).with_context(about)?;
         if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
-            tell!("note: {note}");
+            report!("note: {note}");
         }
         weather_notes(scene.weather.as_ref());
         let text = describe(&scene_name, &member.scene, base, index, &date);
         let name = |tile: Option<usize>| file_name(&args.out, &member.tag, tile);
-        let set = make(&session, &scene, index, &text, wish, name, &progress).map_err(|error| match error {
+        let set = make(&session, &scene, index, &text, options, name, &progress).map_err(|error| match error {
             SetError::Study(error) => anyhow::Error::from(error).context(about()),
             SetError::File(error) => anyhow::Error::from(error).context(args.out.display().to_string()),
         })?;
         // A single file has the name of `--out`, which need not be UTF-8.
-        let named = needs_index(wish, members);
+        let named = needs_index(options, members);
         let target = |file: &TileFile| {
             if named { args.out.with_file_name(&file.row.file) } else { args.out.clone() }
         };
@@ -266,11 +266,11 @@ fn all(
         }
         summaries.push(summary(&args.out, args.aperture, &set, member));
     }
-    if needs_index(wish, members) {
+    if needs_index(options, members) {
         let path = args.out.with_extension("index.csv");
         written.put(&[(path.clone(), FileKind::Csv, &luminaire_index::write(&rows))])?;
         if !args.json {
-            tell!("index of {} files", rows.len());
+            report!("index of {} files", rows.len());
         }
         written.index = Some(path);
     }
@@ -278,7 +278,7 @@ fn all(
 }
 
 /// Returns the luminaire options of the arguments.
-fn wish(args: &LidArgs) -> Result<Wish> {
+fn luminaire_options(args: &LidArgs) -> Result<LuminaireOptions> {
     let edition = match args.edition {
         EditionArg::Y2002 => IesEdition::Lm63_2002,
         EditionArg::Y2019 => IesEdition::Lm63_2019,
@@ -298,7 +298,7 @@ fn wish(args: &LidArgs) -> Result<Wish> {
         AimArg::Mounted => Aim::Mounted,
         AimArg::Down => Aim::Down,
     });
-    Ok(Wish { format, aim, step, tiles: args.tiles, without_beam: args.without_beam })
+    Ok(LuminaireOptions { format, aim, step, tiles: args.tiles, without_beam: args.without_beam })
 }
 
 /// Returns the name of a file beside `out`, with the tag of a member of a series and the number of a tile.

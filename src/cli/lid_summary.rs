@@ -20,10 +20,10 @@ pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Me
         "aim": match set.aim { Aim::Mounted => "mounted", Aim::Down => "down" },
         // An empty sum is −0.
         "beam_lm": set.files.iter().map(|file| file.row.beam).sum::<f64>() + 0.0,
-        "beam_apart": set.apart.map(|apart| serde_json::json!({
-            "flux_lm": apart.flux,
-            "direction": apart.direction.to_array(),
-            "normal_lx": apart.normal,
+        "beam_apart": set.separate_beam.map(|beam| serde_json::json!({
+            "flux_lm": beam.flux,
+            "direction": beam.direction.to_array(),
+            "normal_lx": beam.normal,
         })),
         "tiles": set.tiling.map(|tiling| serde_json::json!({ "columns": tiling.columns, "rows": tiling.rows })),
         "files": set.files.iter().map(|file| &file.row.file).collect::<Vec<_>>(),
@@ -40,7 +40,7 @@ pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Me
 /// Prints the figures of the luminaires as sentences; `without_beam`: whether the direct sun was to be left out.
 pub(super) fn report(without_beam: bool, set: &LuminaireSet, member: &Member) {
     let of = if member.name.is_empty() { String::new() } else { format!("{}: ", member.name) };
-    tell!(
+    report!(
         "{of}{:.1} lm, peak {:.1} cd, step {}°, table scaled by {:+.3} %",
         set.flux.value,
         set.peak,
@@ -48,15 +48,15 @@ pub(super) fn report(without_beam: bool, set: &LuminaireSet, member: &Member) {
         100.0 * (set.scaled_by - 1.0)
     );
     if let Some(tiling) = set.tiling {
-        tell!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
+        report!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
     }
-    if let Some(apart) = set.apart {
-        tell!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", apart.flux, apart.normal);
+    if let Some(beam) = set.separate_beam {
+        report!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", beam.flux, beam.normal);
     } else if without_beam {
-        tell!("--without-beam: there is no straight sunbeam to leave out");
+        report!("--without-beam: there is no straight sunbeam to leave out");
     }
     if let Some(reached) = set.reached {
         let missed = if reached.holds() { "" } else { " More than 1 %: this light is too sharp for point luminaires." };
-        tell!("{}{missed}", reached.sentence());
+        report!("{}{missed}", reached.sentence());
     }
 }

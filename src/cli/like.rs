@@ -1,6 +1,6 @@
 //! `cfs catalogue like`: products with the most similar effect on light.
 
-use super::listing::tell_notes;
+use super::listing::report_notes;
 use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, Query};
 use crate::texts::one_line;
@@ -39,25 +39,26 @@ pub struct LikeArgs {
 /// Lists the products with the most similar effect on light, nearest first.
 pub(super) fn like(catalogue: &Catalogue, args: &LikeArgs) -> anyhow::Result<()> {
     let found = catalogue.find(&Query { like: Some(args.key.clone()), ..Query::default() })?;
-    tell_notes(&found);
+    report_notes(&found);
     let Some(likeness) = found.like else {
         bail!("the catalogue holds no product \"{}\"; `cfs catalogue list` shows all keys", args.key);
     };
-    let list: Vec<_> = found.entries.iter().zip(&likeness.apart).take(args.most).collect();
+    let list: Vec<_> = found.entries.iter().zip(&likeness.distances).take(args.most).collect();
     if args.json {
-        let one = |(row, apart): &(&std::sync::Arc<crate::catalogue::ProductRow>, &crate::catalogue::Apart)| {
-            let [tau, profile, ceiling, sun, view] = apart.terms;
-            json!({
-                "key": row.key, "name": row.name, "state": row.state(), "distance": apart.distance, "tau": tau,
-                "profile": profile, "ceiling": ceiling, "sun_blocked": sun, "view": view,
-            })
-        };
+        let one =
+            |(row, distance): &(&std::sync::Arc<crate::catalogue::ProductRow>, &crate::catalogue::ProductDistance)| {
+                let [tau, profile, ceiling, sun, view] = distance.terms;
+                json!({
+                    "key": row.key, "name": row.name, "state": row.state(), "distance": distance.distance, "tau": tau,
+                    "profile": profile, "ceiling": ceiling, "sun_blocked": sun, "view": view,
+                })
+            };
         return print(&(serde_json::to_string_pretty(&list.iter().map(one).collect::<Vec<_>>())? + "\n"));
     }
     let width = list.iter().map(|(row, _)| row.key.chars().count()).max().unwrap_or(0);
     let mut text = format!("like {} ({})\n", likeness.key, one_line(&likeness.name));
-    for (row, apart) in list {
-        writeln!(text, "{:width$}  {}", row.key, apart.words())?;
+    for (row, distance) in list {
+        writeln!(text, "{:width$}  {}", row.key, distance.words())?;
     }
     print_text(&text)
 }

@@ -132,15 +132,15 @@ pub(super) fn figure(value: Option<f64>) -> String {
 }
 
 /// Prints on standard error which words were read as others, and which damaged products were restored or left out.
-pub(super) fn tell_notes(found: &Found) {
+pub(super) fn report_notes(found: &Found) {
     for (typed, read_as) in &found.read_as {
-        tell!("note: no product has \"{typed}\"; read as \"{read_as}\"");
+        report!("note: no product has \"{typed}\"; read as \"{read_as}\"");
     }
     if !found.restored.is_empty() {
-        tell!("warning: {}", text::restored(found.restored.join(", ")));
+        report!("warning: {}", text::restored(found.restored.join(", ")));
     }
     if !found.damaged.is_empty() {
-        tell!("warning: {}", text::not_listed(found.damaged.join(", ")));
+        report!("warning: {}", text::not_listed(found.damaged.join(", ")));
     }
 }
 
@@ -148,11 +148,11 @@ pub(super) fn tell_notes(found: &Found) {
 pub(super) fn list(catalogue: &Catalogue, args: &ListArgs) -> anyhow::Result<()> {
     let query = args.query();
     let found = catalogue.find(&query)?;
-    tell_notes(&found);
+    report_notes(&found);
     let rows = found.entries;
     if rows.is_empty() && !args.json {
         for (filter, count) in &found.without {
-            tell!("{count} products without \"{}\"", query.words_of(*filter));
+            report!("{count} products without \"{}\"", query.words_of(*filter));
         }
     }
     if args.json { print(&as_json(&rows)?) } else { print_text(&as_table(&rows)?) }

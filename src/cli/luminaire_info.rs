@@ -19,7 +19,7 @@ const SAME: f64 = 1e-4;
 /// # Errors
 /// Returns an error if the file cannot be read: one line with the file's name and the place in it.
 pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
-    if files::telling_name(path)?.to_ascii_lowercase().ends_with(INDEX) {
+    if files::name_with_extension(path)?.to_ascii_lowercase().ends_with(INDEX) {
         return index(path, as_json).map(Some);
     }
     let Some(luminaire) = luminaires::read_file(path)? else { return Ok(None) };
@@ -51,7 +51,7 @@ fn index(path: &Path, as_json: bool) -> anyhow::Result<Content> {
 fn beams(one: &LuminaireAperture) -> [f64; 2] {
     // An empty sum is −0.
     let beam = one.rows.iter().map(|row| row.beam).sum::<f64>() + 0.0;
-    [beam, one.rows.iter().filter_map(|row| row.apart).map(|apart| apart.flux).sum::<f64>() + 0.0]
+    [beam, one.rows.iter().filter_map(|row| row.separate_beam).map(|separate| separate.flux).sum::<f64>() + 0.0]
 }
 
 fn peak(one: &LuminaireAperture) -> f64 {
@@ -59,8 +59,8 @@ fn peak(one: &LuminaireAperture) -> f64 {
 }
 
 fn aperture_json(one: &LuminaireAperture, name: &str) -> serde_json::Value {
-    let [beam, apart] = beams(one);
-    let direction = one.rows.iter().find_map(|row| row.apart);
+    let [beam, separate] = beams(one);
+    let direction = one.rows.iter().find_map(|row| row.separate_beam);
     let files = one.rows.iter().zip(&one.files).map(|(row, file)| {
         json!({
             "file": row.file,
@@ -81,7 +81,7 @@ fn aperture_json(one: &LuminaireAperture, name: &str) -> serde_json::Value {
         "flux_lm": one.lamps.flux(),
         "beam_lm": beam,
         "beam_apart": direction.map(|row| json!({
-            "flux_lm": apart,
+            "flux_lm": separate,
             "direction": row.direction.to_array(),
             "normal_lx": row.normal,
         })),
@@ -104,14 +104,14 @@ fn aperture_text(text: &mut String, one: &LuminaireAperture, name: &str) {
     line("Tiles", &format!("{}, the first of {width:.3} m x {height:.3} m", one.rows.len()));
     line("Flux", &format!("{:.1} lm", one.lamps.flux()));
     line("Largest intensity", &format!("{:.2} cd of one tile", peak(one)));
-    let [beam, apart] = beams(one);
+    let [beam, separate] = beams(one);
     line("Sunbeams in the files", &if beam > 0.0 { format!("{beam:.1} lm, widened") } else { "none".to_owned() });
-    if let Some(row) = one.rows.iter().find_map(|row| row.apart) {
+    if let Some(row) = one.rows.iter().find_map(|row| row.separate_beam) {
         let d = row.direction;
         let way = format!("({:.4}, {:.4}, {:.4})", d.x, d.y, d.z);
         line(
             "Left to the host",
-            &format!("straight sunbeam of {apart:.1} lm along {way}, {:.1} lx across it", row.normal),
+            &format!("straight sunbeam of {separate:.1} lm along {way}, {:.1} lx across it", row.normal),
         );
     }
 }
@@ -161,8 +161,8 @@ fn symmetry(luminaire: &Luminaire) -> &'static str {
         (0..c.len()).all(|k| {
             let image = (2.0 * axis - c[k]).rem_euclid(360.0);
             let twin = c.iter().position(|other| {
-                let apart = (other - image).rem_euclid(360.0);
-                apart.min(360.0 - apart) < 1e-3
+                let difference = (other - image).rem_euclid(360.0);
+                difference.min(360.0 - difference) < 1e-3
             });
             twin.is_some_and(|twin| same(k, twin))
         })

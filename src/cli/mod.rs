@@ -1,7 +1,7 @@
 //! Command line of the program: arguments in, files and tables out, no display needed.
 
 /// Prints a message on standard error, with the arguments of `eprintln!`.
-macro_rules! tell {
+macro_rules! report {
     ($($text:tt)*) => { $crate::cli::output::to_stderr(format_args!($($text)*)) };
 }
 
@@ -51,7 +51,7 @@ mod year_json;
 
 pub use args::{Arguments, Command};
 pub use fault::{Stopped, guarded};
-pub use output::tell_error;
+pub use output::report_error;
 pub use writing::Over;
 
 use crate::catalogue::default_path;

@@ -61,21 +61,21 @@ pub(super) fn to_stderr(text: std::fmt::Arguments<'_>) {
 }
 
 /// Prints an error on standard error, as one line, whatever its causes contain.
-pub fn tell_error(error: &anyhow::Error) {
+pub fn report_error(error: &anyhow::Error) {
     to_stderr(format_args!("cfs: {}", sentence(error)));
 }
 
 /// Returns an error as one sentence with its causes, none of them twice.
 pub(super) fn sentence(error: &anyhow::Error) -> String {
-    let mut said = String::new();
+    let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
-        if said.is_empty() {
-            said = cause;
-        } else if !said.contains(&cause) {
-            said = format!("{said}: {cause}");
+        if text.is_empty() {
+            text = cause;
+        } else if !text.contains(&cause) {
+            text = format!("{text}: {cause}");
         }
     }
-    message(&said)
+    message(&text)
 }
 
 #[cfg(test)]

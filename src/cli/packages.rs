@@ -143,10 +143,10 @@ pub fn merge(args: &MergeArgs) -> anyhow::Result<()> {
     let merged = merge_packages(&read(&args.first)?, &read(&args.second)?)?;
     args.over.write(&args.out, FileKind::Package, &package::write(&merged.package)?)?;
     for key in &merged.same {
-        tell!("note: {key}: the same in both, kept once");
+        report!("note: {key}: the same in both, kept once");
     }
     for (key, new) in &merged.renamed {
-        tell!("note: {key}: other content in {}, kept as {new}", args.second.display());
+        report!("note: {key}: other content in {}, kept as {new}", args.second.display());
     }
     output::print(&format!("{} products\n", merged.package.products.len()))
 }

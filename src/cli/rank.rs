@@ -1,6 +1,6 @@
 //! `cfs rank SCENE…`: ranking of products for a façade.
 
-use super::listing::tell_notes;
+use super::listing::report_notes;
 use super::output::{print, print_text};
 use super::progress::TerminalProgress;
 use super::rank_csv::{Shape, shard_csv, shard_of};
@@ -79,7 +79,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     args.tables.check(from, args.out.as_deref(), FileKind::Csv, false)?;
     if !args.merge.is_empty() {
         let (lists, figures) = merged(&args.merge)?;
-        return tell(args, &lists, &figures);
+        return report_lists(args, &lists, &figures);
     }
     let groups = asked(&args.scenes, args.products.as_deref(), library)?;
     let figures = figures_of(&groups);
@@ -90,7 +90,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     if let (Some(shape), Some(out)) = (&shape, &args.out)
         && there_already(args, shape, out)?
     {
-        tell!("{}: is there already", files::absolute(out).display());
+        report!("{}: is there already", files::absolute(out).display());
         return Ok(());
     }
     let progress = TerminalProgress::new();
@@ -105,7 +105,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     lists.iter_mut().for_each(List::sort);
     match (&shape, &args.out) {
         (Some(shape), Some(out)) => args.tables.put(Some(out), FileKind::Csv, &shard_csv(&lists, &figures, shape)),
-        _ => tell(args, &lists, &figures),
+        _ => report_lists(args, &lists, &figures),
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Librar
         let base = files::folder(path);
         let find = |words: &str| {
             let (products, found) = library.search(words)?;
-            tell_notes(&found);
+            report_notes(&found);
             Ok(products)
         };
         let own = groups(&path.display().to_string(), &file, base, products, &find);
@@ -159,7 +159,7 @@ fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<b
 }
 
 /// Writes the complete lists to the CSV file, and prints them as a table or as JSON.
-fn tell(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<()> {
+fn report_lists(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<()> {
     if let Some(out) = &args.out {
         args.tables.put(Some(out), FileKind::Csv, &csv_text(&ranked_table(lists, figures)))?;
     }

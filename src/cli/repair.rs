@@ -86,23 +86,23 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
             };
             bail!("{name}: nothing is beyond doubt; {rest}");
         }
-        let mut mended = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
+        let mut repaired = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
         // What the description recorded before is kept, and undone repairs cancel out.
-        mended.description = record(&dataset.description, &repairs);
+        repaired.description = record(&dataset.description, &repairs);
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
-        tell!("repaired: {}", words.join(", "));
+        report!("repaired: {}", words.join(", "));
         if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
-            tell!("asked, not done: {questions}");
+            report!("asked, not done: {questions}");
         }
-        if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
-            tell!("{sentence}");
+        if let Some(sentence) = repaired.transmission().and_then(sun_from_above) {
+            report!("{sentence}");
         }
-        *dataset = mended;
+        *dataset = repaired;
     }
     let written = write_dataset(format, &datasets).map_err(|error| anyhow!("{out_name}: {error}"))?;
     args.over.write(&args.out, FileKind::Dataset(format), &written.bytes)?;
     for finding in &written.findings {
-        tell!("{}: {}", finding.severity.word(), finding.message);
+        report!("{}: {}", finding.severity.word(), finding.message);
     }
     Ok(())
 }

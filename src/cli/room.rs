@@ -79,13 +79,13 @@ const UNPLACED: f64 = 0.1;
 /// Prints notes on the result on standard error: sky, weather, obstructions, data and error target.
 fn notes(scene: &Scene, result: &RoomResult) {
     if let Some(note) = scene.illuminances.and_then(|light| light.note()) {
-        tell!("note: {note}");
+        report!("note: {note}");
     }
     weather_notes(scene.weather.as_ref());
-    scene.outside_notes.iter().for_each(|note| tell!("note: {note}"));
+    scene.outside_notes.iter().for_each(|note| report!("note: {note}"));
     for (number, (aperture, count)) in scene.apertures.iter().zip(scene.too_near()).enumerate() {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
-            tell!(
+            report!(
                 "note: {count} of {} sensors lie nearer than {distance:.3} m to aperture {}, where they would see the \
                  slats or cuts of {} one by one; the data hold its mean alone",
                 scene.sensors.len(),
@@ -95,21 +95,21 @@ fn notes(scene: &Scene, result: &RoomResult) {
         }
     }
     for (number, (aperture, (source, reason))) in scene.apertures.iter().zip(&result.beams).enumerate() {
-        let doubted = result.data_share();
-        if *source == BeamSource::Cells && doubted > UNPLACED {
-            tell!(
+        let data_share = result.data_share();
+        if *source == BeamSource::Cells && data_share > UNPLACED {
+            report!(
                 "note: sun patches cannot be placed with the data of aperture {} ({}): {reason}; {:.0} % of the light at \
                  the sensors is left open by the data",
                 number + 1,
                 aperture.system.label,
-                100.0 * doubted
+                100.0 * data_share
             );
         }
     }
     if let Some(target) = scene.error_target {
         let (reached, target) = (100.0 * result.reached(), 100.0 * target);
         let word = if reached <= target { "reached" } else { "not reached" };
-        tell!("note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error");
+        report!("note: error target of {target} % {word}: {reached:.2} % at the sensor with the largest stated error");
     }
 }
 

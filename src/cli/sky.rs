@@ -79,17 +79,17 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
     }
     let light = illuminances(&scene.sky, &scene.site).map_err(|error| anyhow!("{name}: {error}"))?;
     if let Some(note) = light.and_then(|light| light.note()) {
-        tell!("note: {note}");
+        report!("note: {note}");
     }
     if facade.behind {
-        tell!("note: boxes and building count for the façade: mean over its apertures; the sky is the open one");
+        report!("note: boxes and building count for the façade: mean over its apertures; the sky is the open one");
     }
     weather_notes(hour.as_ref());
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
     let diffuse = outside.diffuse_horizontal();
-    tell!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
+    report!("horizontal: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
     let (diffuse, direct) = (facade.diffuse.value, facade.direct);
-    tell!("facade: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
+    report!("facade: diffuse {diffuse:.6} lx, direct {direct:.6} lx, global {:.6} lx", diffuse + direct);
     Ok(())
 }
 

@@ -49,10 +49,10 @@ pub struct SubscriptionsArgs {
 fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
     let report = sync(catalogue, &Silent)?;
     for problem in &report.problems {
-        tell!("warning: {problem}");
+        report!("warning: {problem}");
     }
     if report.taken + report.gone > 0 {
-        tell!("note: {} products came or changed, {} went", report.taken, report.gone);
+        report!("note: {} products came or changed, {} went", report.taken, report.gone);
     }
     Ok(())
 }
@@ -69,7 +69,7 @@ pub(super) fn subscribe(catalogue: &mut Catalogue, args: &SubscribeArgs) -> anyh
 pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> anyhow::Result<()> {
     let folder = folder_of(&args.folder).unwrap_or_else(|_| args.folder.display().to_string());
     let gone = catalogue.unsubscribe(&folder)?;
-    tell!("note: {gone} products went");
+    report!("note: {gone} products went");
     Ok(())
 }
 

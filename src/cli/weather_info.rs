@@ -16,7 +16,7 @@ use std::path::Path;
 /// # Errors
 /// Returns an error if the file cannot be read: one line with the file's name and the place in it.
 pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
-    let name = files::telling_name(path)?;
+    let name = files::name_with_extension(path)?;
     if !name.starts_with(BUILTIN) && !is_weather_file(&name) {
         return Ok(None);
     }
@@ -161,9 +161,9 @@ fn closure(weather: &Weather, summary: &Summary) -> String {
 /// Prints the weather hour of the sky and its warnings on standard error.
 pub fn weather_notes(hour: Option<&HourOfWeather>) {
     let Some(hour) = hour else { return };
-    tell!("note: {}", hour.note());
+    report!("note: {}", hour.note());
     for warning in &hour.warnings {
-        tell!("warning: {warning}");
+        report!("warning: {warning}");
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Over {
 /// Prints a warning that names the characters shown as boxes in the PNG or PDF file that was written.
 pub(super) fn warn_of_missing_characters(drawings: &[Drawing]) {
     if let Some(warning) = missing_characters(drawings) {
-        tell!("warning: {warning}");
+        report!("warning: {warning}");
     }
 }
 
@@ -63,7 +63,7 @@ impl Over {
     /// Writes files, all of them or none, and reports them on standard error.
     pub(super) fn write_all(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         self.write_silently(list)?;
-        tell_written(list.iter().map(|(path, ..)| *path));
+        report_written(list.iter().map(|(path, ..)| *path));
         Ok(())
     }
 
@@ -75,13 +75,13 @@ impl Over {
 }
 
 /// Reports the written files on standard error with their full paths, only the first of many. Streams are left out.
-pub(super) fn tell_written<'a>(paths: impl Iterator<Item = &'a Path>) {
+pub(super) fn report_written<'a>(paths: impl Iterator<Item = &'a Path>) {
     let list: Vec<PathBuf> = paths.filter(|path| !files::is_stream(path)).map(files::absolute).collect();
     match list.as_slice() {
         [first, others @ ..] if list.len() > MAX_NAMED => {
-            tell!("written: {} and {} more files beside it", first.display(), others.len());
+            report!("written: {} and {} more files beside it", first.display(), others.len());
         }
-        few => few.iter().for_each(|path| tell!("written: {}", path.display())),
+        few => few.iter().for_each(|path| report!("written: {}", path.display())),
     }
 }
 

@@ -7,7 +7,7 @@ use super::year_json::to_json;
 use crate::formats::FileKind;
 use crate::study::fingerprint::of_results;
 use crate::study::inputs::with_absolute_names;
-use crate::study::year::{Kept, PATIENCE, Step, Year, figures, opening, scene_at, year, year_kept};
+use crate::study::year::{Kept, STORE_DELAY, Step, Year, figures, opening, scene_at, year, year_kept};
 use crate::study::{Library, SceneFile, Session, StudyError, files, read_scene_file};
 use crate::texts::csv_cell;
 use anyhow::{Context as _, anyhow, bail};
@@ -86,32 +86,32 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     args.tables.check([&*args.scene], args.out.as_deref(), kind, !args.json)?;
     let file = read_scene_file(&args.scene)?;
     let base = files::folder(&args.scene);
-    let told = |error: StudyError| anyhow!("{name}: {error}");
+    let located = |error: StudyError| anyhow!("{name}: {error}");
     let progress = TerminalProgress::new();
     if let (Some(time), Some(out)) = (&args.scene_at, &args.out) {
-        let scene = scene_at(&file, base, library, moment(time)?, &progress).map_err(told)?;
+        let scene = scene_at(&file, base, library, moment(time)?, &progress).map_err(located)?;
         return write_scene(args, &scene, base, out);
     }
     let wanted = wanted(args)?;
     let session = Session::new();
     // No hours can be saved beside a stream.
     let table = args.out.as_deref().filter(|path| !files::is_stream(path));
-    let kept = table.map(|path| kept(args, path, &file, base, library)).transpose().map_err(told)?;
+    let kept = table.map(|path| kept(args, path, &file, base, library)).transpose().map_err(located)?;
     let year = match kept {
-        None => year(&file, base, library, &session, &*wanted, &progress).map_err(told)?,
+        None => year(&file, base, library, &session, &*wanted, &progress).map_err(located)?,
         Some(mut kept) => {
             if kept.count() > 0 {
-                tell!("{}: goes on behind {} hours", files::absolute(kept.path()).display(), kept.count());
+                report!("{}: goes on behind {} hours", files::absolute(kept.path()).display(), kept.count());
             }
             let year = match year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress) {
                 Ok(year) => year,
                 // Hours that could not be saved can be once there is disk space; a refused year would be refused again.
                 Err(StudyError::File { path, message }) if path == kept.path() => {
-                    return Err(told(StudyError::File { path, message }));
+                    return Err(located(StudyError::File { path, message }));
                 }
                 Err(error) => {
                     kept.done()?;
-                    return Err(told(error));
+                    return Err(located(error));
                 }
             };
             args.tables.put(table, FileKind::Csv, &csv(&year))?;
@@ -124,14 +124,14 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
         args.tables.put(args.out.as_deref(), FileKind::Csv, &csv(&year))?;
     }
     if args.json {
-        let opening = opening(&file, &year.settings, &year.steps).map_err(told)?;
+        let opening = opening(&file, &year.settings, &year.steps).map_err(located)?;
         print(&format!("{:#}\n", to_json(&year, &figures(&year), &file, &opening)))?;
     }
     for note in &year.notes {
-        tell!("note: {note}");
+        report!("note: {note}");
     }
     let lit = year.chosen.len() - year.light.dark;
-    tell!(
+    report!(
         "{} steps, {lit} with light, computed with coefficients for {} sets of states",
         year.chosen.len(),
         year.light.sets
@@ -141,7 +141,7 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
 
 /// Opens the file of saved hours beside the table: those of an interrupted run, to which this run adds its own.
 fn kept(args: &YearArgs, table: &Path, file: &SceneFile, base: &Path, library: &Library) -> Result<Kept, StudyError> {
-    Kept::beside(table, of_results(file, base, library)?, PATIENCE, args.tables.over.force)
+    Kept::beside(table, of_results(file, base, library)?, STORE_DELAY, args.tables.over.force)
 }
 
 /// Writes a scene whose paths are valid from its new place.

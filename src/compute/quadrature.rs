@@ -201,9 +201,9 @@ fn adapt<D: Copy>(
         total = Estimate::new(total.value - worst.estimate.value, (total.error - worst.estimate.error).max(0.0));
         let parts = halves.map(|domain| (domain, measure(domain)));
         let change = (parts.iter().map(|(_, (part, _))| part.value).sum::<f64>() - worst.estimate.value).abs();
-        let doubt = if worst.claimed > 0.0 { (6.0 * change / worst.claimed).max(1.0) } else { 1.0 };
+        let factor = if worst.claimed > 0.0 { (6.0 * change / worst.claimed).max(1.0) } else { 1.0 };
         for (domain, (part, second_axis)) in parts {
-            let estimate = Estimate::new(part.value, (part.error * doubt).min(part.error.max(change)));
+            let estimate = Estimate::new(part.value, (part.error * factor).min(part.error.max(change)));
             total += estimate;
             pieces.push(Piece { domain, estimate, claimed: part.error, second_axis });
         }

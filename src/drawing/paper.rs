@@ -4,7 +4,7 @@ use super::font;
 use super::raster::Raster;
 use super::shape::{Frame, Shape, moved};
 use super::svg;
-use crate::texts::{character_names, hand_on as texts};
+use crate::texts::{character_names, export as texts};
 
 /// Shapes on white paper, later ones on top.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,14 +15,14 @@ pub(super) const VERSION: u32 = 1;
 
 /// Description in a file, with its state and the fingerprint that was written with them.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Told {
+pub(super) struct StoredDescription {
     /// Description and state.
     pub described: DescribedState,
     /// Fingerprint in the file, hexadecimal.
     pub fingerprint: String,
 }
 
-impl Told {
+impl StoredDescription {
     /// Returns the description if it is that of the numbers that the file holds now, else a finding.
     pub fn restored(self, fingerprint: &str) -> Result<DescribedState, Finding> {
         let Self { described: DescribedState { text, state }, fingerprint: written } = self;

@@ -262,13 +262,13 @@ impl<'a> StoredPlanes<'a> {
             3 => (0..=n / 2).map(|k| listed[(k + 3 * n / 4) % n]).collect(),
             _ => listed[..=n / 4].to_vec(),
         };
-        let told = |what: String| {
+        let finding = |what: String| {
             Finding::info("planes-not-of-the-turn", format!("line 4: Mc is {count}, {what}; Isym {symmetry} by angle"))
         };
         let remark = if is_closed {
-            Some(told(format!("with the plane at {last}°, which is the one at {first}° again: {n} planes are used")))
+            Some(finding(format!("with the plane at {last}°, which is the one at {first}° again: {n} planes are used")))
         } else if is_part && n > 2 {
-            Some(told(format!("planes from {first}° to {last}°, where the format counts those of the full turn")))
+            Some(finding(format!("planes from {first}° to {last}°, where the format counts those of the full turn")))
         } else {
             None
         };

@@ -207,8 +207,8 @@ fn flux_of_lamps(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     let known = stated.output_ratio.filter(|ratio| *ratio > 0.0);
     let (fits, expected) = match known {
         Some(known) => {
-            let apart = (ratio - known).abs();
-            (apart <= SAME_FLUX * known || apart <= SMALL_RATIO, format!("where the file states {known:.2}"))
+            let difference = (ratio - known).abs();
+            (difference <= SAME_FLUX * known || difference <= SMALL_RATIO, format!("where the file states {known:.2}"))
         }
         None if ratio > 1.0 => (ratio <= 1.0 + SAME_FLUX, "though lamps give no more than their flux".to_owned()),
         // A ratio of 0 that is stated may be one that was rounded.
@@ -286,14 +286,14 @@ pub(super) fn closing_plane(c_deg: &[f64], table: &[f64]) -> Option<Finding> {
     }
     let (first, last) = (&table[..angles], &table[table.len() - angles..]);
     let peak = table.iter().copied().fold(0.0, f64::max);
-    let apart = first.iter().zip(last).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    (apart > SAME_PLANE * peak).then(|| {
+    let difference = first.iter().zip(last).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    (difference > SAME_PLANE * peak).then(|| {
         let message = format!(
             "the plane at C {}° is the one at C {}° again, but differs from it by up to {} % of the largest intensity; \
              the first one is used",
             number(c_deg[planes - 1], 4),
             number(c_deg[0], 4),
-            number(100.0 * apart / peak, 1)
+            number(100.0 * difference / peak, 1)
         );
         Finding::warning("turn-not-closed", message)
     })

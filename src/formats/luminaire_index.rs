@@ -22,7 +22,7 @@ use std::collections::HashMap;
 
 /// Undeviated beam that a file leaves to the host program.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Apart {
+pub struct SeparateBeam {
     /// Flux through the tile. \[lm\]
     pub flux: f64,
     /// Direction in which the beam travels, room axes, a unit vector.
@@ -49,7 +49,7 @@ pub struct Row {
     /// Orientation of the file's planes; `None`: not specified.
     pub aim: Option<Aim>,
     /// Undeviated beam that is left to the host program.
-    pub apart: Option<Apart>,
+    pub separate_beam: Option<SeparateBeam>,
     /// Name of the member of a series; empty for a single set.
     pub set: String,
 }
@@ -60,7 +60,7 @@ const HEADER: &str =
 /// Maximum absolute value of lengths and coordinates. \[m\]
 const LONGEST: f64 = 1e6;
 /// Minimum flux of an undeviated beam; a smaller one is dropped. \[lm\]
-const LEAST_APART: f64 = 1e-4;
+const MIN_BEAM_FLUX: f64 = 1e-4;
 
 /// Returns the text of an index.
 pub fn write(rows: &[Row]) -> Vec<u8> {
@@ -76,15 +76,15 @@ pub fn write(rows: &[Row]) -> Vec<u8> {
             Aim::Mounted => "mounted",
             Aim::Down => "down",
         });
-        let apart = row.apart.map_or_else(
+        let beam_columns = row.separate_beam.map_or_else(
             || ",,,,".to_owned(),
-            |apart| {
-                let d = apart.direction;
-                format!("{:.4},{:.8},{:.8},{:.8},{:.4}", apart.flux, d.x, d.y, d.z, apart.normal)
+            |beam| {
+                let d = beam.direction;
+                format!("{:.4},{:.8},{:.8},{:.8},{:.4}", beam.flux, d.x, d.y, d.z, beam.normal)
             },
         );
         text.push_str(&format!(
-            "{},{x:.6},{y:.6},{z:.6},{width:.6},{height:.6},{:.6},{surface},{aim},{:.6},{apart},{}\r\n",
+            "{},{x:.6},{y:.6},{z:.6},{width:.6},{height:.6},{:.6},{surface},{aim},{:.6},{beam_columns},{}\r\n",
             quoted(&row.file),
             row.flux,
             row.beam,
@@ -166,13 +166,13 @@ fn row(columns: &HashMap<&str, usize>, record: &csv::StringRecord) -> Result<Row
     if file.is_empty() {
         return Err(wrong("no file".to_owned(), "the name of a luminaire file"));
     }
-    let (apart, direction) =
+    let (beam_flux, direction) =
         (or_zero("apart_lm")?, DVec3::new(or_zero("apart_x")?, or_zero("apart_y")?, or_zero("apart_z")?));
     // Less is written as nothing.
-    let apart = if light("apart_lm", apart)? >= LEAST_APART {
+    let separate_beam = if light("apart_lm", beam_flux)? >= MIN_BEAM_FLUX {
         let direction = direction.try_normalize();
         let direction = direction.ok_or_else(|| wrong("apart_lm without a direction".to_owned(), "apart_x, _y, _z"))?;
-        Some(Apart { flux: apart, direction, normal: light("apart_lx", or_zero("apart_lx")?)? })
+        Some(SeparateBeam { flux: beam_flux, direction, normal: light("apart_lx", or_zero("apart_lx")?)? })
     } else {
         None
     };
@@ -184,7 +184,7 @@ fn row(columns: &HashMap<&str, usize>, record: &csv::StringRecord) -> Result<Row
         beam: light("beam_lm", or_zero("beam_lm")?)?,
         surface,
         aim,
-        apart,
+        separate_beam,
         set: word("set").to_owned(),
     })
 }
@@ -194,7 +194,7 @@ mod tests {
     use super::*;
 
     fn example() -> Vec<Row> {
-        let apart = Apart { flux: 12.5, direction: DVec3::new(0.0, 0.6, -0.8), normal: 30_000.0 };
+        let apart = SeparateBeam { flux: 12.5, direction: DVec3::new(0.0, 0.6, -0.8), normal: 30_000.0 };
         let first = Row {
             file: "a, b_1.ies".into(),
             centre: DVec3::new(0.5, 0.0, 1.25),
@@ -203,11 +203,11 @@ mod tests {
             beam: 4.5,
             surface: Some(Surface::Facade),
             aim: Some(Aim::Mounted),
-            apart: Some(apart),
+            separate_beam: Some(apart),
             set: String::new(),
         };
         let second = Row { file: "b.ies".into(), surface: Some(Surface::Roof), aim: Some(Aim::Down), ..first.clone() };
-        vec![first, Row { apart: None, set: "06-21 12:00".into(), ..second }]
+        vec![first, Row { separate_beam: None, set: "06-21 12:00".into(), ..second }]
     }
 
     #[test]
@@ -228,7 +228,7 @@ mod tests {
     fn the_needed_columns_are_enough_in_any_order() {
         let rows = read(b"z,y,x,flux_lm,height,width,file,remark\n1.5,0,2,10,1,2,a.ldt,old\n").unwrap();
         assert_eq!((rows[0].centre, rows[0].size), (DVec3::new(2.0, 0.0, 1.5), [2.0, 1.0]));
-        assert_eq!((rows[0].surface, rows[0].aim, rows[0].apart), (None, None, None));
+        assert_eq!((rows[0].surface, rows[0].aim, rows[0].separate_beam), (None, None, None));
     }
 
     #[test]

@@ -29,12 +29,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(String, Vec<Finding>), FormatError
             "several lines: line breaks were lost on the way",
         ));
     }
-    let told = (encoding == Some(Encoding::Utf16)).then(|| {
+    let finding = (encoding == Some(Encoding::Utf16)).then(|| {
         let message =
             "The text is UTF-16, which other programs do not expect in a luminaire file; it was read as such.";
         Finding::warning("encoding", message)
     });
-    Ok((text, told.into_iter().collect()))
+    Ok((text, finding.into_iter().collect()))
 }
 
 /// Returns the text with line feeds in place of CR LF and of the lone carriage returns of old Macs. Carriage returns

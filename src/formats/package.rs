@@ -198,8 +198,8 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
         Some(newer) if newer > VERSION => return Err(PackageError::Newer(newer)),
         _ => {
             let word: String = format.chars().take(80).collect();
-            let told = format!("format is \"{word}\", this program reads \"{FORMAT} {VERSION}\"");
-            return Err(PackageError::Content(told));
+            let message = format!("format is \"{word}\", this program reads \"{FORMAT} {VERSION}\"");
+            return Err(PackageError::Content(message));
         }
     }
     let manifest: Manifest = serde_json::from_slice(&text)?;

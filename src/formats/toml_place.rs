@@ -38,7 +38,7 @@ pub fn place(
     TomlPlace {
         line: before.matches('\n').count() + 1,
         column: before.chars().rev().take_while(|c| *c != '\n').count() + 1,
-        message: short(said(error.message(), unit(&plain(&key)))),
+        message: short(reworded(error.message(), unit(&plain(&key)))),
         key: short(key),
     }
 }
@@ -59,9 +59,9 @@ fn plain(key: &str) -> String {
 }
 
 /// Returns serde's message in the terms of this program's fields.
-fn said(message: &str, unit: Option<&str>) -> String {
+fn reworded(message: &str, unit: Option<&str>) -> String {
     let number = unit.map_or_else(|| "a number".to_owned(), |unit| format!("a number in {unit}"));
-    let mut said = message.replace('\n', "; ");
+    let mut text = message.replace('\n', "; ");
     for (word, meant) in [
         ("expected f64", format!("expected {number}")),
         ("expected usize", "expected a whole number".to_owned()),
@@ -72,14 +72,14 @@ fn said(message: &str, unit: Option<&str>) -> String {
         ("expected a boolean", "expected true or false".to_owned()),
         ("expected a sequence", "expected a list in brackets".to_owned()),
     ] {
-        said = said.replace(word, &meant);
+        text = text.replace(word, &meant);
     }
-    if let Some(at) = said.find("data did not match any variant of untagged enum") {
-        said.replace_range(at.., "a value of none of the forms that this key takes");
+    if let Some(at) = text.find("data did not match any variant of untagged enum") {
+        text.replace_range(at.., "a value of none of the forms that this key takes");
     }
-    match (said.starts_with("invalid length"), unit) {
-        (true, Some(unit)) => format!("{said}, in {unit}"),
-        _ => said,
+    match (text.starts_with("invalid length"), unit) {
+        (true, Some(unit)) => format!("{text}, in {unit}"),
+        _ => text,
     }
 }
 

@@ -84,13 +84,13 @@ pub(super) fn chapter(pages: &mut Pages, comparison: &Comparison, inks: &Inks) -
         let high = if matches!(tile, TileKind::Room | TileKind::Transmittance) { 430.0 } else { 530.0 };
         let mut drawing = Drawing::new(400.0, high);
         let frame = drawing.frame().inside([6.0; 4]);
-        let said = match draw_on(&mut drawing, frame, subject, (tile, range), inks) {
-            Ok(said) => said,
+        let text = match draw_on(&mut drawing, frame, subject, (tile, range), inks) {
+            Ok(text) => text,
             // Where a candidate has nothing to show, the reason stands in place of its picture.
             Err(ReportError::Nothing(_, why)) => why,
             Err(error) => return Err(error),
         };
-        figures.push(Figure { drawing, caption: texts::not_drawn(name, said) });
+        figures.push(Figure { drawing, caption: texts::not_drawn(name, text) });
     }
     pages.need(330.0);
     pages.heading(&texts::chapter_beside(tile.words()));
@@ -186,14 +186,14 @@ fn differences(pages: &mut Pages, comparison: &Comparison, names: &[String], ink
     let others = pictures.iter().zip(names).enumerate().filter(|(place, _)| *place != base);
     let figures = others.map(|(_, (picture, name))| {
         let mut drawing = Drawing::new(400.0, 330.0);
-        let said = match picture {
+        let text = match picture {
             Some(picture) => {
                 draw(&mut drawing, picture, &scale, inks);
                 summary(picture)
             }
             None => texts::NO_DIFFERENCE.into(),
         };
-        Figure { drawing, caption: texts::not_drawn(name, said) }
+        Figure { drawing, caption: texts::not_drawn(name, text) }
     });
     rows_of(pages, figures.collect());
     pages.note(texts::SIGN_NOTE.get());
@@ -232,8 +232,8 @@ fn summary(picture: &Picture) -> String {
     match picture {
         Picture::Plan { values, .. } => {
             let mean = values.iter().map(|one| one.value).sum::<f64>() / values.len().max(1) as f64;
-            let apart = values.iter().filter(|one| one.value.abs() > one.error).count();
-            texts::mean_difference(name, signed(mean, unit), apart, values.len())
+            let distinct = values.iter().filter(|one| one.value.abs() > one.error).count();
+            texts::mean_difference(name, signed(mean, unit), distinct, values.len())
         }
         Picture::Disk { cells, .. } => {
             let ends = cells.values.iter().fold([0.0_f64; 2], |[low, high], one| [low.min(*one), high.max(*one)]);

@@ -1,6 +1,6 @@
 //! Errors of exporting pictures and reports.
 
-use crate::texts::{Text, hand_on as texts};
+use crate::texts::{Text, export as texts};
 
 /// Error of an export.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -6,7 +6,7 @@ use super::table::Table;
 use crate::drawing::colours::Inks;
 use crate::drawing::font::{LEADING, shortened, width, wrapped};
 use crate::drawing::{Align, Drawing, Frame, Rgb, Shape};
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 
 /// Size of an A4 page. \[pt\]
 const PAPER: [f64; 2] = [595.28, 841.89];

@@ -4,7 +4,7 @@ use super::ReportError;
 use super::picture::PROGRAM;
 use crate::drawing::font::{DEJAVU, MIDDLE, width};
 use crate::drawing::{Drawing, Point as Place, Rgb, Shape};
-use crate::texts::{Language, Text, hand_on as texts, language, visual_parts};
+use crate::texts::{Language, Text, export as texts, language, visual_parts};
 use krilla::Document;
 use krilla::color::rgb;
 use krilla::geom::{Path, PathBuilder, Point, Transform};

@@ -11,7 +11,7 @@ use crate::study::moment::bearing_word;
 use crate::study::scene_file::SceneFile;
 use crate::study::scene_words::{place, sky, time};
 use crate::study::subject::Subject;
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 
 /// Appearance of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]

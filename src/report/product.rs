@@ -20,7 +20,7 @@ use crate::study::comparison::{DataFacts, FIGURES, Facts, Value};
 use crate::study::product_control::state_words;
 use crate::study::subject::Subject;
 use crate::texts::findings::words;
-use crate::texts::{Text, fixed, hand_on as texts};
+use crate::texts::{Text, export as texts, fixed};
 
 /// Polar angles of the incident directions of the indicatrices, upwards from the normal. \[°\]
 const INCIDENCES: [f64; 3] = [0.0, 30.0, 60.0];
@@ -45,13 +45,13 @@ fn optional(value: Option<f64>) -> String {
 }
 
 /// Figures of the state that is shown, from the product's own figures or, for systems without a product, from its data.
-struct Told {
+struct StateFigures {
     tau_normal: Option<f64>,
     tau_hemispherical: Option<f64>,
     light: Option<LightFigures>,
 }
 
-impl Told {
+impl StateFigures {
     fn of(subject: &Subject) -> Self {
         let own = &subject.scene.apertures[0].system.state;
         let state = subject.product.as_ref().and_then(|product| product.states.iter().find(|one| one.key == *own));
@@ -73,7 +73,7 @@ fn states_words(count: usize) -> String {
 
 /// Returns the fields of a tender text.
 fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
-    let told = Told::of(subject);
+    let figures = StateFigures::of(subject);
     let dataset = subject.dataset();
     let product = subject.product.as_ref();
     let figure = |value: Option<f64>| value.map_or_else(String::new, |value| number(value, 3));
@@ -90,11 +90,11 @@ fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
         ("kind", of(|product| &product.kind)),
         ("states", states_words(product.map_or(1, |product| product.states.len()))),
         ("state", if subject.state.is_empty() { texts::THE_ONLY_ONE.into() } else { subject.state.clone() }),
-        ("tau_normal", figure(told.tau_normal)),
-        ("tau_hemispherical", figure(told.tau_hemispherical)),
-        ("to_ceiling", share(told.light.and_then(|light| light.to_ceiling))),
-        ("sun_blocked", share(told.light.map(|light| light.sun_blocked))),
-        ("view", share(told.light.map(|light| light.view))),
+        ("tau_normal", figure(figures.tau_normal)),
+        ("tau_hemispherical", figure(figures.tau_hemispherical)),
+        ("to_ceiling", share(figures.light.and_then(|light| light.to_ceiling))),
+        ("sun_blocked", share(figures.light.map(|light| light.sun_blocked))),
+        ("view", share(figures.light.map(|light| light.view))),
         ("thickness", length(dataset.thickness)),
         ("structure", length(dataset.structure)),
         ("origin", origin.to_owned()),
@@ -145,7 +145,7 @@ fn in_state(subject: &Subject, plain: Text, with: fn(&str) -> String) -> String 
 
 /// Returns the figures of the state that is shown, with the errors that its data state.
 fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)> {
-    let told = Told::of(subject);
+    let figures = StateFigures::of(subject);
     let dataset = subject.dataset();
     let mut list: Vec<(String, String)> = Vec::new();
     let mut add = |name: Text, value: String| list.push((name.into(), value));
@@ -165,8 +165,8 @@ fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)
     let tau = |key: &str, value: Option<f64>| {
         value.map_or_else(|| "–".to_owned(), |value| Value { value, error: error(key) }.words())
     };
-    add(texts::TAU_NORMAL, tau("tau_normal", told.tau_normal));
-    add(texts::TAU_DIFFUSE, tau("tau_hemispherical", told.tau_hemispherical));
+    add(texts::TAU_NORMAL, tau("tau_normal", figures.tau_normal));
+    add(texts::TAU_DIFFUSE, tau("tau_hemispherical", figures.tau_hemispherical));
     // The solar figures appear only where the data have the solar band.
     let source = dataset.solar_source();
     if let Some(solar) = dataset.transmission_of(BandName::Solar).filter(|_| source != SolarSource::Visible) {
@@ -177,7 +177,7 @@ fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)
             add(name, if source == SolarSource::Partly { texts::solar_partly(value) } else { value });
         }
     }
-    if let Some(light) = told.light {
+    if let Some(light) = figures.light {
         add(texts::TO_CEILING, share("to_ceiling", light.to_ceiling));
         add(texts::SUN_KEPT_OUT, share("sun_blocked", Some(light.sun_blocked)));
         add(texts::VIEW, share("view", Some(light.view)));
@@ -322,8 +322,8 @@ fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), Repor
         }
         let mut drawing = Drawing::new(400.0, 430.0);
         let frame = drawing.frame().inside([4.0; 4]);
-        let said = draw(&mut drawing, frame, subject, tile, inks)?;
-        row.push(Figure { drawing, caption: format!("{}: {said}", tile.words()) });
+        let text = draw(&mut drawing, frame, subject, tile, inks)?;
+        row.push(Figure { drawing, caption: format!("{}: {text}", tile.words()) });
     }
     pages.pictures(&row, 260.0);
     Ok(())

@@ -2,7 +2,7 @@
 
 use super::error::ReportError;
 use crate::drawing::Drawing;
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 use std::fmt;
 use std::str::FromStr;
 

@@ -16,7 +16,7 @@ use crate::study::scene_file::{SceneFile, SurfaceKey};
 use crate::study::scene_words::{coordinates, error_words};
 use crate::study::subject::Subject;
 use crate::study::{RoomResult, SensorResult};
-use crate::texts::{Text, hand_on as texts, one_line};
+use crate::texts::{Text, export as texts, one_line};
 
 /// Input of a study report.
 pub struct Study<'a> {
@@ -141,8 +141,8 @@ fn results(pages: &mut Pages, subject: &Subject, room: &RoomResult) {
         table.row([texts::FLUX.into(), value.to_owned(), format!("± {error}")]);
     }
     pages.table(&table);
-    let said = error_words(totals.iter().copied());
-    pages.note(&texts::stated_note(said));
+    let text = error_words(totals.iter().copied());
+    pages.note(&texts::stated_note(text));
 }
 
 fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::Inks) -> Result<(), ReportError> {
@@ -157,8 +157,8 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
     let figure = |tile: TileKind, size: [f64; 2]| -> Result<Figure, ReportError> {
         let mut drawing = Drawing::new(size[0], size[1]);
         let frame = drawing.frame().inside([6.0; 4]);
-        let said = draw(&mut drawing, frame, subject, tile, inks)?;
-        Ok(Figure { drawing, caption: format!("{}: {said}", tile.words()) })
+        let text = draw(&mut drawing, frame, subject, tile, inks)?;
+        Ok(Figure { drawing, caption: format!("{}: {text}", tile.words()) })
     };
     let rows: [&[(TileKind, [f64; 2])]; 4] = [
         &[(TileKind::Room, [820.0, 330.0])],
@@ -183,11 +183,11 @@ fn accuracy(pages: &mut Pages, subject: &Subject) {
     let Some(room) = &subject.room else { return };
     pages.heading(texts::ACCURACY.get());
     let reached = 100.0 * room.reached();
-    let mut said = texts::accuracy_reached(number(reached, 2), number(100.0 * room.data_share(), 2));
+    let mut text = texts::accuracy_reached(number(reached, 2), number(100.0 * room.data_share(), 2));
     if let Some(target) = subject.scene.error_target {
-        said.push_str(&texts::accuracy_asked(number(100.0 * target, 2)));
+        text.push_str(&texts::accuracy_asked(number(100.0 * target, 2)));
     }
-    pages.paragraph(&said);
+    pages.paragraph(&text);
     let mut table = Table::of([texts::STAGE, texts::WHAT_WAS_DONE].map(Text::get));
     table.columns[1].align = crate::drawing::Align::Start;
     // Results from the cache say nothing about this study.

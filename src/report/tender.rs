@@ -1,7 +1,7 @@
 //! Tender texts: a template with named fields, filled with a product's figures.
 
 use super::ReportError;
-use crate::texts::{Language, hand_on as texts, language};
+use crate::texts::{Language, export as texts, language};
 
 /// Template in English that comes with the program, as a start for users' own ones.
 pub const TEMPLATE: &str = include_str!("../../assets/tender.txt");

@@ -108,7 +108,7 @@ impl Rung {
     /// Whether the reference is good enough to determine the errors of this computation. If it is hardly finer, the
     /// distance from it means nothing: two coarse runs may share the same errors. If it is somewhat finer and this
     /// computation is close to it, the distance may be the error of either.
-    pub fn is_told(&self) -> bool {
+    pub fn is_determined(&self) -> bool {
         let Errors { stated, real, open } = self.typical();
         let far = real >= stated / CLEARLY_FINER;
         open <= stated / FINE_ENOUGH || (open <= stated / CLEARLY_FINER && far)
@@ -218,7 +218,7 @@ impl Accuracy {
     pub fn ordinary_coverage(&self) -> Coverage {
         let rungs = self.series.iter().filter(|series| series.is_ordinary()).flat_map(|series| &series.rungs);
         let errors: Vec<Errors> =
-            rungs.filter(|rung| rung.is_told()).flat_map(|rung| rung.errors.iter().copied()).collect();
+            rungs.filter(|rung| rung.is_determined()).flat_map(|rung| rung.errors.iter().copied()).collect();
         Coverage::of(&errors)
     }
 

@@ -19,7 +19,7 @@ pub fn name(series: &Series) -> String {
 
 /// Returns both plots, of the same series.
 pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
-    let rungs = || accuracy.series.iter().flat_map(told);
+    let rungs = || accuracy.series.iter().flat_map(determined);
     let found = words::axis(accuracy);
     let both = || rungs().flat_map(|rung| rung.errors.iter().flat_map(|e| [e.stated, e.real]));
     let stated = Axis::decades(both(), 9, texts::AXIS_STATED.get(), Unit::Share);
@@ -41,20 +41,20 @@ pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
 }
 
 /// Returns the efforts whose errors the reference can determine.
-fn told(series: &Series) -> impl Iterator<Item = &Rung> {
-    series.rungs.iter().filter(|rung| rung.is_told())
+fn determined(series: &Series) -> impl Iterator<Item = &Rung> {
+    series.rungs.iter().filter(|rung| rung.is_determined())
 }
 
 /// Returns a mark for each effort.
 fn front(series: &Series) -> Points {
-    let points = told(series).map(|rung| [rung.sky, rung.rms()]);
+    let points = determined(series).map(|rung| [rung.sky, rung.rms()]);
     Points { form: Form::Marked, ..Points::line(name(series), points) }
 }
 
 /// Returns a dot for each sensor and effort, thinned at regular intervals: actual error along x, stated error along y.
 fn dots(series: &Series) -> Points {
-    let count: usize = told(series).map(|rung| rung.errors.len()).sum();
+    let count: usize = determined(series).map(|rung| rung.errors.len()).sum();
     let every = count.div_ceil(MOST_DOTS).max(1);
-    let errors = told(series).flat_map(|rung| &rung.errors).step_by(every);
+    let errors = determined(series).flat_map(|rung| &rung.errors).step_by(every);
     Points { form: Form::Dots, ..Points::line(name(series), errors.map(|e| [e.real, e.stated])) }
 }

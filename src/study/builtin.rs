@@ -24,12 +24,13 @@ pub fn compute(
     library: &dyn LayerLibrary,
     progress: &dyn Progress,
 ) -> Result<Dataset, StudyError> {
-    let told =
+    let cannot_compute =
         |what: String| StudyError::Catalogue(format!("the data of \"{}\" cannot be computed: {what}", product.key));
     if product.system.is_empty() {
-        return Err(told("it has no description".to_owned()));
+        return Err(cannot_compute("it has no description".to_owned()));
     }
-    let described = Described::from_text(&product.system, Base::Builtin).map_err(|error| told(error.to_string()))?;
+    let described =
+        Described::from_text(&product.system, Base::Builtin).map_err(|error| cannot_compute(error.to_string()))?;
     let cells = front_basis();
     let request = Request { incident: cells.clone(), emergent: cells, error: BUILTIN_ERROR, seed: 1 };
     Ok(described.measure(state, &request, library, None, progress)?.dataset)
@@ -46,8 +47,8 @@ pub fn complete(
     library: &dyn LayerLibrary,
     progress: &dyn Progress,
 ) -> Result<usize, StudyError> {
-    let told = |error: CatalogueError| StudyError::Catalogue(error.to_string());
-    let states: Vec<StateKey> = catalogue.waiting().map_err(told)?.into_iter().filter(wanted).collect();
+    let catalogue_error = |error: CatalogueError| StudyError::Catalogue(error.to_string());
+    let states: Vec<StateKey> = catalogue.waiting().map_err(catalogue_error)?.into_iter().filter(wanted).collect();
     let (catalogue, done) = (Mutex::new(catalogue), AtomicUsize::new(0));
     let withdrawn = Withdrawn(progress);
     progress.advance("states", 0, states.len());
@@ -57,9 +58,9 @@ pub fn complete(
         }
         // Every change is a transaction: after a panic the data are complete.
         let lock = || catalogue.lock().unwrap_or_else(PoisonError::into_inner);
-        let product = lock().product(&one.product).map_err(told)?;
+        let product = lock().product(&one.product).map_err(catalogue_error)?;
         let dataset = compute(&product, &one.state, library, &withdrawn)?;
-        lock().put_state(&product, &dataset).map_err(told)?;
+        lock().put_state(&product, &dataset).map_err(catalogue_error)?;
         progress.advance("states", done.fetch_add(1, Ordering::Relaxed) + 1, states.len());
         Ok(())
     })?;

@@ -2,7 +2,7 @@
 
 use super::error::StudyError;
 use super::goniophotometer::{Base, Described, LayerLibrary, Request};
-use super::system::{Need, System, VerySystem};
+use super::system::{Need, System, SystemModel};
 use crate::compute::btdf::{BandName, Btdf, Dataset, Finding, SolarSource};
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
@@ -26,23 +26,23 @@ impl Described {
         if !states.iter().any(|key| key == state) {
             return Err(StudyError::key("system.state", no_such_state(&self.file.system.name, state, &states)));
         }
-        let very = self.very(state, library)?;
+        let model = self.system_model(state, library)?;
         let dataset = match need {
-            Need::Light { lit } if !lit || very.answers_for_the_sky() => self.dark(state),
+            Need::Light { lit } if !lit || model.answers_for_the_sky() => self.dark(state),
             Need::Everything | Need::Light { .. } => self.measure(state, &request(), library, None, &Silent)?.dataset,
         };
         let label = if state.is_empty() { dataset.name.clone() } else { format!("{}, {state}", dataset.name) };
-        Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), very: Some(very) })
+        Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), model: Some(model) })
     }
 
     /// Creates the optical model for single directions, and for the solar band if the materials have solar properties.
-    fn very(&self, state: &str, library: &dyn LayerLibrary) -> Result<VerySystem, StudyError> {
+    fn system_model(&self, state: &str, library: &dyn LayerLibrary) -> Result<SystemModel, StudyError> {
         let source = SolarSource::of(self.materials(state, library)?);
         let solar = match source {
             SolarSource::Visible => None,
-            _ => Some((Arc::from(self.specimen_in(BandName::Solar, state, library)?), source)),
+            _ => Some((Arc::from(self.optical_model_in(BandName::Solar, state, library)?), source)),
         };
-        Ok(VerySystem(Arc::from(self.specimen(state, library)?), solar))
+        Ok(SystemModel(Arc::from(self.optical_model(state, library)?), solar))
     }
 
     /// Returns a placeholder for data that are not needed.
@@ -62,9 +62,9 @@ impl Described {
 }
 
 /// Creates the optical model from the text of a description; `None` if it names layers that cannot be found from here.
-pub(super) fn very_system(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<VerySystem> {
+pub(super) fn system_model_from_text(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<SystemModel> {
     let described = Described::from_text(text, Base::Builtin).ok()?;
-    described.very(state, library).ok()
+    described.system_model(state, library).ok()
 }
 
 /// Returns the message about a state that a described system does not have.

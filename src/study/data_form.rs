@@ -52,7 +52,7 @@ pub enum How {
 
 /// Difference of a form from the original data.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Apart {
+pub struct Difference {
     /// Largest absolute difference of any patch. \[1/sr\]
     pub largest: f64,
     /// Misplaced flux, ½∫|Δq| cosθ dω, as a share of τ.
@@ -67,7 +67,7 @@ pub struct Formed {
     /// Processing of the data.
     pub how: How,
     /// Difference from the original data; `None` if these are no longer known.
-    pub apart: Option<Apart>,
+    pub difference: Option<Difference>,
 }
 
 /// Reason why data do not have a form.
@@ -129,11 +129,11 @@ pub fn filtered(
     let model = interpolator.model();
     let (used, filter) = filter_of(scheme);
     let q = Spreader::new(model, filter, model.grid()).ok_or(NoForm::NoLattice)?.indicatrix(row);
-    let apart = apart(&data.emergent().projected_solid_angles(), &data.row(row), &q);
+    let difference = difference(&data.emergent().projected_solid_angles(), &data.row(row), &q);
     Ok(Formed {
         indicatrix: Indicatrix { basis: data.emergent().clone(), q },
         how: How::Filter { scheme: used, in_force: used == scheme },
-        apart: Some(apart),
+        difference: Some(difference),
     })
 }
 
@@ -157,23 +157,30 @@ pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
     if let Some(rows) = rows {
         let q = values.into_owned();
         let kept = rows.quantised(row).1.count();
-        return Ok(Formed { indicatrix: Indicatrix { basis: basis.clone(), q }, how: how(kept, true), apart: None });
+        return Ok(Formed {
+            indicatrix: Indicatrix { basis: basis.clone(), q },
+            how: how(kept, true),
+            difference: None,
+        });
     }
     let made = CompactRows::compress(basis, 1, |_| values.to_vec(), criterion).map_err(NoForm::Values)?;
     let q = made.row(0);
-    let apart = apart(&basis.projected_solid_angles(), &values, &q);
+    let difference = difference(&basis.projected_solid_angles(), &values, &q);
     Ok(Formed {
         indicatrix: Indicatrix { basis: basis.clone(), q },
         how: how(made.numbers(), false),
-        apart: Some(apart),
+        difference: Some(difference),
     })
 }
 
-fn apart(weights: &[f64], given: &[f64], made: &[f64]) -> Apart {
+fn difference(weights: &[f64], given: &[f64], made: &[f64]) -> Difference {
     let tau: f64 = given.iter().zip(weights).map(|(q, w)| q * w).sum();
     let differences = || given.iter().zip(made).map(|(a, b)| (a - b).abs());
     let moved: f64 = differences().zip(weights).map(|(d, w)| d * w).sum();
-    Apart { largest: differences().fold(0.0, f64::max), misplaced: if tau > 0.0 { 0.5 * moved / tau } else { 0.0 } }
+    Difference {
+        largest: differences().fold(0.0, f64::max),
+        misplaced: if tau > 0.0 { 0.5 * moved / tau } else { 0.0 },
+    }
 }
 
 /// Size below which data are stored without loss. \[MB\]
@@ -218,7 +225,7 @@ mod tests {
         assert!((flux(&made.indicatrix) - btdf.tau(d)).abs() < 1e-6);
         let most = |q: &[f64]| q.iter().copied().fold(0.0, f64::max);
         assert!(most(&made.indicatrix.q) < 0.8 * most(&raw.q));
-        let apart = made.apart.unwrap();
+        let apart = made.difference.unwrap();
         assert!(apart.largest > 0.2 * most(&raw.q) && apart.misplaced > 0.1 && apart.misplaced < 1.0, "{apart:?}");
         let wide = filtered(&btdf, d, DiffuseScheme::FilterWide, || interpolator(&btdf)).unwrap();
         assert_eq!(wide.how, How::Filter { scheme: DiffuseScheme::FilterWide, in_force: true });
@@ -232,7 +239,7 @@ mod tests {
         let made = compressed(&btdf, d).unwrap();
         let How::Wavelets { kept, cells, allowed, in_force } = made.how else { panic!("{:?}", made.how) };
         assert!(!in_force && kept > 1 && kept < cells / 2, "{kept} of {cells}");
-        let apart = made.apart.unwrap();
+        let apart = made.difference.unwrap();
         assert!(apart.misplaced > 0.0 && apart.misplaced <= allowed + 1e-9 && apart.largest > 0.0, "{apart:?}");
         assert!((flux(&made.indicatrix) / btdf.tau(d) - 1.0).abs() < 1e-6);
         // What is held so already is shown as it is held.
@@ -242,7 +249,7 @@ mod tests {
         let shown = compressed(&held, d).unwrap();
         assert_eq!(shown.indicatrix, held.indicatrix(d).unwrap());
         assert!(matches!(shown.how, How::Wavelets { kept: own, in_force: true, .. } if own == kept), "{:?}", shown.how);
-        assert_eq!(shown.apart, None);
+        assert_eq!(shown.difference, None);
     }
 
     #[test]

@@ -71,7 +71,7 @@ pub fn is_stream(path: &Path) -> bool {
 ///
 /// # Errors
 /// Returns an error if the stream cannot be read.
-pub fn telling_name(path: &Path) -> Result<String, StudyError> {
+pub fn name_with_extension(path: &Path) -> Result<String, StudyError> {
     let name = path.to_string_lossy();
     Ok(if is_stream(path) { format!("{name}{}", extension_of(&read(path)?)) } else { name.into_owned() })
 }
@@ -247,26 +247,26 @@ pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
         check(one.path, one.replace)?;
     }
     for one in list {
-        let told = |error: std::io::Error| cannot_write(one.path, &error);
+        let write_error = |error: std::io::Error| cannot_write(one.path, &error);
         if is_standard(one.path) {
             let mut output = std::io::stdout().lock();
             match output.write_all(one.bytes).and_then(|()| output.flush()) {
                 // The reader may stop.
                 Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
-                done => done.map_err(told)?,
+                done => done.map_err(write_error)?,
             }
             continue;
         }
         let target = resolved(one.path);
         if target.exists() && !target.is_file() {
-            let mut device = std::fs::OpenOptions::new().write(true).open(&target).map_err(told)?;
-            device.write_all(one.bytes).map_err(told)?;
+            let mut device = std::fs::OpenOptions::new().write(true).open(&target).map_err(write_error)?;
+            device.write_all(one.bytes).map_err(write_error)?;
             continue;
         }
-        let mut part = Part::beside(&target).map_err(told)?;
-        part.write(one.bytes).map_err(told)?;
+        let mut part = Part::beside(&target).map_err(write_error)?;
+        part.write(one.bytes).map_err(write_error)?;
         // On the disk before it takes the name: otherwise a power cut could leave the name with nothing in it.
-        part.file().sync_all().map_err(told)?;
+        part.file().sync_all().map_err(write_error)?;
         if parts.len() >= MOST_OPEN {
             part.rest();
         }

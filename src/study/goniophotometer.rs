@@ -111,8 +111,8 @@ impl Described {
 
     /// Reads a layer that is described in this one's own text.
     pub(super) fn within(&self, text: &str) -> Result<Self, StudyError> {
-        let told = |error: crate::formats::FormatError| StudyError::key("stack.layers", error.to_string());
-        Self::from_text(text, self.base.clone()).map_err(told)
+        let layer_error = |error: crate::formats::FormatError| StudyError::key("stack.layers", error.to_string());
+        Self::from_text(text, self.base.clone()).map_err(layer_error)
     }
 
     /// Returns the folder of the dataset files that the description names.
@@ -182,12 +182,12 @@ impl Described {
     ) -> Result<(Band, Quality), StudyError> {
         let Request { incident, emergent, error, seed } = request;
         let setting = Setting { incident, emergent, error: *error, seed: *seed };
-        let specimen = self.specimen_in(band, state, library)?;
+        let model = self.optical_model_in(band, state, library)?;
         if request.at_directions() {
-            let measured = measured_at_directions(specimen.as_ref(), &setting, progress)?;
+            let measured = measured_at_directions(model.as_ref(), &setting, progress)?;
             return Ok((measured.band_at_directions(), measured.quality()));
         }
-        Ok(specimen.examine(&setting, progress)?)
+        Ok(model.examine(&setting, progress)?)
     }
 
     /// Computes several states, as many at a time as there are threads. Progress counts finished states; for a single

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 
 /// Result of a repair.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Mended {
+pub struct RepairResult {
     /// Path of the copy of the unrepaired file.
     pub copy: PathBuf,
     /// Repaired items, as sentences.
-    pub mended: Vec<String>,
+    pub repaired: Vec<String>,
     /// Lost items, as sentences.
     pub lost: Vec<String>,
     /// Health of the file after the repair.
@@ -26,7 +26,7 @@ pub struct Mended {
 ///
 /// # Errors
 /// Returns an error if a file cannot be read or written.
-pub fn mend(path: &Path, health: &Health) -> Result<Mended, CatalogueError> {
+pub fn repair(path: &Path, health: &Health) -> Result<RepairResult, CatalogueError> {
     let copy = copy_aside(path).map_err(|cause| CatalogueError::Folder { path: path.to_owned(), cause })?;
     let mut lost = repair_file(path, health)?;
     let mut catalogue = Catalogue::open(path)?;
@@ -42,11 +42,11 @@ pub fn mend(path: &Path, health: &Health) -> Result<Mended, CatalogueError> {
         one.message == other.message || (matches!(one.place, Place::Data { .. }) && one.place == other.place)
     };
     let still = |damage: &&Damage| after.damages.iter().any(|other| same(damage, other));
-    let mended = health.damages.iter().filter(|damage| !still(damage)).map(|damage| damage.message.clone()).collect();
+    let repaired = health.damages.iter().filter(|damage| !still(damage)).map(|damage| damage.message.clone()).collect();
     lost.extend(after.damages.iter().map(|damage| damage.message.clone()));
     lost.sort();
     lost.dedup();
-    Ok(Mended { copy, mended, lost, after })
+    Ok(RepairResult { copy, repaired, lost, after })
 }
 
 /// Restores the data of a state from the files that its product was imported from, if these still contain exactly the

@@ -155,8 +155,8 @@ impl Given {
         let Some(Within { archive, index, .. }) = &self.within else {
             return files::read(&self.path).map_err(|error| error.to_string());
         };
-        let told = |error: archive::ArchiveError| format!("{}: {error}", self.name);
-        let bytes = archive::read(archive, *index, left.load(Ordering::Relaxed)).map_err(told)?;
+        let message = |error: archive::ArchiveError| format!("{}: {error}", self.name);
+        let bytes = archive::read(archive, *index, left.load(Ordering::Relaxed)).map_err(message)?;
         let taken = |left: u64| left.checked_sub(bytes.len() as u64);
         match left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, taken) {
             Ok(_) => Ok(bytes),
@@ -196,7 +196,7 @@ impl Listing {
                     list.left_out.push(format!("{}: a folder without files", path.display()));
                 }
             } else {
-                let name = match files::telling_name(path) {
+                let name = match files::name_with_extension(path) {
                     Ok(name) => name.rsplit(std::path::is_separator).next().unwrap_or_default().to_owned(),
                     Err(error) => {
                         list.failures.push(error.to_string());
@@ -266,8 +266,8 @@ impl Listing {
         if files.is_empty() && clashes.is_empty() {
             self.left_out.push(format!("{}: an archive without files", file.name));
         }
-        let told = "several files of this name in the archive; unpack it and give each a name of its own";
-        self.failures.extend(clashes.iter().map(|clash| format!("{}/{clash}: {told}", file.name)));
+        let reason = "several files of this name in the archive; unpack it and give each a name of its own";
+        self.failures.extend(clashes.iter().map(|clash| format!("{}/{clash}: {reason}", file.name)));
         let place = within.map_or(path, |within| within.place);
         for Entry { index, name: entry } in files {
             let name = format!("{}/{entry}", file.name);
@@ -278,8 +278,8 @@ impl Listing {
             } else if Kind::of(&inner.name) != Kind::Archive {
                 self.files.push(inner);
             } else if depth == 0 {
-                let told = format!("an archive more than {ARCHIVES} levels down; unpack it first");
-                self.left_out.push(format!("{}: {told}", inner.name));
+                let reason = format!("an archive more than {ARCHIVES} levels down; unpack it first");
+                self.left_out.push(format!("{}: {reason}", inner.name));
             } else {
                 self.unpack(&inner, depth - 1);
             }
@@ -353,7 +353,7 @@ fn read_one(file: &Given, left: &AtomicU64, read: ReadDataset) -> Read {
 
 /// Imports all files of the paths. Files that the user named may also be scenes, systems and control curves; of files
 /// found in folders and archives only datasets and packages are imported, and others are listed.
-pub fn take_in(paths: &[PathBuf], read: ReadDataset, progress: &dyn Progress) -> Taken {
+pub fn import_files(paths: &[PathBuf], read: ReadDataset, progress: &dyn Progress) -> Taken {
     let Listing { files, left_out, failures, left, .. } = Listing::of(paths, progress);
     let mut taken = Taken { left_out, failures, ..Taken::default() };
     let mut rest = Vec::new();

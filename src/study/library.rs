@@ -2,14 +2,14 @@
 //! catalogue.
 
 use super::builtin;
-use super::by_description::very_system;
+use super::by_description::system_model_from_text;
 use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
 use super::outside::LitObstructions;
 use super::scene_file::{FamilyState, SystemKeys};
-use super::system::{Need, System, SystemLibrary, VerySystem, ideal};
+use super::system::{Need, System, SystemLibrary, SystemModel, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Found, Product, Query};
 use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
@@ -31,14 +31,14 @@ pub struct Library {
     catalogue_path: Option<PathBuf>,
     catalogue: Mutex<Option<Catalogue>>,
     described: Mutex<Descriptions>,
-    very: Mutex<VeryDescribed>,
+    models: Mutex<ModelCache>,
     obstructions: LitObstructions,
 }
 
 /// Described systems by hash of their input, state, and extent of the data.
 type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
 /// Optical models by hash of the description, and state.
-type VeryDescribed = VecDeque<((String, String), Option<VerySystem>)>;
+type ModelCache = VecDeque<((String, String), Option<SystemModel>)>;
 /// Maximum number of stored described systems: two moving products of 21 states.
 const MOST_DESCRIBED: usize = 42;
 /// Maximum number of descriptions whose optical models are stored: of a ranking's hundred products those in progress,
@@ -56,14 +56,16 @@ impl Library {
 
     fn in_catalogue<T>(&self, ask: impl FnOnce(&mut Catalogue) -> Result<T, CatalogueError>) -> Result<T, StudyError> {
         let mut open = self.catalogue.lock().unwrap_or_else(PoisonError::into_inner);
-        let told = |error: CatalogueError| StudyError::Catalogue(error.to_string());
+        let catalogue_error = |error: CatalogueError| StudyError::Catalogue(error.to_string());
         let mut catalogue = match open.take() {
             Some(catalogue) => catalogue,
-            None => {
-                self.catalogue_path.as_deref().map_or_else(Catalogue::open_default, Catalogue::open).map_err(told)?
-            }
+            None => self
+                .catalogue_path
+                .as_deref()
+                .map_or_else(Catalogue::open_default, Catalogue::open)
+                .map_err(catalogue_error)?,
         };
-        let answer = ask(&mut catalogue).map_err(told);
+        let answer = ask(&mut catalogue).map_err(catalogue_error);
         *open = Some(catalogue);
         answer
     }
@@ -112,17 +114,17 @@ impl Library {
 
     /// Returns the optical model by a dataset's own description; stored, since its solutions are stored with it. `None`
     /// without a description, or if it names layers that are not available: then only the data are known.
-    pub fn very_of(&self, dataset: &Dataset) -> Option<VerySystem> {
+    pub fn model_of(&self, dataset: &Dataset) -> Option<SystemModel> {
         let DescribedState { text, state } = dataset.described.as_ref()?;
         let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
         let key = (hash, state.clone());
-        let mut list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, very)) = list.iter().find(|(other, _)| *other == key) {
-            return very.clone();
+        let mut list = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, model)) = list.iter().find(|(other, _)| *other == key) {
+            return model.clone();
         }
         drop(list);
-        let very = very_system(text, state, self);
-        list = self.very.lock().unwrap_or_else(PoisonError::into_inner);
+        let model = system_model_from_text(text, state, self);
+        list = self.models.lock().unwrap_or_else(PoisonError::into_inner);
         // The oldest first.
         let mut others: Vec<String> =
             list.iter().map(|((hash, _), _)| hash.clone()).filter(|hash| *hash != key.0).collect();
@@ -133,8 +135,8 @@ impl Library {
         if list.len() >= MOST_DESCRIBED {
             list.pop_front();
         }
-        list.push_back((key, very.clone()));
-        very
+        list.push_back((key, model.clone()));
+        model
     }
 }
 
@@ -168,7 +170,7 @@ impl LayerLibrary for Library {
             .into_iter()
             .map(|dataset| {
                 let label = if dataset.name.is_empty() { name.clone() } else { dataset.name.clone() };
-                Arc::new(System { label, state: dataset.state.clone(), dataset: Arc::new(dataset), very: None })
+                Arc::new(System { label, state: dataset.state.clone(), dataset: Arc::new(dataset), model: None })
             })
             .collect();
         known.insert(path.to_owned(), (stamp, systems.clone()));
@@ -191,8 +193,8 @@ impl SystemLibrary for Library {
             SystemKeys::File { path, state } => {
                 let systems = self.load_file(&base.join(path))?;
                 let found = pick(&systems, state.as_deref(), &path.display().to_string())?;
-                let very = self.very_of(&found.dataset);
-                Ok(if very.is_some() { Arc::new(System { very, ..System::clone(&found) }) } else { found })
+                let model = self.model_of(&found.dataset);
+                Ok(if model.is_some() { Arc::new(System { model, ..System::clone(&found) }) } else { found })
             }
             SystemKeys::Family { states, state } => {
                 let path = &family_state(states, state.as_deref())?.file;
@@ -205,8 +207,8 @@ impl SystemLibrary for Library {
                 let (dataset, label) = self.in_catalogue(|catalogue| {
                     Ok((catalogue.dataset(key, state.as_deref())?, catalogue.product(key)?.name))
                 })?;
-                let very = self.very_of(&dataset);
-                Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, very }))
+                let model = self.model_of(&dataset);
+                Ok(Arc::new(System { label, state: dataset.state.clone(), dataset, model }))
             }
         }
     }

@@ -14,7 +14,7 @@ use crate::compute::lid::SunBeam;
 use crate::compute::lid::c_gamma::{Aim, Averaged, CGammaTable, Step};
 use crate::compute::lid::tiling::{Tile, Tiling};
 use crate::formats::luminaire::{Description, Luminaire};
-use crate::formats::luminaire_index::{self, Apart, Row};
+use crate::formats::luminaire_index::{self, Row, SeparateBeam};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::path::Path;
@@ -65,7 +65,7 @@ impl std::fmt::Display for Tiles {
 
 /// Options of the luminaire files.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wish {
+pub struct LuminaireOptions {
     /// Format of the files.
     pub format: LidFormat,
     /// Orientation of the luminaires; `None`: that of the aperture.
@@ -105,7 +105,7 @@ pub struct LuminaireSet {
     /// Step of C and γ.
     pub step: Step,
     /// Undeviated beam of the whole aperture that the files do not contain; `None` if they contain it.
-    pub apart: Option<Apart>,
+    pub separate_beam: Option<SeparateBeam>,
     /// Accuracy of a room lit by the files; `None` if it was not examined.
     pub reached: Option<Reached>,
 }
@@ -127,42 +127,43 @@ pub fn make(
     scene: &Scene,
     aperture: usize,
     text: &Description,
-    wish: &Wish,
+    options: &LuminaireOptions,
     name: impl Fn(Option<usize>) -> String + Sync,
     progress: &dyn Progress,
 ) -> Result<LuminaireSet, SetError> {
     let mut lid = session.lid(scene, aperture, progress)?.lid;
     let corner = scene.apertures[aperture].aperture.corner;
     let place = Place { surface: lid.surface, corner, size: lid.size, room: scene.room.size };
-    let straight: Vec<SunBeam> = lid.beams.iter().copied().filter(|beam| beam.straight && wish.without_beam).collect();
+    let straight: Vec<SunBeam> =
+        lid.beams.iter().copied().filter(|beam| beam.straight && options.without_beam).collect();
     let area = lid.area();
-    let apart = apart(&straight, place.surface, area);
-    if wish.without_beam {
+    let separate_beam = separate_beam(&straight, place.surface, area);
+    if options.without_beam {
         lid.beams.retain(|beam| !beam.straight);
     }
-    let aim = wish.aim.unwrap_or_else(|| Aim::of(lid.surface));
-    let (tiling, step, reached, tables) = match wish.tiles {
+    let aim = options.aim.unwrap_or_else(|| Aim::of(lid.surface));
+    let (tiling, step, reached, tables) = match options.tiles {
         Tiles::None => {
-            let step = wish.step.unwrap_or_else(|| Step::for_lid(&lid));
+            let step = options.step.unwrap_or_else(|| Step::for_lid(&lid));
             let tile = Tiling::WHOLE.tiles(place.surface, place.corner, lid.size)[0];
             (None, step, None, vec![(tile, Arc::new(CGammaTable::new(&lid, aim, step)))])
         }
         Tiles::Auto => {
-            let probe = Probe::new(session, scene, aperture, wish.without_beam, progress)?;
+            let probe = Probe::new(session, scene, aperture, options.without_beam, progress)?;
             let choice =
-                luminaire_choice::choose(&lid, aim, wish.step, place, &probe, progress).map_err(StudyError::from)?;
+                luminaire_choice::choose(&lid, aim, options.step, place, &probe, progress).map_err(StudyError::from)?;
             (Some(choice.tiling), choice.step, Some(choice.reached), choice.tables)
         }
         Tiles::Fixed(tiling) => {
-            let step = wish.step.unwrap_or(Step::FINE);
+            let step = options.step.unwrap_or(Step::FINE);
             let tables = tables(&Averaged::new(&lid, aim, step), tiling, place, true);
-            let probe = Probe::new(session, scene, aperture, wish.without_beam, progress)?;
+            let probe = Probe::new(session, scene, aperture, options.without_beam, progress)?;
             (Some(tiling), step, Some(probe.reached(place.surface, &tables)), tables)
         }
     };
     let count = tables.len();
     let scaled_by = tables.first().map_or(1.0, |(_, table)| table.scaled_by);
-    let remarks = remarks(tiling, apart.as_ref(), reached.as_ref());
+    let remarks = remarks(tiling, separate_beam.as_ref(), reached.as_ref());
     let one = |(k, (tile, table)): (usize, &(Tile, Arc<CGammaTable>))| -> Result<(TileFile, f64), LuminaireFileError> {
         let mut text = text.clone();
         if tiling.is_some() {
@@ -172,7 +173,7 @@ pub fn make(
                 .push(format!("Tile {} of {count}: centre x {x:.4} m, y {y:.4} m, z {z:.4} m in the room.", k + 1));
         }
         text.remarks.extend(remarks.iter().cloned());
-        in_lines(&mut text, apart.as_ref(), reached.as_ref());
+        in_lines(&mut text, separate_beam.as_ref(), reached.as_ref());
         let luminaire = Luminaire::from_table(table, tile.size, text);
         let share = 1.0 / count as f64;
         let row = Row {
@@ -183,16 +184,16 @@ pub fn make(
             beam: table.beam_flux,
             surface: Some(place.surface),
             aim: Some(aim),
-            apart: apart.map(|apart| Apart { flux: share * apart.flux, ..apart }),
+            separate_beam: separate_beam.map(|beam| SeparateBeam { flux: share * beam.flux, ..beam }),
             set: String::new(),
         };
-        Ok((TileFile { bytes: bytes_of(&luminaire, wish.format)?, row }, luminaire.peak()))
+        Ok((TileFile { bytes: bytes_of(&luminaire, options.format)?, row }, luminaire.peak()))
     };
     let made = tables.par_iter().enumerate().map(|(k, table)| one((k, table))).collect::<Result<Vec<_>, _>>()?;
     let peak = made.iter().map(|(_, peak)| *peak).fold(0.0, f64::max);
     let files = made.into_iter().map(|(file, _)| file).collect();
     let flux = tables.iter().map(|(_, table)| table.flux).sum();
-    Ok(LuminaireSet { files, tiling, flux, peak, scaled_by, aim, step, apart, reached })
+    Ok(LuminaireSet { files, tiling, flux, peak, scaled_by, aim, step, separate_beam, reached })
 }
 
 /// Returns the file name of a tile, derived from `out`; for the aperture as a whole that of `out`.
@@ -214,22 +215,22 @@ pub enum SetError {
 }
 
 /// Returns the undeviated beams as one; `None` without any.
-fn apart(beams: &[SunBeam], surface: Surface, area: f64) -> Option<Apart> {
+fn separate_beam(beams: &[SunBeam], surface: Surface, area: f64) -> Option<SeparateBeam> {
     let flux: f64 = beams.iter().map(|beam| beam.flux).sum();
     let sum: DVec3 = beams.iter().map(|beam| beam.flux * beam.direction.0.vector()).sum();
     let own = sum.try_normalize().filter(|_| flux > 0.0)?;
-    Some(Apart { flux, direction: surface.room_from_facade(own), normal: flux / (area * -own.z) })
+    Some(SeparateBeam { flux, direction: surface.room_from_facade(own), normal: flux / (area * -own.z) })
 }
 
 /// Returns the remarks that the host's user needs.
-fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reached>) -> Vec<String> {
+fn remarks(tiling: Option<Tiling>, separate_beam: Option<&SeparateBeam>, reached: Option<&Reached>) -> Vec<String> {
     let mut list = Vec::new();
     if let Some(Tiling { columns, rows }) = tiling {
         list.push(format!(
             "One of {columns} x {rows} tiles of the aperture: place all of them at the centres that the index lists."
         ));
     }
-    if let Some(Apart { flux, direction: d, normal }) = apart {
+    if let Some(SeparateBeam { flux, direction: d, normal }) = separate_beam {
         list.push(format!(
             "Without the straight sunbeam of {flux:.4} lm (whole aperture): the host draws the sun through by itself. It \
              goes along ({:.6}, {:.6}, {:.6}) in room axes (x right seen from outside, y into the room, z up) and gives \
@@ -242,8 +243,8 @@ fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reach
 }
 
 /// Adds the remarks in short form, for lines of 78 characters: EULUMDAT has no room for remarks.
-fn in_lines(text: &mut Description, apart: Option<&Apart>, reached: Option<&Reached>) {
-    if let Some(Apart { flux, direction: d, .. }) = apart {
+fn in_lines(text: &mut Description, separate_beam: Option<&SeparateBeam>, reached: Option<&Reached>) {
+    if let Some(SeparateBeam { flux, direction: d, .. }) = separate_beam {
         let way = format!("{:.4} {:.4} {:.4}", d.x, d.y, d.z);
         text.manufacturer.push_str(&format!("; straight beam left out: {flux:.1} lm along {way}"));
     }
@@ -273,12 +274,12 @@ mod tests {
         // Into the room, down and to the right: façade z is outward, y up.
         let direction = Emergent(Dir::new(DVec3::new(0.48, -0.6, -0.64)).unwrap());
         let beams = [SunBeam { direction, flux: 640.0, straight: true }];
-        let told = apart(&beams, Surface::Facade, 2.0).unwrap();
+        let told = separate_beam(&beams, Surface::Facade, 2.0).unwrap();
         assert!((told.direction - DVec3::new(0.48, 0.64, -0.6)).length() < 1e-12);
         assert!((told.normal - 640.0 / (2.0 * 0.64)).abs() < 1e-9);
         let text = remarks(None, Some(&told), None).join(" ");
         assert!(text.contains("640.0000 lm") && text.contains("(0.480000, 0.640000, -0.600000)"), "{text}");
-        assert_eq!(apart(&[], Surface::Facade, 2.0), None);
+        assert_eq!(separate_beam(&[], Surface::Facade, 2.0), None);
         let mut text = Description { manufacturer: "cfs 0.1.0".into(), ..Description::default() };
         let reached = Reached { sum: 0.001, rms: 0.0123, worst: -0.05, fields: 60 };
         in_lines(&mut text, Some(&told), Some(&reached));

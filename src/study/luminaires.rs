@@ -46,7 +46,7 @@ pub struct LuminaireAperture {
 /// # Errors
 /// Returns an error if the file cannot be read.
 pub fn read_file(path: &Path) -> Result<Option<Luminaire>, StudyError> {
-    let name = files::telling_name(path)?.to_ascii_lowercase();
+    let name = files::name_with_extension(path)?.to_ascii_lowercase();
     let read = match name.rsplit_once('.') {
         Some((_, "ldt")) => eulumdat::read,
         Some((_, "ies")) => ies::read,
@@ -135,9 +135,9 @@ pub fn of_rows(path: &Path, rows: Vec<Row>) -> Result<LuminaireAperture, StudyEr
 pub fn in_place_of(aperture: &Aperture, path: &Path, set: Option<&str>) -> Result<Arc<Lamps>, StudyError> {
     let found = read(path, set).map_err(|error| StudyError::key("system.luminaires", error.to_string()))?;
     let own = found.aperture;
-    let apart = (own.corner - aperture.corner).abs().max_element();
+    let distance = (own.corner - aperture.corner).abs().max_element();
     let other_size = (0..2).any(|k| (own.size[k] - aperture.size[k]).abs() > SAME_LENGTH);
-    if own.surface != aperture.surface || apart > SAME_LENGTH || other_size {
+    if own.surface != aperture.surface || distance > SAME_LENGTH || other_size {
         return Err(StudyError::key(
             "system.luminaires",
             format!("{}: its tiles fill {}, not the aperture, {}", path.display(), words(&own), words(aperture)),
@@ -150,7 +150,7 @@ pub fn in_place_of(aperture: &Aperture, path: &Path, set: Option<&str>) -> Resul
 pub fn as_system(name: &Path) -> Arc<System> {
     let label = format!("luminaire files of {}", name.file_name().unwrap_or_default().to_string_lossy());
     let dataset = Dataset { name: label.clone(), ..Dataset::default() };
-    Arc::new(System { label, state: String::new(), dataset: Arc::new(dataset), very: None })
+    Arc::new(System { label, state: String::new(), dataset: Arc::new(dataset), model: None })
 }
 
 fn wrong(path: &Path, message: String) -> StudyError {

@@ -42,7 +42,7 @@ impl Plan {
         let regular = scene.apertures.iter().any(|a| a.transmission().is_some_and(|btdf| btdf.regular.is_some()));
         let cells = scattered(|part| !matches!(part, Scattered::Lambert(_)));
         // The data of such systems may be missing, which the next stages use.
-        let described = scene.beams && scene.apertures.iter().any(|a| a.system.very.is_some());
+        let described = scene.beams && scene.apertures.iter().any(|a| a.system.model.is_some());
         let sun_on = (0..scene.apertures.len()).any(|index| scene.facing(index).sun_illuminance() > 0.0);
         plan.add(
             "sun",

@@ -2,6 +2,7 @@
 //! of sensors and surfaces to each aperture. A new sky, time or product of the same basis costs only products with
 //! these.
 
+pub(super) mod beam_responses;
 mod behind;
 mod creases;
 pub(super) mod data_share;
@@ -9,12 +10,12 @@ mod emission;
 pub(super) mod far;
 pub mod glare;
 pub(super) mod interreflected;
-pub(super) mod landed;
 mod lights;
 mod outside_seen;
 mod part;
 pub(super) mod responses;
 mod results;
+mod room_side_reflection;
 pub(super) mod seen;
 pub(super) mod seen_cells;
 mod skies;
@@ -24,7 +25,6 @@ mod split;
 mod surfaces;
 mod targets;
 mod through_room;
-mod thrown_back;
 pub(super) mod unit_beams;
 mod weights;
 
@@ -33,7 +33,7 @@ use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
-use super::system::VerySystem;
+use super::system::SystemModel;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Estimate, Progress};
@@ -79,7 +79,7 @@ pub struct Session {
     seen_cells: Cache<SeenCells>,
     patches: Cache<PatchWeights>,
     responses: Cache<Vec<Response>>,
-    landed: Cache<UnitBeams>,
+    unit_beams: Cache<UnitBeams>,
     sky_patches: Cache<SkyPatches>,
     sky_years: Cache<SkyYear>,
     seen_years: Cache<SkyYear>,
@@ -98,12 +98,12 @@ pub struct Session {
     falling: Cache<Vec<Vec<f64>>>,
     bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
-    suns: Cache<(VerySystem, SunThrough)>,
-    skies: Cache<(VerySystem, SkyThrough)>,
+    suns: Cache<(SystemModel, SunThrough)>,
+    skies: Cache<(SystemModel, SkyThrough)>,
     /// Peaks of datasets. The datasets stay alive with them, so that no others can have their address.
     peaks: Cache<(Arc<Dataset>, Peaks)>,
     /// Whether light that an aperture reflects diffusely is taken as uniform over the aperture.
-    evenly: bool,
+    reflects_uniformly: bool,
 }
 
 impl Default for Session {
@@ -130,11 +130,11 @@ impl Session {
     /// reflectance.
     #[must_use]
     pub fn point_by_point(self) -> Self {
-        Self { evenly: false, ..self }
+        Self { reflects_uniformly: false, ..self }
     }
 
     /// Creates a session with 1 / `part` of the usual cache sizes.
-    const fn keeping(part: usize, evenly: bool) -> Self {
+    const fn keeping(part: usize, reflects_uniformly: bool) -> Self {
         Self {
             rooms: Cache::new(9 / part),
             gather: Cache::new(9 / part),
@@ -142,7 +142,7 @@ impl Session {
             seen_cells: Cache::new(6),
             patches: Cache::new(24 / part),
             responses: Cache::new(6 / part),
-            landed: Cache::new(6 / part),
+            unit_beams: Cache::new(6 / part),
             sky_patches: Cache::new(6),
             sky_years: Cache::new(6),
             seen_years: Cache::new(3),
@@ -162,7 +162,7 @@ impl Session {
             // All states of a blind: light and glare pass through them one after the other.
             skies: Cache::new(21 / part),
             peaks: Cache::new(6 / part),
-            evenly,
+            reflects_uniformly,
         }
     }
 
@@ -177,7 +177,7 @@ impl Session {
         let emission = self.emission(scene, aperture);
         let result = LidResult {
             lid: emission.lid(&facing, geometry.size),
-            flux: (emission.exitance(&facing) + Estimate::new(0.0, emission.exitance_doubt())) * geometry.area(),
+            flux: (emission.exitance(&facing) + Estimate::new(0.0, emission.exitance_uncertainty())) * geometry.area(),
             incident: (emission.incident_diffuse, emission.incident_sun),
         };
         result.checked()
@@ -234,10 +234,10 @@ impl Session {
         };
         plan.spend("interreflection", clock.elapsed());
         // The relative uncertainty of the incoming flux by the data also applies to the interreflected light.
-        let doubted: f64 =
-            emissions.iter().zip(&scene.apertures).map(|(e, one)| e.exitance_doubt() * one.aperture.area()).sum();
-        let open = if flux.value > 0.0 { doubted / flux.value } else { 0.0 };
-        let flux = flux + Estimate::new(0.0, doubted);
+        let flux_uncertainty: f64 =
+            emissions.iter().zip(&scene.apertures).map(|(e, one)| e.exitance_uncertainty() * one.aperture.area()).sum();
+        let open = if flux.value > 0.0 { flux_uncertainty / flux.value } else { 0.0 };
+        let flux = flux + Estimate::new(0.0, flux_uncertainty);
         let sensors: Vec<SensorResult> = scene
             .sensors
             .iter()
@@ -335,7 +335,7 @@ impl Session {
         if keeps_receptions(scene, basis) {
             return self.receptions(scene, index, basis, progress).map(Seen::Kept);
         }
-        Ok(Seen::Anew(&scene.apertures[index].aperture, basis))
+        Ok(Seen::Recomputed(&scene.apertures[index].aperture, basis))
     }
 
     /// Returns the response of every sensor to one aperture by bands of the profile angle.
@@ -349,7 +349,7 @@ impl Session {
         let aperture = &scene.apertures[index].aperture;
         let (upright, count) = (bands.light.upright, bands.light.q.len());
         if !keeps(scene, count) {
-            return Ok(SeenBands::Anew(aperture, upright, count));
+            return Ok(SeenBands::Recomputed(aperture, upright, count));
         }
         self.kept_bands(scene, index, (upright, count), progress).map(SeenBands::Kept)
     }
@@ -421,9 +421,9 @@ impl Session {
 
 /// Returns the note on an aperture's beams.
 fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
-    let said = emission.notes.iter().rev().find_map(|note| note.strip_prefix("sun: "));
-    match (said, emission.beam_source) {
-        (Some(said), _) => said.to_owned(),
+    let note = emission.notes.iter().rev().find_map(|note| note.strip_prefix("sun: "));
+    match (note, emission.beam_source) {
+        (Some(note), _) => note.to_owned(),
         (None, BeamSource::None) => "no sun, or no system that keeps its light together".to_owned(),
         (None, BeamSource::Described) => "a regular transmittance".to_owned(),
         (None, _) if interpolation == Interpolation::Patch => {

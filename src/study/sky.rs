@@ -4,7 +4,7 @@ mod hour;
 mod illuminance;
 mod keys;
 
-pub use self::hour::{HourOfWeather, clock_warning, hour_of_weather, is_elsewhere, places_apart};
+pub use self::hour::{HourOfWeather, clock_warning, hour_of_weather, is_elsewhere, site_warnings};
 pub use self::illuminance::{Illuminances, Source, TWILIGHT, illuminances};
 pub use self::keys::{CLEANEST, HAZIEST, HIGHEST, LOWEST, SkyKeyError};
 

@@ -133,8 +133,8 @@ impl Subject {
             .map_or_else(|| first.system.state.clone(), state_words);
         let label = &first.system.label;
         // The label of a described system of a file contains its state already.
-        let told = state.is_empty() || (product.is_none() && label.ends_with(&format!(", {state}")));
-        let name = if told { label.clone() } else { format!("{label}, {state}") };
+        let is_complete = state.is_empty() || (product.is_none() && label.ends_with(&format!(", {state}")));
+        let name = if is_complete { label.clone() } else { format!("{label}, {state}") };
         progress.advance("luminous intensities", 1, STEPS);
         let lid = if asked.wanted.lid {
             let result = session.lid(&scene, 0, progress)?;

@@ -5,7 +5,7 @@ use super::error::StudyError;
 use super::outside::LitObstructions;
 use super::scene_file::{IdealKind, SystemKeys};
 use crate::compute::btdf::{self, Btdf, Dataset, SolarSource};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::measure::OpticalModel;
 use std::fmt;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -20,34 +20,34 @@ pub struct System {
     /// Photometric data of the system.
     pub dataset: Arc<Dataset>,
     /// Optical model for single directions; `None` if the system is known by its data alone.
-    pub very: Option<VerySystem>,
+    pub model: Option<SystemModel>,
 }
 
 /// Optical model of a system for single directions, with a model of the solar band if the description has solar
 /// properties. Two are equal if they are the same object.
 #[derive(Clone)]
-pub struct VerySystem(pub Arc<dyn Specimen>, pub Option<(Arc<dyn Specimen>, SolarSource)>);
+pub struct SystemModel(pub Arc<dyn OpticalModel>, pub Option<(Arc<dyn OpticalModel>, SolarSource)>);
 
-impl VerySystem {
+impl SystemModel {
     /// Returns the model of the solar band, or of light if there is none, and the source of the solar properties.
-    pub fn solar(&self) -> (&dyn Specimen, SolarSource) {
-        self.1.as_ref().map_or((&*self.0, SolarSource::Visible), |(specimen, source)| (&**specimen, *source))
+    pub fn solar(&self) -> (&dyn OpticalModel, SolarSource) {
+        self.1.as_ref().map_or((&*self.0, SolarSource::Visible), |(model, source)| (&**model, *source))
     }
 
     /// Whether light from sky and ground may be computed with the model. If not, the data are used: where thousands of
     /// directions take too long, and where data separate regular transmission, which is more exact.
     pub fn answers_for_the_sky(&self) -> bool {
-        self.0.is_quick() && !self.0.keeps_regular_apart()
+        self.0.is_quick() && !self.0.separates_regular()
     }
 }
 
-impl fmt::Debug for VerySystem {
+impl fmt::Debug for SystemModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("VerySystem")
+        f.write_str("SystemModel")
     }
 }
 
-impl PartialEq for VerySystem {
+impl PartialEq for SystemModel {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }
@@ -130,5 +130,5 @@ pub fn ideal(kind: IdealKind, transmittance: f64) -> Result<Arc<System>, StudyEr
     };
     let mut dataset = Dataset { name: format!("{name}, τ = {transmittance}"), ..Dataset::default() };
     dataset.visible.transmission_front = Some(btdf);
-    Ok(Arc::new(System { label: dataset.name.clone(), state: String::new(), dataset: Arc::new(dataset), very: None }))
+    Ok(Arc::new(System { label: dataset.name.clone(), state: String::new(), dataset: Arc::new(dataset), model: None }))
 }

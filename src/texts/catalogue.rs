@@ -25,11 +25,11 @@ texts! {
     fn tau_tip(normal, uniform) = "τ at normal incidence {normal}, under uniform light {uniform}" | "τ bei senkrechtem Einfall {normal}, bei gleichmäßigem Licht {uniform}";
     fn states_tip(count, state) = "{count} states; the picture is of the one{state}" | "{count} Stellungen; das Bild zeigt die{state}";
     const PICTURE_TIP = "The picture: where the light of a sun 40° high goes, seen from inside, up is up; three decades below its own greatest value" | "Das Bild: wohin das Licht einer 40° hohen Sonne geht, von innen gesehen, oben ist oben; drei Dekaden unter dem eigenen Höchstwert";
-    fn from_like(name, apart) = "From {name}: {apart}" | "Von {name}: {apart}";
+    fn from_like(name, distance) = "From {name}: {distance}" | "Von {name}: {distance}";
     fn take_star(name) = "Take the star of {name}" | "Stern entfernen: {name}";
     fn set_star(name) = "Star {name}" | "Stern setzen: {name}";
-    const OUT_OF_TRAY = "Take out of the comparison" | "Aus dem Vergleich nehmen";
-    const OUT_OF_TRAY_TIP = "In the tray; a click takes it out" | "In der Vergleichsliste; ein Klick nimmt es heraus";
+    const REMOVE_FROM_COMPARISON = "Take out of the comparison" | "Aus dem Vergleich nehmen";
+    const REMOVE_FROM_COMPARISON_TIP = "In the tray; a click takes it out" | "In der Vergleichsliste; ein Klick nimmt es heraus";
     const COMPARE = "Compare" | "Vergleichen";
     const COMPARE_TIP = "Add to the tray of what is compared" | "In die Vergleichsliste aufnehmen";
     fn about(what, name) = "{what}: {name}" | "{what}: {name}";
@@ -41,9 +41,9 @@ texts! {
     const DELETE_TIP = "Out of sight; undo or Recently deleted brings it back" | "Ausgeblendet; Rückgängig oder „Zuletzt gelöscht“ holt es zurück";
 
     // Facets.
-    const NOT_TOLD = "not told" | "keine Angabe";
+    const NOT_SPECIFIED = "not told" | "keine Angabe";
     fn filter_by(title) = "Filter by {title}" | "Filter: {title}";
-    const NOBODY_TELLS = "No product tells it" | "Kein Produkt gibt es an";
+    const NONE_SPECIFIED = "No product tells it" | "Kein Produkt gibt es an";
     const STARRED_ALONE = "Starred products alone" | "Nur Produkte mit Stern";
     const RECENT = "Recent" | "Zuletzt benutzt";
     const RECENT_ALONE = "Products shown last alone, the last first" | "Nur zuletzt gezeigte Produkte, das letzte zuerst";
@@ -113,13 +113,13 @@ texts! {
     const BEST_MATCH = "Best match" | "Beste Treffer";
     const NAME = "Name" | "Name";
     const STATES = "States" | "Stellungen";
-    fn apart(distance, parts) = "{distance} apart: {parts}" | "Abstand {distance}: {parts}";
+    fn distance_is(distance, parts) = "{distance} apart: {parts}" | "Abstand {distance}: {parts}";
     fn no_difference(least) = "no difference above {least}" | "kein Unterschied über {least}";
-    const APART_TAU = "τ" | "τ";
-    const APART_PROFILE = "profile" | "Profil";
-    const APART_CEILING = "ceiling" | "Decke";
-    const APART_SUN = "sun blocked" | "Sonnenschutz";
-    const APART_VIEW = "view" | "Durchsicht";
+    const DISTANCE_TAU = "τ" | "τ";
+    const DISTANCE_PROFILE = "profile" | "Profil";
+    const DISTANCE_CEILING = "ceiling" | "Decke";
+    const DISTANCE_SUN = "sun blocked" | "Sonnenschutz";
+    const DISTANCE_VIEW = "view" | "Durchsicht";
 
     // Collections, recent products, subscriptions.
     const COLLECTIONS_MENU = "Collections…" | "Sammlungen…";

@@ -39,7 +39,7 @@ texts! {
     const STOP_TIP = "Stops computing; what was found stays, and can be gone on from" | "Hält die Rechnung an; Gefundenes bleibt, und es kann weitergehen";
     const AGAIN = "Rank again" | "Neu reihen";
     const AGAIN_TIP = "Room, place, weather, control, catalogue or search have changed; only products whose figures are not known yet are computed" | "Raum, Ort, Wetter, Regelung, Katalog oder Suche haben sich geändert; gerechnet werden nur Produkte, deren Kennwerte noch nicht bekannt sind";
-    const GO_ON = "Go on" | "Weiter";
+    const CONTINUE = "Go on" | "Weiter";
     fn unfinished(left) = "{left} products are still to be computed with beams as they are" | "{left} Produkte sind noch mit Strahlen, wie sie sind, zu rechnen";
     const FIND_FIGURE = "Compute" | "Rechnen";
     const FIND_FIGURE_TIP = "The figure of an objective is not known of all products yet" | "Der Kennwert eines Ziels ist noch nicht von allen Produkten bekannt";
@@ -71,9 +71,9 @@ texts! {
     const RANK_TIP_HEAD = "A range where the errors leave the order open" | "Eine Spanne, wo die Unsicherheiten die Ordnung offen lassen";
     fn rank_is(rank) = "rank {rank}" | "Rang {rank}";
     const PRODUCT = "Product" | "Produkt";
-    const WORTH = "Worth" | "Wert";
-    const WORTH_TIP = "Mean of what the objectives are worth, by their weights: 0 at their worst, 1 at their best; the line is its error" | "Mittel dessen, was die Ziele wert sind, nach Gewichten: 0 beim schlechtesten, 1 beim besten; der Strich ist die Unsicherheit";
-    fn worth(value, error) = "worth {value} ± {error}" | "Wert {value} ± {error}";
+    const SCORE = "Worth" | "Wert";
+    const SCORE_TIP = "Mean of what the objectives are worth, by their weights: 0 at their worst, 1 at their best; the line is its error" | "Mittel dessen, was die Ziele wert sind, nach Gewichten: 0 beim schlechtesten, 1 beim besten; der Strich ist die Unsicherheit";
+    fn score(value, error) = "worth {value} ± {error}" | "Wert {value} ± {error}";
     const LESS_IS_BETTER = "less is better" | "weniger ist besser";
     const MORE_IS_BETTER = "more is better" | "mehr ist besser";
     const MARKS_TIP = "◆ no other is better in every objective · ≈ approximate · ⌂ in the room; pale: by data on cells so far" | "◆ keines in jedem Ziel besser · ≈ Näherung · ⌂ im Raum; blass: bisher nach Daten auf Feldern";
@@ -86,16 +86,16 @@ texts! {
     const AGAINST = "against" | "gegen";
     const AGAINST_TIP = "Against which other one; Shift and a click on a row does the same" | "Gegen welches andere; Umschalt und ein Klick auf eine Zeile tut dasselbe";
     const THE_BEST = "the best" | "das beste";
-    fn surely_above(worth, other) = "{worth} above {other}" | "{worth} über {other}";
-    fn surely_below(worth, other) = "{worth} below {other}" | "{worth} unter {other}";
-    fn open_above(worth, other) = "{worth} above {other}, which the errors do not tell apart" | "{worth} über {other}, was die Unsicherheiten nicht trennen";
-    fn open_below(worth, other) = "{worth} below {other}, which the errors do not tell apart" | "{worth} unter {other}, was die Unsicherheiten nicht trennen";
-    fn by_objective(worth, name, own, other) = "{worth} by {name}: {own} against {other}" | "{worth} durch {name}: {own} gegen {other}";
+    fn surely_above(score, other) = "{score} above {other}" | "{score} über {other}";
+    fn surely_below(score, other) = "{score} below {other}" | "{score} unter {other}";
+    fn open_above(score, other) = "{score} above {other}, which the errors do not tell apart" | "{score} über {other}, was die Unsicherheiten nicht trennen";
+    fn open_below(score, other) = "{score} below {other}, which the errors do not tell apart" | "{score} unter {other}, was die Unsicherheiten nicht trennen";
+    fn by_objective(score, name, own, other) = "{score} by {name}: {own} against {other}" | "{score} durch {name}: {own} gegen {other}";
     fn part_is(value, when) = "{value} in {when}" | "{value} bei {when}";
     const INTO_ROOM = "Into the room" | "In den Raum";
     const INTO_ROOM_TIP = "This product takes the place of the one in the room; undo takes it back" | "Dieses Produkt tritt an die Stelle dessen im Raum; Rückgängig nimmt es zurück";
-    const INTO_TRAY = "Into the comparison" | "In den Vergleich";
-    const INTO_TRAY_TIP = "This product into the comparison's tray" | "Dieses Produkt in die Ablage des Vergleichs";
+    const ADD_TO_COMPARISON = "Into the comparison" | "In den Vergleich";
+    const ADD_TO_COMPARISON_TIP = "This product into the comparison's tray" | "Dieses Produkt in die Ablage des Vergleichs";
     fn excluded_because(reason) = "Takes no part: {reason}" | "Nimmt nicht teil: {reason}";
 
     // Objectives.

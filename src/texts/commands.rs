@@ -56,12 +56,12 @@ texts! {
     const READ_SUBSCRIBED_TIP = "Folders of packages that the catalogue is subscribed to, where they have changed" | "Ordner mit Paketen, die der Katalog abonniert hat, soweit sie sich geändert haben";
     const IMPORT = "Import" | "Import";
     const IMPORT_TIP = "What was read and is not stored yet, and drafts of earlier imports" | "Was gelesen und noch nicht gespeichert ist, und Entwürfe früherer Importe";
-    const PUT_ASIDE = "Keep the import as a draft" | "Import als Entwurf behalten";
-    const PUT_ASIDE_TIP = "Leave what was read for later; the import sheet lists it" | "Das Gelesene für später behalten; das Importblatt führt es auf";
+    const KEEP_DRAFT = "Keep the import as a draft" | "Import als Entwurf behalten";
+    const KEEP_DRAFT_TIP = "Leave what was read for later; the import sheet lists it" | "Das Gelesene für später behalten; das Importblatt führt es auf";
     const SAVE_SCENE = "Save scene…" | "Szene speichern…";
     const SAVE_SCENE_TIP = "Write everything this study needs as a text file" | "Alles, was diese Studie braucht, als Textdatei schreiben";
-    const HAND_ON = "Hand on…" | "Weitergeben…";
-    const HAND_ON_TIP = "Pictures, reports (PDF), luminaire files, tables, datasets, packages, with a preview" | "Bilder, Berichte (PDF), Leuchtendateien, Tabellen, Datensätze, Pakete, mit Vorschau";
+    const EXPORT = "Hand on…" | "Weitergeben…";
+    const EXPORT_TIP = "Pictures, reports (PDF), luminaire files, tables, datasets, packages, with a preview" | "Bilder, Berichte (PDF), Leuchtendateien, Tabellen, Datensätze, Pakete, mit Vorschau";
     const EXPORT_LID = "Export LID…" | "LVK ausgeben…";
     const EXPORT_LID_TIP = "Write the window as a luminaire (.ldt, .ies) for other programs" | "Das Fenster als Leuchte (.ldt, .ies) für andere Programme schreiben";
     const UNDO = "Undo" | "Rückgängig";
@@ -133,8 +133,8 @@ texts! {
     fn compare_look(look) = "Compare: {look}" | "Vergleich: {look}";
     const COPY_COMPARED = "Copy the compared figures" | "Verglichene Werte kopieren";
     const COPY_COMPARED_TIP = "The table with errors as CSV into the clipboard" | "Die Tabelle mit Unsicherheiten als CSV in die Zwischenablage";
-    const CLEAR_TRAY = "Empty the tray" | "Liste leeren";
-    const CLEAR_TRAY_TIP = "Nothing is compared any more; undo brings it back" | "Nichts wird mehr verglichen; Rückgängig bringt es zurück";
+    const CLEAR_COMPARISON = "Empty the tray" | "Liste leeren";
+    const CLEAR_COMPARISON_TIP = "Nothing is compared any more; undo brings it back" | "Nichts wird mehr verglichen; Rückgängig bringt es zurück";
     const LIKE = "Products like this one" | "Ähnliche Produkte";
     const LIKE_TIP = "By what they do to light, not by name: nearest first" | "Nach ihrer Wirkung auf Licht, nicht nach dem Namen: die nächsten zuerst";
 

@@ -9,7 +9,7 @@ texts! {
     fn comparing(count) = "Comparing {count}" | "Vergleich: {count}";
     const SCENES_OWN = "As in the scene" | "Wie in der Szene";
     fn shown(what) = "Shown: {what}. X shows the next of the tray in all tiles, and goes back" | "Zu sehen: {what}. X zeigt den nächsten der Vergleichsliste in allen Kacheln, und geht zurück";
-    const NAME_IN_TRAY = "Name in the tray" | "Name in der Vergleichsliste";
+    const NAME_IN_COMPARISON = "Name in the tray" | "Name in der Vergleichsliste";
     fn candidate(name) = "Candidate {name}" | "Kandidat {name}";
     const SHOW_IN_TILES = "Show in the tiles" | "In den Kacheln zeigen";
     const SHOW_IN_TILES_TIP = "X goes back to the scene's own" | "X geht zurück zur Szene selbst";
@@ -41,8 +41,8 @@ texts! {
     fn less_base(base) = "less {base}" | "minus {base}";
     const BASE_CHOICE_TIP = "From which one the differences are taken" | "Wovon die Differenzen genommen werden";
     const BASE_CHOICE = "Base of differences" | "Basis der Differenzen";
-    const GO_ON = "Go on" | "Weiter";
-    const GO_ON_TIP = "Compute what is missing" | "Berechnen, was fehlt";
+    const CONTINUE = "Go on" | "Weiter";
+    const CONTINUE_TIP = "Compute what is missing" | "Berechnen, was fehlt";
     const CLOSE = "Close" | "Schließen";
     const CLOSE_TIP = "Back to the tiles" | "Zurück zu den Kacheln";
     const COMMON_SCALE = "Scale of all tiles" | "Skala aller Kacheln";
@@ -113,10 +113,10 @@ texts! {
     const STATE = "state" | "Stellung";
 
     // Messages.
-    const TRAY_EMPTY = "Nothing to compare yet: C adds what is shown, or use the ⊕ of a row in the catalogue" | "Noch nichts zu vergleichen: C fügt hinzu, was zu sehen ist, oder das ⊕ einer Zeile im Katalog";
-    fn tray_full(most) = "The tray holds {most}: take one out first" | "Die Vergleichsliste fasst {most}: erst einen herausnehmen";
+    const COMPARISON_EMPTY = "Nothing to compare yet: C adds what is shown, or use the ⊕ of a row in the catalogue" | "Noch nichts zu vergleichen: C fügt hinzu, was zu sehen ist, oder das ⊕ einer Zeile im Katalog";
+    fn comparison_full(most) = "The tray holds {most}: take one out first" | "Die Vergleichsliste fasst {most}: erst einen herausnehmen";
     const NOTHING_SHOWN = "Nothing is shown yet that could be compared" | "Noch ist nichts zu sehen, was verglichen werden könnte";
-    const IN_TRAY_ALREADY = "In the tray already. Shift+C adds it with this moment, to be compared with another one" | "Schon in der Vergleichsliste. Umschalt+C fügt es mit diesem Zeitpunkt hinzu, zum Vergleich mit einem anderen";
+    const ALREADY_IN_COMPARISON = "In the tray already. Shift+C adds it with this moment, to be compared with another one" | "Schon in der Vergleichsliste. Umschalt+C fügt es mit diesem Zeitpunkt hinzu, zum Vergleich mit einem anderen";
     const NOT_LISTED = "The product is not in the list: search for it, then add it" | "Das Produkt ist nicht in der Liste: erst suchen, dann hinzufügen";
     const NOTHING_TO_SWAP = "Nothing to swap with: add what is shown (C), choose another product or state, then X" | "Nichts zum Tauschen: hinzufügen, was zu sehen ist (C), ein anderes Produkt oder eine andere Stellung wählen, dann X";
     const NO_PRODUCT_CHOSEN = "No product is chosen" | "Kein Produkt gewählt";
@@ -127,7 +127,7 @@ texts! {
     fn chapter_beside(tile) = "Side by side on one scale: {tile}" | "Nebeneinander mit einer Skala: {tile}";
     const MARK_NOTE = "▲ marks what is better by more than the errors together; errors are those of computation and data that are stated, and measured data state none." | "▲ zeigt, was um mehr als die Unsicherheiten zusammen besser ist; Unsicherheiten sind die angegebenen von Rechnung und Daten, gemessene Daten geben keine an.";
     const SIGN_NOTE = "Red is more than the base, blue is less, white the same; all pictures have the same scale." | "Rot ist mehr als die Basis, Blau weniger, Weiß dasselbe; alle Bilder haben dieselbe Skala.";
-    fn mean_difference(name, mean, apart, all) = "mean {name} {mean}, more than the errors at {apart} of {all} sensors" | "{name} im Mittel {mean}, mehr als die Unsicherheit an {apart} von {all} Messpunkten";
+    fn mean_difference(name, mean, distinct, all) = "mean {name} {mean}, more than the errors at {distinct} of {all} sensors" | "{name} im Mittel {mean}, mehr als die Unsicherheit an {distinct} von {all} Messpunkten";
     fn ends(name, low, high) = "{name} from {low} to {high}" | "{name} von {low} bis {high}";
     const NO_DIFFERENCE = "the sensors or data are not the same kind: no difference" | "Messpunkte oder Daten sind nicht von gleicher Art: keine Differenz";
     fn not_drawn(name, why) = "{name}: {why}" | "{name}: {why}";

@@ -57,13 +57,13 @@ pub mod catalogue;
 pub mod choose;
 pub mod commands;
 pub mod compare;
+pub mod export;
 pub mod findings;
 pub mod goniophotometer;
-pub mod hand_on;
+pub mod import;
 pub mod scene;
 pub mod shell;
 pub mod stages;
-pub mod take_in;
 pub mod tiles;
 pub mod words;
 pub mod year;
@@ -77,11 +77,11 @@ pub fn pairs() -> impl Iterator<Item = (&'static str, &'static str, &'static str
         ("compare", compare::PAIRS),
         ("findings", findings::PAIRS),
         ("goniophotometer", goniophotometer::PAIRS),
-        ("hand_on", hand_on::PAIRS),
+        ("export", export::PAIRS),
         ("scene", scene::PAIRS),
         ("shell", shell::PAIRS),
         ("stages", stages::PAIRS),
-        ("take_in", take_in::PAIRS),
+        ("import", import::PAIRS),
         ("tiles", tiles::PAIRS),
         ("words", words::PAIRS),
         ("year", year::PAIRS),

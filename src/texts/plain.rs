@@ -1,7 +1,7 @@
 //! Text from files in a form that can be shown: characters that control a terminal or reverse a line are made visible,
 //! and numbers of very many digits are shortened.
 
-use super::take_in;
+use super::import;
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
@@ -91,7 +91,7 @@ pub fn character_names(characters: &[char]) -> String {
     let names: Vec<String> = characters.iter().take(MAX_NAMED).map(name).collect();
     match characters.len() - names.len() {
         0 => names.join(", "),
-        more => take_in::and_more(names.join(", "), more),
+        more => import::and_more(names.join(", "), more),
     }
 }
 

@@ -43,8 +43,8 @@ texts! {
     fn beyond_roof(number, width, height) = "Aperture {number} reaches beyond the roof, {width} × {height} m: move it or make it smaller." | "Öffnung {number} reicht über das Dach hinaus, {width} × {height} m: verschieben oder verkleinern.";
     fn overlap(one, other) = "Apertures {one} and {other} overlap: move one of them." | "Die Öffnungen {one} und {other} überlappen: eine davon verschieben.";
     fn numbered_in(number) = "{number} in the" | "{number} in";
-    const TAKE_OUT = "Take this aperture out" | "Diese Öffnung entfernen";
-    fn take_out_number(number) = "Take aperture {number} out" | "Öffnung {number} entfernen";
+    const REMOVE_APERTURE = "Take this aperture out" | "Diese Öffnung entfernen";
+    fn remove_aperture(number) = "Take aperture {number} out" | "Öffnung {number} entfernen";
     const MADE_SMALLER = "Made smaller, so that it fits there." | "Verkleinert, damit sie dort passt.";
     const ADD_APERTURE = "Add an aperture" | "Öffnung hinzufügen";
     const NO_FREE_PLACE = "Neither façade nor roof has a free square metre" | "Weder Fassade noch Dach hat einen freien Quadratmeter";

@@ -26,7 +26,7 @@ texts! {
     const TOUR_SUN = "Move the sun: drag it in the sky tile, or press → for an hour later." | "Die Sonne bewegen: in der Himmelskachel ziehen, oder → für eine Stunde später.";
     const TOUR_LIGHT = "Look at the light: press 4 to fill the bench with the LID, or 5 with the room." | "Das Licht ansehen: 4 zeigt die LVK groß, 5 den Raum.";
     const TOUR_COMPARE = "Compare: press C to put what is shown into the tray; the next product can join it." | "Vergleichen: C legt das Gezeigte in die Vergleichsliste; weitere Produkte können dazu.";
-    const TOUR_HAND_ON = "Hand on: press Ctrl+E for pictures, reports and luminaire files." | "Weitergeben: Strg+E öffnet Bilder, Berichte und Leuchtendateien.";
+    const TOUR_EXPORT = "Hand on: press Ctrl+E for pictures, reports and luminaire files." | "Weitergeben: Strg+E öffnet Bilder, Berichte und Leuchtendateien.";
     const TOUR_LEAVE = "Leave the tour" | "Rundgang beenden";
     const TOUR_LEAVE_TIP = "Escape; it goes on here when it is started again" | "Esc; beim nächsten Mal geht er hier weiter";
     const TOUR_DONE = "The tour is done; the Help menu has it again" | "Der Rundgang ist fertig; im Menü Hilfe steht er weiterhin";
@@ -39,7 +39,7 @@ texts! {
     const PRODUCT = "Product" | "Produkt";
     const DELETED = "Recently deleted" | "Zuletzt gelöscht";
     const MESSAGES = "Messages" | "Meldungen";
-    const HAND_ON = "Hand on" | "Weitergeben";
+    const EXPORT_SHEET = "Hand on" | "Weitergeben";
     const OPEN = "Open" | "Öffnen";
     const SAVE_THE_SCENE = "Save the scene" | "Szene speichern";
     const EXPORT_THE_LID = "Export the LID" | "LVK ausgeben";
@@ -58,7 +58,7 @@ texts! {
     const LID_HINT = "Luminaire file (.ldt EULUMDAT, .ies LM-63), table (.csv) or diagram (.svg, .png); the ending decides." | "Leuchtendatei (.ldt EULUMDAT, .ies LM-63), Tabelle (.csv) oder Diagramm (.svg, .png); die Endung entscheidet.";
     const MEASURED_HINT = "All states in a package (.cfsp), or a file a state (.xml, .btdf.txt)." | "Alle Stellungen in einem Paket (.cfsp) oder je eine Datei (.xml, .btdf.txt).";
     const TILE_HINT = "Numbers (.csv)." | "Zahlen (.csv).";
-    const HAND_ON_HINT = "Folder and name of what is handed on." | "Ordner und Name dessen, was weitergegeben wird.";
+    const EXPORT_HINT = "Folder and name of what is handed on." | "Ordner und Name dessen, was weitergegeben wird.";
     const REPLACE = "Replace" | "Ersetzen";
     const SAVE = "Save" | "Speichern";
     const EXPORT = "Export" | "Ausgeben";
@@ -73,7 +73,7 @@ texts! {
     const WARNING = "warning" | "Warnung";
     const ERROR = "error" | "Fehler";
     fn dismiss(text) = "Dismiss: {text}" | "Ausblenden: {text}";
-    const NOTHING_SAID = "Nothing was said yet." | "Noch keine Meldungen.";
+    const NO_MESSAGES = "Nothing was said yet." | "Noch keine Meldungen.";
     const FORGET_ALL = "Forget all" | "Alle vergessen";
     const FORGET_ALL_TIP = "Empty this list" | "Diese Liste leeren";
 
@@ -104,7 +104,7 @@ texts! {
     const LANE_PALETTE = "palette" | "Befehlspalette";
     const LANE_IMPORT = "reading files" | "Dateien lesen";
     const LANE_ARRANGE = "arranging" | "Zuordnung";
-    const LANE_MEND = "repairing" | "Reparatur";
+    const LANE_REPAIR = "repairing" | "Reparatur";
     const LANE_FONTS = "fonts of the system" | "Schriften des Systems";
     const LANE_DIALOG = "file dialog" | "Dateidialog";
     const LANE_STORE = "storing" | "Speichern";
@@ -168,16 +168,16 @@ texts! {
     const PACKAGE_OF_ALL = "Package of all states" | "Paket aller Stellungen";
     const BTDF_TEXT = "BTDF text" | "BTDF-Text";
     const BSDF = "BSDF" | "BSDF";
-    const WHAT_IS_HANDED_ON = "What is handed on" | "Was weitergegeben wird";
+    const EXPORTED_FILES = "What is handed on" | "Was weitergegeben wird";
     const SCENE = "Scene" | "Szene";
 
-    fn panicked(told) = "the computation stopped at a fault of the program ({told}); what is shown is the last good result" | "die Rechnung brach an einem Programmfehler ab ({told}); gezeigt wird das letzte gute Ergebnis";
+    fn panicked(message) = "the computation stopped at a fault of the program ({message}); what is shown is the last good result" | "die Rechnung brach an einem Programmfehler ab ({message}); gezeigt wird das letzte gute Ergebnis";
     fn reported(what, report) = "{what}; a report that can be sent is in {report}" | "{what}; ein Bericht zum Weitersenden steht in {report}";
     fn not_reported(what, error) = "{what}; no report on it could be written: {error}" | "{what}; ein Bericht darüber war nicht zu schreiben: {error}";
     const COPY_REPORT = "Copy report" | "Bericht kopieren";
     const COPY_REPORT_TIP = "The whole report into the clipboard: version, place of the fault, last steps, and the scene" | "Den ganzen Bericht in die Zwischenablage: Version, Ort des Fehlers, letzte Schritte und die Szene";
     const REPORT_COPIED = "Report copied" | "Bericht kopiert";
-    fn no_thread(told) = "no thread for this job could be started ({told}); close other programs and try again" | "für diese Aufgabe ließ sich kein Thread starten ({told}); andere Programme schließen und erneut versuchen";
+    fn no_thread(message) = "no thread for this job could be started ({message}); close other programs and try again" | "für diese Aufgabe ließ sich kein Thread starten ({message}); andere Programme schließen und erneut versuchen";
     fn curve_error(error) = "as a control curve: {error}" | "als Regelkurve: {error}";
     fn scene_text(error) = "the scene cannot be written as text: {error}" | "die Szene lässt sich nicht als Text schreiben: {error}";
     const NO_NUMBERS = "the tile has not given its numbers yet: wait for the preview, then write again" | "die Kachel hat ihre Zahlen noch nicht geliefert: die Vorschau abwarten, dann erneut schreiben";

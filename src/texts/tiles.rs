@@ -329,7 +329,7 @@ texts! {
     const STILL_SHEET = "This sheet has one state. Blinds, louvres and switchable glazing are controlled here." | "Dieses Lochblech hat eine Stellung. Hier werden Jalousien, Lamellen und schaltbare Gläser geregelt.";
     const STILL_PRODUCT = "This product has one state. Blinds, louvres and switchable glazing are controlled here." | "Dieses Produkt hat eine Stellung. Hier werden Jalousien, Lamellen und schaltbare Gläser geregelt.";
     const ALL_APERTURES = "All" | "Alle";
-    const RULES_APART = "Upper and lower parts of a window can follow rules of their own" | "Oberer und unterer Teil eines Fensters können eigenen Regeln folgen";
+    const SEPARATE_RULES = "Upper and lower parts of a window can follow rules of their own" | "Oberer und unterer Teil eines Fensters können eigenen Regeln folgen";
     const RULE_TIP = "The rule that picks the state" | "Die Regel, die die Stellung wählt";
     const REDIRECT_TO = "to" | "auf";
     const REDIRECT_TIP = "Elevation of the redirected light in the room" | "Höhenwinkel des umgelenkten Lichts im Raum";
@@ -369,8 +369,8 @@ texts! {
     fn difference_of(title) = "Difference of {title}" | "Unterschied von {title}";
     fn difference_value(name, value, error, unit) = "{name} {value} ± {error} {unit}" | "{name} {value} ± {error} {unit}";
     fn difference_within(name, value, error, unit) = "{name} {value} ± {error} {unit}, within the errors" | "{name} {value} ± {error} {unit}, innerhalb der Unsicherheit";
-    fn difference_mean(name, mean, apart, all) = "mean {name} {mean} · more than the errors at {apart} of {all} sensors" | "Mittel {name} {mean} · größer als die Unsicherheit an {apart} von {all} Messpunkten";
-    fn difference_mean_short(name, mean, apart, all) = "mean {name} {mean} · {apart} of {all} differ" | "Mittel {name} {mean} · {apart} von {all} verschieden";
+    fn difference_mean(name, mean, distinct, all) = "mean {name} {mean} · more than the errors at {distinct} of {all} sensors" | "Mittel {name} {mean} · größer als die Unsicherheit an {distinct} von {all} Messpunkten";
+    fn difference_mean_short(name, mean, distinct, all) = "mean {name} {mean} · {distinct} of {all} differ" | "Mittel {name} {mean} · {distinct} von {all} verschieden";
     fn difference_mean_alone(name, mean) = "mean {name} {mean}" | "Mittel {name} {mean}";
     fn difference_range(name, low, high) = "{name} from {low} to {high}" | "{name} von {low} bis {high}";
 
@@ -387,7 +387,7 @@ texts! {
     const ACCURACY_HONESTY_TIP = "A dot for each sensor: above the diagonal the stated error holds." | "Ein Punkt je Messpunkt: über der Diagonale gilt die angegebene Unsicherheit.";
     fn against(y, x) = "{y} against {x}" | "{y} über {x}";
     fn accuracy_kept(kept, count, padded) = "The ordinary method keeps to its stated error at {kept} % of {count} sensors and efforts; {padded} % state more than ten times the error found." | "Das gewöhnliche Verfahren hält seine angegebene Unsicherheit bei {kept} % von {count} Messpunkten und Aufwänden ein; {padded} % geben mehr als das Zehnfache des gefundenen Fehlers an.";
-    fn accuracy_left_out(untold, count, name) = "{untold} of {count} efforts of {name} are left out: their reference is hardly finer." | "{untold} von {count} Aufwänden von {name} fehlen: ihr Bezug ist kaum feiner.";
+    fn accuracy_left_out(undetermined, count, name) = "{undetermined} of {count} efforts of {name} are left out: their reference is hardly finer." | "{undetermined} von {count} Aufwänden von {name} fehlen: ihr Bezug ist kaum feiner.";
 
     // Section of a system, states.
     const SECTION_EMPTY = "Choose an example, open a .system.toml, or type: the section shows here at once." | "Ein Beispiel wählen, eine .system.toml öffnen oder tippen: der Schnitt erscheint hier sofort.";

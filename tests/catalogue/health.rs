@@ -5,7 +5,7 @@ use cfs::compute::btdf::{Btdf, Dataset};
 use cfs::compute::estimate::Silent;
 use cfs::study::Library;
 use cfs::study::builtin::complete;
-use cfs::study::health::mend;
+use cfs::study::health::repair;
 use rusqlite::Connection;
 use std::path::{Path, PathBuf};
 
@@ -50,8 +50,8 @@ fn built_in_data_that_are_damaged_are_computed_anew() {
     assert!(matches!(told, CatalogueError::Damaged(_)), "{told}");
     let health = check_file(&path).unwrap();
     assert!(matches!(&*health.damages, [one] if matches!(&one.place, Place::Data { builtin: true, .. })), "{health:?}");
-    let mended = mend(&path, &health).unwrap();
-    assert!(mended.lost.is_empty() && mended.mended.len() == 1, "{mended:?}");
+    let mended = repair(&path, &health).unwrap();
+    assert!(mended.lost.is_empty() && mended.repaired.len() == 1, "{mended:?}");
     let mut catalogue = Catalogue::open(&path).unwrap();
     assert_eq!(catalogue.to_compute("clear-single", None).unwrap().as_deref(), Some(""));
     complete(&mut catalogue, |one| one.product == "clear-single", &Library::default(), &Silent).unwrap();
@@ -69,7 +69,7 @@ fn an_ideal_system_comes_again_and_importing_again_mends() {
         assert_eq!(db.execute(sql, [key]).unwrap(), 1);
     };
     spoil("ideal-diffuser");
-    let mended = mend(&path, &check_file(&path).unwrap()).unwrap();
+    let mended = repair(&path, &check_file(&path).unwrap()).unwrap();
     assert!(mended.lost.is_empty(), "{mended:?}");
     let mut catalogue = Catalogue::open(&path).unwrap();
     let tau = catalogue.dataset("ideal-diffuser", None).unwrap().transmission().unwrap().tau_hemispherical();
@@ -109,7 +109,7 @@ fn what_results_hang_on_beside_the_data_is_sealed() {
             health.damages.iter().any(|one| one.place == Place::Product { key: key.into(), builtin }),
             "{health:?}"
         );
-        let lost = mend(&path, &health).unwrap().lost;
+        let lost = repair(&path, &health).unwrap().lost;
         assert_eq!(lost.is_empty(), builtin, "{lost:?}");
         let mut catalogue = Catalogue::open(&path).unwrap();
         assert_eq!(catalogue.product(key).is_ok(), builtin);
@@ -206,7 +206,7 @@ fn damaged_products_of_the_users_are_not_listed_until_they_are_imported_again() 
         let place = Place::Product { key: "mine-0".into(), builtin: false };
         assert!(matches!(&*health.damages, [one] if one.place == place), "{damage}: {health:?}");
         if damage.contains("builtin") {
-            let lost = mend(&path, &health).unwrap().lost;
+            let lost = repair(&path, &health).unwrap().lost;
             assert!(matches!(&*lost, [one] if one.contains("\"mine-0\"")), "{lost:?}");
             changed(&path, &of("product", "builtin = 0"));
         } else {
@@ -273,13 +273,13 @@ fn of_broken_pages_what_can_be_read_is_saved_and_the_rest_is_told() {
             continue;
         }
         told += 1;
-        let mended = mend(&copy, &health).unwrap();
+        let mended = repair(&copy, &health).unwrap();
         assert_eq!(std::fs::read(&mended.copy).unwrap(), bytes, "the file as it was is kept");
         for one in &health.damages {
             // However it reads now: malformed before, gone after.
             let still = matches!(one.place, Place::Data { .. })
                 && mended.after.damages.iter().any(|after| after.place == one.place);
-            assert!(!still || !mended.mended.contains(&one.message), "page {number}: {} is not mended", one.message);
+            assert!(!still || !mended.repaired.contains(&one.message), "page {number}: {} is not mended", one.message);
         }
         let db = Connection::open(&copy).unwrap();
         let ok: String = db.query_row("PRAGMA integrity_check", [], |row| row.get(0)).unwrap();
@@ -334,6 +334,6 @@ fn pages_of_another_kind_are_found_and_written_anew() {
     std::fs::write(&path, &bytes).unwrap();
     let health = check_file(&path).unwrap();
     assert_eq!(health.damages.iter().map(|one| &one.place).collect::<Vec<_>>(), [&Place::Pages]);
-    assert!(mend(&path, &health).unwrap().after.damages.is_empty());
+    assert!(repair(&path, &health).unwrap().after.damages.is_empty());
     assert_eq!(keys(), whole);
 }

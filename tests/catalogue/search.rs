@@ -419,8 +419,8 @@ fn ten_thousand_products_are_set_beside_one_at_a_glance() {
         let found = index.find(&query);
         least = least.min(start.elapsed());
         let like = found.like.unwrap();
-        assert_eq!((found.entries.len(), like.apart.len()), (9_999, 9_999));
-        assert!(like.apart[..19].iter().all(|apart| apart.distance == 0.0) && like.apart[19].distance > 0.0);
+        assert_eq!((found.entries.len(), like.distances.len()), (9_999, 9_999));
+        assert!(like.distances[..19].iter().all(|apart| apart.distance == 0.0) && like.distances[19].distance > 0.0);
         assert_eq!(found.entries[0].tau_hemispherical, Some(0.5));
     }
     eprintln!("10,000 products by likeness: {least:?}");
@@ -428,7 +428,7 @@ fn ten_thousand_products_are_set_beside_one_at_a_glance() {
     // Filters go on narrowing, and another order can be asked for.
     let narrowed = index.find(&Query { moving: Some(false), sort: Sort::Name, ..query });
     assert!(narrowed.entries.len() < 9_999 && narrowed.entries.iter().map(|row| as_read(&row.name)).is_sorted());
-    assert_eq!(narrowed.like.unwrap().apart.len(), narrowed.entries.len());
+    assert_eq!(narrowed.like.unwrap().distances.len(), narrowed.entries.len());
     assert!(index.find(&Query { like: Some("nothing".to_owned()), ..Query::default() }).like.is_none());
 }
 

@@ -1,7 +1,7 @@
 //! A fault of the program in a command, as scripts see it. No input is known that leads to one: this program starts itself
 //! again and panics there.
 
-use cfs::cli::{guarded, status, tell_error};
+use cfs::cli::{guarded, report_error, status};
 use cfs::study::fault;
 use cfs::study::files;
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ fn panicking(folder: &Path) -> ! {
         Ok(())
     });
     let error = result.expect_err("it panics");
-    tell_error(&error);
+    report_error(&error);
     std::process::exit(i32::from(status(&error)));
 }
 

@@ -12,7 +12,7 @@ use cfs::compute::system::clear::prism::Prisms;
 use cfs::compute::system::measure::beams::{Beams, Effort, Shares};
 use cfs::compute::system::measure::directions::at_directions;
 use cfs::compute::system::measure::upright::Upright;
-use cfs::compute::system::measure::{Setting, Side, Specimen};
+use cfs::compute::system::measure::{OpticalModel, Setting, Side};
 use cfs::compute::system::stack::{Layer, LayerSource, Stack};
 use cfs::formats::system_toml;
 use glam::DVec3;
@@ -59,9 +59,9 @@ fn cases(folder: &Path, system: &str) -> Vec<Case> {
 }
 
 /// A system of the kit, the layers of a stack with it.
-fn specimen(folder: &Path, file: &str, state: &str) -> Box<dyn Specimen> {
+fn specimen(folder: &Path, file: &str, state: &str) -> Box<dyn OpticalModel> {
     let system = system_toml::read(&std::fs::read(folder.join(file)).unwrap()).unwrap().system;
-    let SystemKind::Stack(layers) = &system.kind else { return system.specimen(state).unwrap() };
+    let SystemKind::Stack(layers) = &system.kind else { return system.optical_model(state).unwrap() };
     let one = |layer: &Layer| {
         let LayerSource::File(name) = &layer.source else { panic!("{file}: a layer of the catalogue") };
         specimen(folder, name, &layer.state)
@@ -70,7 +70,7 @@ fn specimen(folder: &Path, file: &str, state: &str) -> Box<dyn Specimen> {
 }
 
 /// Shares of the beams that keep the name and that have it turned upside down.
-fn shares(specimen: &dyn Specimen, name: Dir<Facade>) -> [f64; 2] {
+fn shares(specimen: &dyn OpticalModel, name: Dir<Facade>) -> [f64; 2] {
     let beams = specimen.beams(name, Side::Front);
     [1.0, -1.0].map(|sign| {
         let to = name.vector() * DVec3::new(1.0, sign, 1.0);
@@ -133,7 +133,7 @@ fn prisms(angles: [f64; 2]) -> Prisms {
 fn prisms_keep_all_light_in_beams_that_a_closer_look_confirms() {
     for angles in [[42.0, 5.0], [45.0, 45.0], [40.0, 90.0]] {
         let section = prisms(angles).section().unwrap();
-        let specimen = section.clone().specimen();
+        let specimen = section.clone().optical_model();
         for k in 0..24 {
             let name = Dir::from_theta_phi(0.06 * f64::from(k), 2.4 * f64::from(k));
             for side in Side::BOTH {
@@ -175,8 +175,8 @@ fn means_over_single_directions_are_what_is_measured() {
     let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
     for text in FAMILIES {
         let text = format!("name = \"x\"\n{text}\n");
-        let lying = system_toml::read(text.as_bytes()).unwrap().system.specimen("").unwrap();
-        let made: Box<dyn Specimen> = if text.contains("prismatic") { Box::new(Upright(lying)) } else { lying };
+        let lying = system_toml::read(text.as_bytes()).unwrap().system.optical_model("").unwrap();
+        let made: Box<dyn OpticalModel> = if text.contains("prismatic") { Box::new(Upright(lying)) } else { lying };
         let measured = made.measure(&setting, &Silent).unwrap();
         let mut worst: f64 = 0.0;
         // Beams of a few directions fall on either side of an emergent cell's edge where they are refracted.

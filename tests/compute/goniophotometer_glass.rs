@@ -14,7 +14,7 @@ use cfs::compute::system::laser_cut::CutPanel;
 use cfs::compute::system::laser_cut::LaserCutPanel;
 use cfs::compute::system::measure::beams::Effort;
 use cfs::compute::system::measure::beams::{Beams, Shares, SharpBeam, SharpBeams};
-use cfs::compute::system::measure::{Measured, Setting, Side, Specimen};
+use cfs::compute::system::measure::{Measured, OpticalModel, Setting, Side};
 use cfs::compute::system::panes::Panes;
 use cfs::compute::system::panes::coated::{Layer, stack};
 use cfs::compute::system::panes::glazing::{Pane, fresnel};
@@ -25,7 +25,7 @@ fn klems() -> RingBasis {
     RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
 }
 
-fn measure(specimen: &dyn Specimen) -> Measured {
+fn measure(specimen: &dyn OpticalModel) -> Measured {
     let basis = klems();
     let setting = Setting { incident: &basis, emergent: &basis, error: 0.01, seed: 1 };
     specimen.measure(&setting, &Silent).unwrap()
@@ -48,11 +48,11 @@ fn cases_of_the_reference_kit() {
     if kit::folder().is_none() {
         return;
     }
-    let specimens: [(&str, Box<dyn Specimen>); 4] = [
+    let specimens: [(&str, Box<dyn OpticalModel>); 4] = [
         ("pane1", Box::new(Panes::equal(Layer::Clear(PANE), 1))),
         ("pane2", Box::new(Panes::equal(Layer::Clear(PANE), 2))),
         ("lcp", Box::new(SharpBeams(cut_panel()))),
-        ("prism", Box::new(prisms().section().unwrap().specimen())),
+        ("prism", Box::new(prisms().section().unwrap().optical_model())),
     ];
     let mut wrong = vec![];
     for (name, specimen) in specimens {
@@ -303,7 +303,7 @@ fn less_effort_means_more_noise_but_no_bias() {
 #[test]
 fn stated_errors_hold() {
     let basis = klems();
-    let section = grooves(70.0, 20.0).specimen();
+    let section = grooves(70.0, 20.0).optical_model();
     let run = |error: f64, seed: u64| {
         let setting = Setting { incident: &basis, emergent: &basis, error, seed };
         section.measure(&setting, &Silent).unwrap()
@@ -373,7 +373,7 @@ fn redirecting_glass_keeps_energy_and_reciprocity_in_all_cells() {
     let section = ClearSection::new(0.006, vec![body], [Some(pane), Some(pane)]).unwrap();
     let basis = klems();
     let setting = Setting { incident: &basis, emergent: &basis, error: 0.02, seed: 1 };
-    let measured = section.specimen().measure(&setting, &Silent).unwrap();
+    let measured = section.optical_model().measure(&setting, &Silent).unwrap();
     let quality = measured.quality();
     println!("{quality:?}");
     assert!(quality.balance < 1e-6, "{quality:?}");

@@ -239,7 +239,7 @@ fn the_files_own_light_is_taken_where_it_is_plausible() {
         assert_eq!(file[hour].light, LightSource::Efficacy);
     }
     assert!(model.iter().all(|hour| hour.light == LightSource::Efficacy));
-    assert_eq!(weather.examine().unwrap().told, 1);
+    assert_eq!(weather.examine().unwrap().with_illuminances, 1);
 }
 
 /// The three units of Radiance's files are three ways to the same hour.

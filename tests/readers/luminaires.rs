@@ -7,7 +7,7 @@ use cfs::compute::lid::c_gamma::Aim;
 use cfs::compute::limits;
 use cfs::formats::ies::IesEdition;
 use cfs::formats::luminaire::{Description, Luminaire, Opening, Photometry};
-use cfs::formats::luminaire_index::{self, Apart, Row};
+use cfs::formats::luminaire_index::{self, Row, SeparateBeam};
 use cfs::formats::{FileKind, eulumdat, ies, lid_tables};
 use glam::DVec3;
 
@@ -186,7 +186,7 @@ pub fn make_index(choices: &mut Choices) -> Vec<u8> {
             beam: choices.tidy(0.0, 100.0),
             surface: [None, Some(Surface::Facade), Some(Surface::Roof)][choices.below(3)],
             aim: [None, Some(Aim::Mounted), Some(Aim::Down)][choices.below(3)],
-            apart: choices.flag().then(|| Apart {
+            separate_beam: choices.flag().then(|| SeparateBeam {
                 flux: choices.tidy(0.1, 100.0),
                 direction: DVec3::new(choices.tidy(0.0, 1.0), choices.tidy(0.0, 1.0), -0.5).normalize(),
                 normal: choices.tidy(0.0, 9e4),
@@ -207,7 +207,7 @@ pub fn read_index(bytes: &[u8]) -> bool {
     for row in &rows {
         assert!(row.centre.is_finite() && row.size.iter().all(|side| side.is_finite() && *side > 0.0), "{row:?}");
         assert!(row.flux.is_finite() && row.flux >= 0.0 && row.beam.is_finite() && row.beam >= 0.0, "light of {row:?}");
-        if let Some(apart) = row.apart {
+        if let Some(apart) = row.separate_beam {
             assert!((apart.direction.length() - 1.0).abs() < 1e-9, "{row:?}");
             assert!(
                 apart.flux > 0.0 && apart.flux.is_finite() && apart.normal >= 0.0 && apart.normal.is_finite(),
@@ -219,11 +219,16 @@ pub fn read_index(bytes: &[u8]) -> bool {
     let two = again("an index", luminaire_index::read(&luminaire_index::write(&one)));
     assert_eq!(one.len(), rows.len(), "rows that got lost");
     for ((row, one), two) in rows.iter().zip(&one).zip(&two) {
-        assert_eq!((&row.file, &row.set, row.apart.is_some()), (&one.file, &one.set, one.apart.is_some()));
-        let direction = |row: &Row| row.apart.map_or(DVec3::Z, |apart| apart.direction);
+        assert_eq!(
+            (&row.file, &row.set, row.separate_beam.is_some()),
+            (&one.file, &one.set, one.separate_beam.is_some())
+        );
+        let direction = |row: &Row| row.separate_beam.map_or(DVec3::Z, |apart| apart.direction);
         assert!((direction(one) - direction(two)).length() < 1e-6, "{one:?} is {two:?}");
-        let rest =
-            |row: &Row| Row { apart: row.apart.map(|apart| Apart { direction: DVec3::Z, ..apart }), ..row.clone() };
+        let rest = |row: &Row| Row {
+            separate_beam: row.separate_beam.map(|apart| SeparateBeam { direction: DVec3::Z, ..apart }),
+            ..row.clone()
+        };
         assert_eq!(rest(one), rest(two), "an index changes when it is read and written again");
     }
     true

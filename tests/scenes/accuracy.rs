@@ -97,16 +97,16 @@ fn a_run_that_the_reference_hardly_refines_has_no_error() {
     let origin = Origin::FinestRun { target: 2e-4, rms: 1e-4, max: 2e-4 };
     let finest = Reference { quantity: Quantity::Total, origin, stated: 1e-3 };
     // Two runs of the same mesh agree in what is wrong with both.
-    let same = words::untold(&rung(1e-3, 0.0, 1e-3), &finest).unwrap();
+    let same = words::undetermined_reason(&rung(1e-3, 0.0, 1e-3), &finest).unwrap();
     assert!(same.contains("hardly refines") && same.contains("0.10 %"), "{same}");
     // Somewhat finer: told where they differ by more than a small share of what is stated.
-    assert!(words::untold(&rung(4e-3, 1e-3, 1e-3), &finest).is_some());
-    assert_eq!(words::untold(&rung(5e-3, 4e-3, 1e-3), &finest), None);
+    assert!(words::undetermined_reason(&rung(4e-3, 1e-3, 1e-3), &finest).is_some());
+    assert_eq!(words::undetermined_reason(&rung(5e-3, 4e-3, 1e-3), &finest), None);
     // Clearly finer: a small difference is a small error, and the statement padded.
     let padded = rung(5e-2, 1e-4, 1e-4);
-    assert!(words::untold(&padded, &finest).is_none() && padded.coverage().padded == 1.0);
+    assert!(words::undetermined_reason(&padded, &finest).is_none() && padded.coverage().padded == 1.0);
     let given = Reference { origin: Origin::Given("lux.csv".into()), ..finest };
-    assert!(words::untold(&rung(1e-3, 0.0, 1e-3), &given).unwrap().contains("lux.csv is itself open"));
+    assert!(words::undetermined_reason(&rung(1e-3, 0.0, 1e-3), &given).unwrap().contains("lux.csv is itself open"));
     // It counts for no coverage.
     let rungs = vec![padded, rung(1e-3, 0.0, 1e-3)];
     let series = vec![Series { method: "room", quantity: Quantity::Total, rungs }];

@@ -6,7 +6,7 @@ use cfs::compute::lid::tiling::Tiling;
 use cfs::formats::ies::{self, IesEdition};
 use cfs::formats::{eulumdat, luminaire_index};
 use cfs::study::luminaire_file::{LidFormat, describe};
-use cfs::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish, make};
+use cfs::study::luminaire_set::{LuminaireOptions, LuminaireSet, TileFile, Tiles, make};
 use cfs::study::luminaires::{self, words};
 use cfs::study::{Library, Scene, SceneFile, Session};
 use std::path::Path;
@@ -51,7 +51,7 @@ fn files(file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
 }
 
 fn files_as(format: LidFormat, file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
-    let wish = Wish { format, aim: None, step: None, tiles, without_beam };
+    let wish = LuminaireOptions { format, aim: None, step: None, tiles, without_beam };
     let text = describe("test.toml", file, std::path::Path::new(""), 0, "2026-03-21");
     let name = |tile: Option<usize>| format!("x_{}.ies", tile.map_or(0, |k| k + 1));
     make(&Session::new(), &resolve(file), 0, &text, &wish, name, &Silent).expect("files")
@@ -106,7 +106,7 @@ fn a_beam_is_in_the_files_or_left_to_the_host() {
     assert!(beam > 1e4, "{beam}");
     let tiling = Tiling { columns: 14, rows: 10 };
     let held = files(&own, Tiles::Fixed(tiling), false);
-    assert_eq!((held.files.len(), held.apart), (140, None));
+    assert_eq!((held.files.len(), held.separate_beam), (140, None));
     let sum: f64 = held.files.iter().map(|file| file.row.beam).sum();
     assert!((sum / beam - 1.0).abs() < 1e-6, "{sum} {beam}");
     let flux: f64 = held.files.iter().map(|file| file.row.flux).sum();
@@ -114,7 +114,7 @@ fn a_beam_is_in_the_files_or_left_to_the_host() {
     let reached = held.reached.expect("examined");
     assert!(reached.sum.abs() < 0.01 && reached.rms < 0.02, "{reached:?}");
     let left = files(&own, Tiles::Fixed(tiling), true);
-    let apart = left.apart.expect("a straight beam");
+    let apart = left.separate_beam.expect("a straight beam");
     assert!((apart.flux / beam - 1.0).abs() < 1e-9 && left.files.iter().all(|file| file.row.beam == 0.0));
     assert!(((left.flux.value + apart.flux) / held.flux.value - 1.0).abs() < 1e-3);
     // From the south-south-east, 35° high, into a room that faces south.

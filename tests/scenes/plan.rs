@@ -182,7 +182,7 @@ impl SystemLibrary for States {
         self.0.lock().unwrap().push(state.clone());
         let level: f64 = state.parse().unwrap();
         let dataset = Arc::new(klems(move |i, o| level * rough(i, o)));
-        Ok(Arc::new(System { label: "states".into(), state: state.clone(), dataset, very: None }))
+        Ok(Arc::new(System { label: "states".into(), state: state.clone(), dataset, model: None }))
     }
     fn controlled_state(&self, _: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         Ok(if asked.facing.sun_illuminance() > 0.0 { "0.3".into() } else { "1.0".into() })

@@ -124,7 +124,7 @@ impl SystemLibrary for Made {
                 label: "made".into(),
                 state: String::new(),
                 dataset: Arc::new(dataset.clone()),
-                very: None,
+                model: None,
             })),
             _ => Err(StudyError::key("system", "this test has no such system")),
         }

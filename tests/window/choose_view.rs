@@ -10,7 +10,7 @@ use cfs::app::backend::{StudyEngine, ideals_shelf};
 use cfs::app::choose::{ChooseAct, objectives_of};
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::hand_on::{Preview, What};
+use cfs::app::export_choices::{Preview, What};
 use cfs::app::jobs::Lane;
 use cfs::app::shelf::Query;
 use cfs::app::theme::ThemeChoice;
@@ -297,8 +297,8 @@ fn why_one_is_before_another_adds_up_in_words() {
     let list = app.results.rank.value.as_ref().unwrap();
     let list = list.shortlist("", &objectives_of(&app.state.document.scene)).unwrap();
     let reason = list.reason("d", Some("b")).unwrap();
-    let sum: f64 = reason.terms.iter().map(|term| term.worth).sum();
-    let worth = |key: &str| list.entry(key).unwrap().worth.value;
+    let sum: f64 = reason.terms.iter().map(|term| term.score_difference).sum();
+    let worth = |key: &str| list.entry(key).unwrap().score.value;
     assert!((sum - (worth("d") - worth("b"))).abs() < 1e-12);
     // An approximate one says why.
     look(&mut harness, |look| (look.product, look.against) = (Some("b".to_owned()), None));
@@ -313,12 +313,12 @@ fn rows_are_filtered_sorted_and_handed_on() {
     assert_eq!((order(&harness), harness.state().state.settings.choose.sort.clone()), ("abdc".to_owned(), Sort::Name));
     look(&mut harness, |look| look.words = "PANE".to_owned());
     assert_eq!(order(&harness), "ab");
-    look(&mut harness, |look| (look.words, look.sort) = (String::new(), Sort::Worth));
-    let mut choices = harness.state().state.settings.hand_on.clone();
+    look(&mut harness, |look| (look.words, look.sort) = (String::new(), Sort::Score));
+    let mut choices = harness.state().state.settings.export.clone();
     (choices.what, choices.tile) = (What::Table, TileKind::Choose);
     apply(&mut harness, Command::ExportTile(CHOOSE));
-    apply(&mut harness, Command::HandOn(Box::new(choices.clone())));
-    let shown = |harness: &Harness<'_, App>| match harness.state().state.hand_on.shown.as_ref() {
+    apply(&mut harness, Command::ExportChoices(Box::new(choices.clone())));
+    let shown = |harness: &Harness<'_, App>| match harness.state().state.export.shown.as_ref() {
         Some(Ok(Preview::Picture([width, height], ..))) => format!("{width} {height}"),
         Some(Ok(Preview::Text(text, _))) => text.clone(),
         Some(Err(error)) => panic!("{error}"),
@@ -337,7 +337,7 @@ fn rows_are_filtered_sorted_and_handed_on() {
     for page in [Page::Table, Page::Plot] {
         look(&mut harness, |look| look.page = page);
         (choices.what, choices.vector) = (What::Picture, true);
-        apply(&mut harness, Command::HandOn(Box::new(choices.clone())));
+        apply(&mut harness, Command::ExportChoices(Box::new(choices.clone())));
         assert_eq!(shown(&harness), "900 675");
     }
 }
@@ -345,11 +345,11 @@ fn rows_are_filtered_sorted_and_handed_on() {
 #[test]
 fn without_a_ranking_nothing_of_it_is_handed_on_and_an_empty_search_is_told() {
     let (mut harness, _) = window();
-    let mut choices = harness.state().state.settings.hand_on.clone();
+    let mut choices = harness.state().state.settings.export.clone();
     (choices.what, choices.tile) = (What::Table, TileKind::Choose);
     apply(&mut harness, Command::ExportTile(CHOOSE));
-    apply(&mut harness, Command::HandOn(Box::new(choices)));
-    let Some(Err(told)) = &harness.state().state.hand_on.shown else { panic!("a ranking out of nothing") };
+    apply(&mut harness, Command::ExportChoices(Box::new(choices)));
+    let Some(Err(told)) = &harness.state().state.export.shown else { panic!("a ranking out of nothing") };
     assert!(told.contains("make one in the Choose tile"), "{told}");
     apply(&mut harness, Command::Sheet(None));
     apply(&mut harness, Command::Find(Query { text: "qqqqqqqq".to_owned(), ..Query::default() }));

@@ -261,9 +261,9 @@ fn products_like_the_shown_one_are_listed_with_their_distance() {
     apply(&mut harness, Command::Like(None));
     let found = harness.state().state.found.clone();
     let like = found.like.as_ref().unwrap();
-    assert_eq!((like.key.as_str(), like.apart.len()), ("clear-double", found.entries.len()));
+    assert_eq!((like.key.as_str(), like.distances.len()), ("clear-double", found.entries.len()));
     assert!(found.entries.iter().all(|entry| entry.key != "clear-double"));
-    assert!(like.apart.windows(2).all(|pair| pair[0].distance <= pair[1].distance));
+    assert!(like.distances.windows(2).all(|pair| pair[0].distance <= pair[1].distance));
     // Glass is like glass.
     assert!(["pane", "stack"].contains(&found.entries[0].kind.as_str()), "{:?}", found.entries[0].name);
     harness.get_by_label_contains("No longer like").click();

@@ -3,9 +3,9 @@
 use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::catalogue_command::CatalogueCommand;
 use cfs::app::command::Command;
 use cfs::app::shelf::{Addition, Query};
-use cfs::app::shelving::Shelving;
 use cfs::app::state::{PathUse, Sheet, State};
 use cfs::catalogue::{Catalogue, NewProduct};
 use cfs::compute::btdf::{Btdf, Dataset};
@@ -176,7 +176,7 @@ fn products_are_collected_and_starred_and_undo_goes_over_both() {
     apply(&mut h, Command::Redo);
     assert_eq!(inside(&h)[0].1.len(), 2);
     let starred = |h: &Harness<'_, App>| state(h).shelf().unwrap().product("laser-cut-panel").unwrap().favourite;
-    apply(&mut h, Command::Shelve(Shelving::Star));
+    apply(&mut h, Command::Catalogue(CatalogueCommand::Star));
     assert!(starred(&h));
     apply(&mut h, Command::Undo);
     assert!(!starred(&h));
@@ -193,7 +193,7 @@ fn a_folder_is_subscribed_to_by_its_path_and_the_subscription_ends_by_undo_or_a_
     let key = maker.import(&[dataset], NewProduct::default()).unwrap().key;
     std::fs::write(folder.path().join("maker.cfsp"), maker.export_package(&[key]).unwrap()).unwrap();
     let mut h = window();
-    apply(&mut h, Command::Shelve(Shelving::Subscribe));
+    apply(&mut h, Command::Catalogue(CatalogueCommand::Subscribe));
     assert_eq!(state(&h).sheet, Some(Sheet::Path(PathUse::Subscribe)));
     apply(&mut h, Command::Write(PathUse::Subscribe, folder.path().to_owned()));
     let there = |h: &Harness<'_, App>| state(h).found.entries.iter().any(|entry| entry.key == "foil");

@@ -5,7 +5,7 @@ use cfs::app::App;
 use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::hand_on::{Choices, Preview, ReportKind, What};
+use cfs::app::export_choices::{Choices, Preview, ReportKind, What};
 use cfs::app::language::LanguageChoice;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::tiles::TILES;
@@ -28,14 +28,14 @@ fn window() -> Harness<'static, App> {
     select(&mut harness, |entry| entry.key == "venetian-80-72");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&mut harness);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::HandOn));
+    assert_eq!(harness.state().state.sheet, Some(Sheet::Export));
     harness
 }
 
 fn choose(harness: &mut Harness<'_, App>, change: impl FnOnce(&mut Choices)) {
-    let mut choices = harness.state().state.settings.hand_on.clone();
+    let mut choices = harness.state().state.settings.export.clone();
     change(&mut choices);
-    apply(harness, Command::HandOn(Box::new(choices)));
+    apply(harness, Command::ExportChoices(Box::new(choices)));
 }
 
 /// Writes under the name that is offered, into a folder; the name.
@@ -48,7 +48,7 @@ fn write(harness: &mut Harness<'_, App>, folder: &Path) -> String {
 }
 
 fn preview<'a>(harness: &'a Harness<'_, App>) -> &'a Preview {
-    match harness.state().state.hand_on.shown.as_ref().expect("a preview") {
+    match harness.state().state.export.shown.as_ref().expect("a preview") {
         Ok(preview) => preview,
         Err(error) => panic!("{error}"),
     }
@@ -161,20 +161,20 @@ fn a_series_has_an_index_that_names_every_file() {
     assert!(!folder.join(&name).exists());
     harness.get_by_label("Replace").click();
     settle(&mut harness);
-    assert!(folder.join(&name).exists() && harness.state().state.sheet == Some(Sheet::HandOn));
+    assert!(folder.join(&name).exists() && harness.state().state.sheet == Some(Sheet::Export));
     // Nothing is left where not all of it can be written.
     let nowhere = folder.join("not-there/x_index.csv");
-    apply(&mut harness, Command::Write(PathUse::HandOn, nowhere));
+    apply(&mut harness, Command::Write(PathUse::Export, nowhere));
     assert!(!folder.join("not-there").exists());
     // Too many, and none.
     choose(&mut harness, |choices| {
         choices.series.months = [true; 12];
         (choices.series.hours, choices.series.step, choices.series.all_states) = ([0, 23], 1, true);
     });
-    let error = harness.state().state.hand_on.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
+    let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("expected at most 600"), "{error}");
     choose(&mut harness, |choices| choices.series.months = [false; 12]);
-    let error = harness.state().state.hand_on.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
+    let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("no file would be written"), "{error}");
 }
 
@@ -201,7 +201,7 @@ fn a_window_goes_out_in_tiles_that_are_one_aperture_again() {
     let size = harness.state().state.document.scene.aperture[0].size;
     assert!((back.aperture.size[0] - size[0]).abs() < 1e-3 && (back.aperture.size[1] - size[1]).abs() < 1e-3);
     // The straight beam stands in the index, not in the files.
-    assert!(back.rows.iter().all(|row| row.beam == 0.0 && row.apart.is_some_and(|apart| apart.flux > 1.0)));
+    assert!(back.rows.iter().all(|row| row.beam == 0.0 && row.separate_beam.is_some_and(|apart| apart.flux > 1.0)));
 }
 
 #[test]
@@ -223,7 +223,7 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
     assert!(std::fs::read_to_string(folder.path().join("Büro Süd.svg")).unwrap().starts_with("<svg"));
     // A name that says something else is told, and nothing written.
     let wrong = folder.path().join("a.pdf");
-    apply(&mut harness, Command::Write(PathUse::HandOn, wrong.clone()));
+    apply(&mut harness, Command::Write(PathUse::Export, wrong.clone()));
     assert!(!wrong.exists());
     assert!(harness.state().toasts.all().any(|message| message.text.contains("ends in .svg")));
     // A tender text with a wrong field is told where the preview stands.
@@ -231,7 +231,7 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
         (choices.what, choices.report) = (What::Report, ReportKind::Sheet);
         choices.tender = "{colour}".to_owned();
     });
-    let error = harness.state().state.hand_on.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
+    let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("line 1") && error.contains("{colour} is no field"), "{error}");
 }
 
@@ -239,18 +239,18 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
 fn the_former_exports_lead_into_the_sheet() {
     let mut harness = window();
     apply(&mut harness, Command::Sheet(None));
-    assert!(harness.state().state.hand_on.shown.is_none(), "a closed sheet keeps no preview");
+    assert!(harness.state().state.export.shown.is_none(), "a closed sheet keeps no preview");
     apply(&mut harness, Command::ExportLid);
     let state = &harness.state().state;
-    assert!(state.settings.hand_on.what == What::Luminaire && state.path.ends_with(".ldt"));
+    assert!(state.settings.export.what == What::Luminaire && state.path.ends_with(".ldt"));
     let lid = TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == "LID").unwrap();
     apply(&mut harness, Command::ExportTile(lid));
-    let choices = &harness.state().state.settings.hand_on;
+    let choices = &harness.state().state.settings.export;
     assert_eq!((choices.what, choices.tile), (What::Picture, TileKind::Lid));
     // What is chosen goes with the scene: another hour, another picture.
-    let before = harness.state().state.hand_on.revision;
+    let before = harness.state().state.export.revision;
     apply(&mut harness, Command::Hour(1));
-    assert!(harness.state().state.hand_on.revision > before);
+    assert!(harness.state().state.export.revision > before);
 }
 
 /// Pages that the preview of a report speaks of.
@@ -270,9 +270,9 @@ fn a_study_brings_the_tray_along_unless_it_is_left_out() {
     let compared = pages(&harness);
     assert!(compared > alone, "{compared} {alone}");
     // Another tile is another preview.
-    let before = harness.state().state.hand_on.revision;
+    let before = harness.state().state.export.revision;
     apply(&mut harness, Command::Compare(Act::Tile("LID")));
-    assert!(harness.state().state.hand_on.revision > before);
+    assert!(harness.state().state.export.revision > before);
     choose(&mut harness, |choices| choices.comparison = false);
     assert_eq!(pages(&harness), alone);
 }

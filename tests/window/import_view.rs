@@ -8,7 +8,7 @@ use cfs::app::command::Command;
 use cfs::app::import::{Import, ImportFields, StateWords};
 use cfs::app::import_steps::{Choose, Step, Word};
 use cfs::app::state::Sheet;
-use cfs::catalogue::Doubt;
+use cfs::catalogue::Ambiguity;
 use cfs::formats::luminaire::{Description, Luminaire, Opening, Photometry};
 use cfs::formats::{eulumdat, ies};
 use egui::accesskit::Role;
@@ -100,21 +100,21 @@ fn families_are_found_among_other_files_and_what_is_not_certain_is_asked() {
     assert_eq!(keys_of(found, "q00.xml"), TENS);
     assert_eq!(keys_of(found, "single.xml"), [""]);
     let asked: Vec<&str> =
-        found.products.iter().filter(|one| one.doubt.is_some()).map(|one| one.fields.name.as_str()).collect();
+        found.products.iter().filter(|one| one.ambiguity.is_some()).map(|one| one.fields.name.as_str()).collect();
     assert_eq!(asked, ["Cloth"], "a question, and only this");
     assert_eq!(found.products.len(), 2 + 1 + 3 + 2);
     let again = found.products.iter().find(|one| one.same_as.is_some()).expect("the same data are known");
     assert!(!again.wanted());
     // The question is in its place, in words.
-    assert!(harness.query_by_label(&Doubt::NumbersAlone.question()).is_some());
+    assert!(harness.query_by_label(&Ambiguity::NumbersAlone.question()).is_some());
     assert!(harness.query_by_label("1 question open: what they are about stays here.").is_some());
     // What is certain goes in at once; the question stays, and so does the sheet.
     harness.get_by_label("Add 6 products to catalogue").click();
     settle(&mut harness);
     assert_eq!(products(&harness), before + 6);
     assert_eq!(harness.state().state.sheet, Some(Sheet::Import));
-    assert!(import(&harness).products.iter().any(|one| one.doubt.is_some()));
-    let cloth = import(&harness).products.iter().find(|one| one.doubt.is_some()).unwrap().fields.name.clone();
+    assert!(import(&harness).products.iter().any(|one| one.ambiguity.is_some()));
+    let cloth = import(&harness).products.iter().find(|one| one.ambiguity.is_some()).unwrap().fields.name.clone();
     harness.get_by_label(&format!("Apart: {cloth}")).click();
     settle(&mut harness);
     assert_eq!(import(&harness).questions(), 0);
@@ -179,7 +179,7 @@ fn of_all_makers_files_in_one_folder_nine_in_ten_are_right_without_a_click_and_n
         all += product.files.len();
         let mut files = product.files.clone();
         files.sort();
-        match (families.contains(&files), &product.doubt) {
+        match (families.contains(&files), &product.ambiguity) {
             (true, None) => right += files.len(),
             (_, Some(_)) => asked += files.len(),
             (false, None) => panic!("wrong in silence: {files:?}"),

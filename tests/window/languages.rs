@@ -7,7 +7,7 @@ use cfs::app::App;
 use cfs::app::backend::memory_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::hand_on::{Choices, What};
+use cfs::app::export_choices::{Choices, What};
 use cfs::app::language::LanguageChoice;
 use cfs::app::offer::MENUS;
 use cfs::app::state::{PathUse, Sheet};
@@ -137,9 +137,9 @@ fn walk(harness: &mut Harness<'static, App>, look: &mut dyn FnMut(&Harness<'stat
     apply(harness, Command::EditProduct(None));
     look(harness, "product");
     apply(harness, Command::Sheet(None));
-    apply(harness, Command::Sheet(Some(Sheet::HandOn)));
+    apply(harness, Command::Sheet(Some(Sheet::Export)));
     for what in What::ALL {
-        apply(harness, Command::HandOn(Box::new(Choices { what, ..Choices::default() })));
+        apply(harness, Command::ExportChoices(Box::new(Choices { what, ..Choices::default() })));
         look(harness, &format!("hand on {what:?}"));
     }
     apply(harness, Command::Sheet(None));

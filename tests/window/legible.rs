@@ -11,7 +11,7 @@ use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
 use cfs::app::error::AppError;
-use cfs::app::hand_on::{Choices, What};
+use cfs::app::export_choices::{Choices, What};
 use cfs::app::language::LanguageChoice;
 use cfs::app::room_look::RoomView;
 use cfs::app::state::{PathUse, Sheet};
@@ -86,9 +86,9 @@ impl Problems {
             }
             apply(harness, Command::Sheet(None));
         }
-        apply(harness, Command::Sheet(Some(Sheet::HandOn)));
+        apply(harness, Command::Sheet(Some(Sheet::Export)));
         for what in What::ALL {
-            apply(harness, Command::HandOn(Box::new(Choices { what, ..Choices::default() })));
+            apply(harness, Command::ExportChoices(Box::new(Choices { what, ..Choices::default() })));
             for size in [SIZES[0], SIZES[1]] {
                 self.look(harness, &format!("hand on, {what:?}"), size);
             }

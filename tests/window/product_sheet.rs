@@ -57,7 +57,7 @@ fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_u
     harness.get_by_label("Read its files again").click();
     settle(&mut harness);
     near(tau(1), 0.2);
-    let told = harness.state().state.editing.as_ref().unwrap().reread.as_ref().unwrap().told.clone();
+    let told = harness.state().state.editing.as_ref().unwrap().reread.as_ref().unwrap().differences.clone();
     assert_eq!(told.len(), 1);
     assert!(told[0].starts_with("ven45.xml: τ 0.2") && told[0].contains("becomes 0.1"), "{told:?}");
     harness.get_by_label("Take the changes").click();

@@ -33,7 +33,7 @@ fn blinds() -> (tempfile::TempDir, Harness<'static, App>) {
 }
 
 fn apart(product: usize) -> [Command; 2] {
-    [Command::Import(Step::ChooseProduct(product, Choose::Only)), Command::Import(Step::Apart)]
+    [Command::Import(Step::ChooseProduct(product, Choose::Only)), Command::Import(Step::Separate)]
 }
 
 #[test]

@@ -45,11 +45,11 @@ fn each_step_is_done_by_what_it_asks_for_and_by_nothing_else() {
     assert_eq!(stop(&harness), Some(Stop::Compare));
     harness.key_press(Key::C);
     settle(&mut harness);
-    assert_eq!(stop(&harness), Some(Stop::HandOn));
+    assert_eq!(stop(&harness), Some(Stop::Export));
     assert!(harness.query_by_label("Step 5 of 5").is_some());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&mut harness);
-    assert_eq!((stop(&harness), harness.state().state.sheet), (None, Some(Sheet::HandOn)));
+    assert_eq!((stop(&harness), harness.state().state.sheet), (None, Some(Sheet::Export)));
     assert_eq!(harness.state().state.settings.tour, 5);
     assert!(harness.state().toasts.all().any(|message| message.text.starts_with("The tour is done")));
 }

@@ -5,7 +5,7 @@ use crate::legible::can_be_read;
 use cfs::app::App;
 use cfs::app::backend::{StudyEngine, ideals_shelf};
 use cfs::app::command::Command;
-use cfs::app::hand_on::{Preview, What};
+use cfs::app::export_choices::{Preview, What};
 use cfs::app::jobs::Lane;
 use cfs::app::moment;
 use cfs::app::tiles::YEAR;
@@ -142,18 +142,18 @@ fn pages_are_looked_at_and_handed_on() {
     assert!(harness.query_by_label("Lighting energy by month").is_some());
     apply(&mut harness, Command::Year(YearAct::Look(look(Page::Map, Shows::Dgps(0)))));
     assert!(harness.query_by_label("Hours of the year: DGPs, eye 1").is_some());
-    let mut choices = harness.state().state.settings.hand_on.clone();
+    let mut choices = harness.state().state.settings.export.clone();
     (choices.what, choices.tile, choices.vector) = (What::Picture, TileKind::Year, true);
     apply(&mut harness, Command::ExportTile(YEAR));
-    apply(&mut harness, Command::HandOn(Box::new(choices.clone())));
-    let shown = |harness: &Harness<'_, App>| match harness.state().state.hand_on.shown.as_ref() {
+    apply(&mut harness, Command::ExportChoices(Box::new(choices.clone())));
+    let shown = |harness: &Harness<'_, App>| match harness.state().state.export.shown.as_ref() {
         Some(Ok(Preview::Picture([width, height], ..))) => format!("{width} {height}"),
         Some(Ok(Preview::Text(text, _))) => text.clone(),
         other => panic!("{}", matches!(other, Some(Err(_)))),
     };
     assert_eq!(shown(&harness), "900 675");
     choices.what = What::Table;
-    apply(&mut harness, Command::HandOn(Box::new(choices.clone())));
+    apply(&mut harness, Command::ExportChoices(Box::new(choices.clone())));
     let table = shown(&harness);
     assert!(table.starts_with("month,day,start,\"DGPs, eye 1 (DGPs)\"\n1,1,00:00,\n"), "{table}");
     let folder = tempfile::tempdir().unwrap();
@@ -167,11 +167,11 @@ fn pages_are_looked_at_and_handed_on() {
 #[test]
 fn without_a_year_nothing_of_it_is_handed_on() {
     let mut harness = window();
-    let mut choices = harness.state().state.settings.hand_on.clone();
+    let mut choices = harness.state().state.settings.export.clone();
     (choices.what, choices.tile) = (What::Table, TileKind::Year);
     apply(&mut harness, Command::ExportTile(YEAR));
-    apply(&mut harness, Command::HandOn(Box::new(choices)));
-    let Some(Err(told)) = &harness.state().state.hand_on.shown else { panic!("a year out of nothing") };
+    apply(&mut harness, Command::ExportChoices(Box::new(choices)));
+    let Some(Err(told)) = &harness.state().state.export.shown else { panic!("a year out of nothing") };
     assert!(told.contains("compute one in the Year tile"), "{told}");
 }
 

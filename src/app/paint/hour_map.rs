@@ -94,8 +94,8 @@ pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> An
         let stroke = Stroke::new(2.0, palette.first);
         ui.painter().rect_stroke(shown.area(), 0, stroke, StrokeKind::Outside);
     }
-    let said = input.mark.map_or_else(|| say::NO_MARK.into(), |cell| spoken(map, cell));
-    tile::name(ui, &shown.response, say::map_of(&map.name), &said);
+    let text = input.mark.map_or_else(|| say::NO_MARK.into(), |cell| spoken(map, cell));
+    tile::name(ui, &shown.response, say::map_of(&map.name), &text);
     let of = |[day, hour]: [f64; 2]| map.at(day, hour);
     let clicked = shown.clicked().map(of);
     if clicked.is_some() {

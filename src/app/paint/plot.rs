@@ -282,10 +282,10 @@ fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32)
 }
 
 /// Returns ticks at least about `apart` points from one another.
-fn marks(axis: &Axis, input: &GridInput, apart: f64) -> Vec<GridMark> {
+fn marks(axis: &Axis, input: &GridInput, distance: f64) -> Vec<GridMark> {
     let (lo, hi) = input.bounds;
     // The base step is eight points.
-    let count = ((hi - lo) / input.base_step_size * 8.0 / apart).clamp(1.0, 100.0);
+    let count = ((hi - lo) / input.base_step_size * 8.0 / distance).clamp(1.0, 100.0);
     let places = axis.marks([lo, hi], count as usize);
     let step = places.windows(2).map(|pair| pair[1] - pair[0]).fold(hi - lo, f64::min);
     let inside = places.into_iter().filter(|value| (lo..=hi).contains(value));
@@ -325,8 +325,8 @@ fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
         let free = (0..4).map(|k| at - vec2((galley.size().x + 8.0) * k as f32, 0.0)).find_map(|at| {
             let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
             let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
-            let apart = used.iter().all(|other| !other.intersects(place));
-            (area.contains_rect(place) && !crossed && apart).then_some(place)
+            let is_free = used.iter().all(|other| !other.intersects(place));
+            (area.contains_rect(place) && !crossed && is_free).then_some(place)
         });
         if let Some(place) = free {
             ui.painter().galley(place.min, galley, look.guide);

@@ -166,9 +166,9 @@ pub fn show<F: Into<Foot>>(
             // Figures of an earlier scene stand back as their picture does.
             let colour = if status.stale { palette.weak } else { palette.ink };
             let label = egui::Label::new(RichText::new(&short).size(SMALL).color(colour)).truncate();
-            let said = line.add(label.show_tooltip_when_elided(!shortened));
+            let response = line.add(label.show_tooltip_when_elided(!shortened));
             if shortened {
-                said.on_hover_text(text.full());
+                response.on_hover_text(text.full());
             }
         }
     });

@@ -7,11 +7,11 @@ mod list;
 mod menu;
 mod names;
 
+use crate::app::catalogue_command::CatalogueCommand;
 use crate::app::command::Command;
 use crate::app::control;
 use crate::app::gallery::Gallery;
 use crate::app::shelf::Query;
-use crate::app::shelving::Shelving;
 use crate::app::state::{CatalogueState, State};
 use crate::app::views::states;
 use crate::app::{theme, title};
@@ -32,7 +32,7 @@ pub fn show(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let toggle = ui.selectable_label(state.settings.gallery, text::GALLERY);
             if toggle.on_hover_text(text::GALLERY_TIP).clicked() {
-                commands.push(Command::Shelve(Shelving::Gallery));
+                commands.push(Command::Catalogue(CatalogueCommand::Gallery));
             }
         });
     });
@@ -61,7 +61,7 @@ pub fn show(
         commands.push(Command::Find(query));
     }
     if entered {
-        commands.push(Command::Shelve(Shelving::First));
+        commands.push(Command::Catalogue(CatalogueCommand::First));
     }
     if let Some(error) = &state.search_error {
         ui.colored_label(theme::palette(ui).error, error);

@@ -25,8 +25,8 @@ const LINE: f32 = 28.0;
 const LARGE: f32 = 18.0;
 
 /// Draws the comparison's line with its candidates.
-pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let tray = &state.document.scene.compare;
+pub fn comparison_line(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+    let comparison = &state.document.scene.compare;
     let view = &state.compare;
     let mut act = |act: Act| commands.push(Command::Compare(act));
     ui.horizontal(|ui| {
@@ -35,9 +35,9 @@ pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         let own = ui.available_width() * 0.26;
         ui.allocate_ui_with_layout(vec2(own, LINE), Layout::left_to_right(Align::Center), |ui| {
             ui.set_min_width(own);
-            let (text, colour) = match view.swapped.and_then(|place| Some((place, tray.get(place)?))) {
+            let (text, colour) = match view.swapped.and_then(|place| Some((place, comparison.get(place)?))) {
                 Some((place, keys)) => (format!("{} {}", place + 1, label(keys)), theme::palette(ui).accent),
-                None if view.open => (texts::comparing(tray.len()), theme::palette(ui).text),
+                None if view.open => (texts::comparing(comparison.len()), theme::palette(ui).text),
                 None => (texts::SCENES_OWN.into(), theme::palette(ui).text),
             };
             let tip = texts::shown(&text);
@@ -54,8 +54,8 @@ pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 act(Act::Swap);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let width = (ui.available_width() - 6.0 * tray.len() as f32) / tray.len().max(1) as f32;
-                for place in 0..tray.len() {
+                let width = (ui.available_width() - 6.0 * comparison.len() as f32) / comparison.len().max(1) as f32;
+                for place in 0..comparison.len() {
                     chip(ui, state, place, width.min(230.0), &mut act);
                 }
             });
@@ -65,13 +65,13 @@ pub fn tray(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
 
 /// Draws a candidate in the comparison's line: a menu of its commands, or its name while that is typed.
 fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnMut(Act)) {
-    let tray = &state.document.scene.compare;
-    let name = label(&tray[place]);
+    let comparison = &state.document.scene.compare;
+    let name = label(&comparison[place]);
     if let Some((named, typed)) = state.compare.naming.as_ref().filter(|(named, _)| *named == place) {
         let mut text = typed.clone();
         let field = ui.add(TextEdit::singleline(&mut text).desired_width(width - 10.0));
         field.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, texts::NAME_IN_TRAY.get())
+            egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, texts::NAME_IN_COMPARISON.get())
         });
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             act(Act::EditName(None));
@@ -90,11 +90,11 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
     let shown = state.compare.swapped == Some(place);
     let text = if shown { RichText::new(text).color(theme::palette(ui).accent) } else { RichText::new(text) };
     let menu = ui.menu_button(text, |ui| {
-        let last = tray.len() - 1;
+        let last = comparison.len() - 1;
         let entries: [(Text, Text, bool, Act); 7] = [
             (texts::SHOW_IN_TILES, texts::SHOW_IN_TILES_TIP, true, Act::SwapWith(place)),
             (texts::TAKE, texts::TAKE_TIP, true, Act::Take(place)),
-            (texts::BASE, texts::BASE_TIP, tray.len() > 1, Act::Base(place)),
+            (texts::BASE, texts::BASE_TIP, comparison.len() > 1, Act::Base(place)),
             (texts::RENAME, texts::RENAME_TIP, true, Act::EditName(Some((place, name.clone())))),
             (texts::MOVE_LEFT, texts::MOVE_LEFT_TIP, place > 0, Act::Move(place, -1)),
             (texts::MOVE_RIGHT, texts::MOVE_RIGHT_TIP, place < last, Act::Move(place, 1)),
@@ -164,7 +164,7 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         });
         combo.response.on_hover_text(texts::BASE_CHOICE_TIP).accessible_name(texts::BASE_CHOICE.get());
     }
-    if app.compare.stopped && ui.button(texts::GO_ON).on_hover_text(texts::GO_ON_TIP).clicked() {
+    if app.compare.stopped && ui.button(texts::CONTINUE).on_hover_text(texts::CONTINUE_TIP).clicked() {
         act(Act::Resume);
     }
     if ui.button(texts::CLOSE).on_hover_text(texts::CLOSE_TIP).clicked() {

@@ -18,7 +18,7 @@ use std::ops::RangeInclusive;
 
 /// Text under a field until it is used again.
 #[derive(Debug, Clone, PartialEq)]
-enum Told {
+enum FieldMessage {
     /// Reason why the input was refused.
     Refused(String),
     /// Note that another value was changed with it.
@@ -32,15 +32,15 @@ fn key(ui: &Ui, label: &str) -> egui::Id {
 /// Shows under a field what its last change brought with it, until the next one.
 pub fn note(ui: &Ui, label: impl Into<&'static str>, text: String) {
     let key = key(ui, label.into());
-    ui.data_mut(|data| data.insert_temp(key, Told::Note(text)));
+    ui.data_mut(|data| data.insert_temp(key, FieldMessage::Note(text)));
 }
 
-fn told(ui: &mut Ui, label: &str) {
+fn show_message(ui: &mut Ui, label: &str) {
     let key = key(ui, label);
     let palette = theme::palette(ui);
-    let (text, colour) = match ui.data(|data| data.get_temp::<Told>(key)) {
-        Some(Told::Refused(text)) => (text, palette.error),
-        Some(Told::Note(text)) => (text, palette.warning),
+    let (text, colour) = match ui.data(|data| data.get_temp::<FieldMessage>(key)) {
+        Some(FieldMessage::Refused(text)) => (text, palette.error),
+        Some(FieldMessage::Note(text)) => (text, palette.warning),
         None => return,
     };
     ui.add(Label::new(RichText::new(text).color(colour)).wrap());
@@ -118,11 +118,11 @@ pub fn number_by(
     }
     let key = key(ui, label);
     if let Some(text) = refused.into_inner() {
-        ui.data_mut(|data| data.insert_temp(key, Told::Refused(text)));
+        ui.data_mut(|data| data.insert_temp(key, FieldMessage::Refused(text)));
     } else if *value != before || response.gained_focus() {
-        ui.data_mut(|data| data.remove::<Told>(key));
+        ui.data_mut(|data| data.remove::<FieldMessage>(key));
     }
-    told(ui, label);
+    show_message(ui, label);
     *value != before
 }
 
@@ -197,12 +197,12 @@ pub fn typed<T>(
                     (taken, wrong) = (Some(value), None);
                     text = shown.to_owned();
                 }
-                Err(told) => wrong = Some(told),
+                Err(message) => wrong = Some(message),
             }
         }
     }
-    if let Some(told) = &wrong {
-        ui.add(Label::new(RichText::new(told).color(theme::palette(ui).error)).wrap());
+    if let Some(message) = &wrong {
+        ui.add(Label::new(RichText::new(message).color(theme::palette(ui).error)).wrap());
     }
     // Asked for before: the memory is locked while it is written.
     let typing = response.has_focus();

@@ -10,7 +10,7 @@ use crate::app::import::{Import, Proposed, number};
 use crate::app::import_steps::Step;
 use crate::app::state::State;
 use crate::catalogue::Grouping;
-use crate::texts::take_in as text;
+use crate::texts::import as text;
 use egui::{ScrollArea, Ui};
 pub(super) use findings::of_selection;
 
@@ -68,7 +68,7 @@ fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                 commands.push(Command::AddImport);
             }
             if ui.button(text::KEEP_DRAFT).on_hover_text(text::KEEP_DRAFT_TIP).clicked() {
-                commands.push(Command::PutAside);
+                commands.push(Command::KeepDraft);
             }
         }
         if ui.button(text::DISCARD).on_hover_text(text::DISCARD_TIP).clicked() {
@@ -129,7 +129,7 @@ fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
         }
         for (least, step, words, tip) in [
             (2, Step::Together, text::ONE_OF_THESE, text::ONE_OF_THESE_TIP),
-            (1, Step::Apart, text::EACH_ITS_OWN, text::EACH_ITS_OWN_TIP),
+            (1, Step::Separate, text::EACH_ITS_OWN, text::EACH_ITS_OWN_TIP),
         ] {
             if ui.add_enabled(files >= least, egui::Button::new(words)).on_hover_text(tip).clicked() {
                 commands.push(Command::Import(step));
@@ -168,7 +168,7 @@ fn drafts(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
         ui.push_id(("draft", place), |ui| {
             ui.horizontal_wrapped(|ui| {
                 for (words, command) in
-                    [(text::GO_ON, Command::OpenDraft(place)), (text::DISCARD, Command::DiscardDraft(place))]
+                    [(text::CONTINUE, Command::OpenDraft(place)), (text::DISCARD, Command::DiscardDraft(place))]
                 {
                     let button = ui.button(words);
                     let label = text::about(words, &draft.name);

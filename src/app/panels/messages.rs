@@ -72,7 +72,7 @@ fn copy_report(ui: &mut Ui, message: &Message, commands: &mut Vec<Command>) {
 pub(super) fn list(ui: &mut Ui, messages: &Messages, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     if messages.is_empty() {
-        ui.label(shell::NOTHING_SAID);
+        ui.label(shell::NO_MESSAGES);
         return;
     }
     if ui.button(shell::FORGET_ALL).on_hover_text(shell::FORGET_ALL_TIP).clicked() {

@@ -3,9 +3,9 @@
 pub mod bench;
 mod catalogue;
 mod compare;
+mod export;
 mod fields;
 mod goniophotometer;
-mod hand_on;
 mod import;
 mod menu;
 mod messages;
@@ -43,7 +43,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         egui::Panel::top("tour").frame(bar).show(ui, |ui| tour::show(ui, app, &mut commands));
     }
     if !app.state.document.scene.compare.is_empty() {
-        egui::Panel::top("tray").frame(bar).show(ui, |ui| compare::tray(ui, &app.state, &mut commands));
+        egui::Panel::top("tray").frame(bar).show(ui, |ui| compare::comparison_line(ui, &app.state, &mut commands));
     }
     let status = egui::Panel::bottom("status").frame(bar).show(ui, |ui| status::show(ui, app, &mut commands));
     // Messages stand above the status line, never over it.

@@ -126,7 +126,7 @@ fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
             ui.label(text::NOTHING_CHANGED);
         }
         Some(reread) => {
-            for line in &reread.told {
+            for line in &reread.differences {
                 ui.add(egui::Label::new(line).wrap());
             }
             if ui.button(text::TAKE_CHANGES).on_hover_text(text::TAKE_CHANGES_TIP).clicked() {

@@ -1,8 +1,8 @@
 //! Sheets about sets of products: collections that the user makes, and folders of packages that are subscribed to.
 
+use crate::app::catalogue_command::CatalogueCommand;
 use crate::app::command::Command;
 use crate::app::shelf::Query;
-use crate::app::shelving::Shelving;
 use crate::app::state::State;
 use crate::app::title;
 use crate::texts::{Text, catalogue as text};
@@ -33,9 +33,9 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             let named = !name.trim().is_empty();
             let add = ui.add_enabled(named, egui::Button::new(text::ADD)).on_hover_text(text::ADD_TIP).clicked();
             if (add || entered) && named {
-                commands.push(Command::Shelve(Shelving::Collect { name, product: None, put: true }));
+                commands.push(Command::Catalogue(CatalogueCommand::Collect { name, product: None, put: true }));
             } else if name != state.collection {
-                commands.push(Command::Shelve(Shelving::EditName(name)));
+                commands.push(Command::Catalogue(CatalogueCommand::EditName(name)));
             }
         });
     }
@@ -48,7 +48,7 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
         let words = text::members(&one.name, one.products.len());
         if ui.add_enabled(!product.is_empty(), egui::Checkbox::new(&mut inside, words)).clicked() {
             let name = one.name.clone();
-            commands.push(Command::Shelve(Shelving::Collect { name, product: None, put: inside }));
+            commands.push(Command::Catalogue(CatalogueCommand::Collect { name, product: None, put: inside }));
         }
         ui.horizontal(|ui| {
             if button(ui, text::SHOW, text::SHOW_TIP, &one.name) {
@@ -56,7 +56,7 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
                 commands.push(Command::Find(query));
             }
             if button(ui, text::DISBAND, text::DISBAND_TIP, &one.name) {
-                commands.push(Command::Shelve(Shelving::Disband(one.name.clone())));
+                commands.push(Command::Catalogue(CatalogueCommand::Disband(one.name.clone())));
             }
         });
     }
@@ -66,7 +66,7 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
 pub(super) fn subscriptions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.add(Label::new(egui::RichText::new(text::SUBSCRIBE_TIP).weak()).wrap());
     if ui.button(text::SUBSCRIBE_MENU).on_hover_text(text::SUBSCRIBE_HINT).clicked() {
-        commands.push(Command::Shelve(Shelving::Subscribe));
+        commands.push(Command::Catalogue(CatalogueCommand::Subscribe));
     }
     if state.sets.subscriptions.is_empty() {
         ui.add_space(6.0);
@@ -78,7 +78,7 @@ pub(super) fn subscriptions(ui: &mut Ui, state: &State, commands: &mut Vec<Comma
         ui.horizontal(|ui| {
             ui.weak(text::products_from(one.products));
             if button(ui, text::UNSUBSCRIBE, text::UNSUBSCRIBE_TIP, &one.folder) {
-                commands.push(Command::Shelve(Shelving::Unsubscribe(one.folder.clone())));
+                commands.push(Command::Catalogue(CatalogueCommand::Unsubscribe(one.folder.clone())));
             }
         });
     }

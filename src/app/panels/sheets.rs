@@ -26,7 +26,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Collections => texts::COLLECTIONS,
         Sheet::Subscriptions => texts::SUBSCRIPTIONS,
         Sheet::Messages => shell::MESSAGES,
-        Sheet::HandOn => shell::HAND_ON,
+        Sheet::Export => shell::EXPORT_SHEET,
         Sheet::Path(what) => what.title(),
     };
     ui.horizontal(|ui| {
@@ -67,7 +67,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Collections => sets::collections(ui, &app.state, commands),
         Sheet::Subscriptions => sets::subscriptions(ui, &app.state, commands),
         Sheet::Messages => messages::list(ui, &app.toasts, commands),
-        Sheet::HandOn => super::hand_on::show(ui, app, commands),
+        Sheet::Export => super::export::show(ui, app, commands),
         Sheet::Path(what) => path(ui, &app.state, what, commands),
     });
 }
@@ -111,7 +111,7 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
         PathUse::ExportMeasured => (shell::MEASURED_HINT, shell::EXPORT),
         PathUse::ExportTile(_) => (shell::TILE_HINT, shell::EXPORT),
         // It has a sheet of its own.
-        PathUse::HandOn => (shell::HAND_ON_HINT, shell::WRITE),
+        PathUse::Export => (shell::EXPORT_HINT, shell::WRITE),
     };
     ui.add(egui::Label::new(hint.get()).wrap());
     let mut text = state.path.clone();

@@ -38,8 +38,8 @@ fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'stati
 /// Returns the uncertainties of room and LID, as far as visible tiles show them.
 fn figures(app: &App) -> Vec<Figure> {
     let mut list = Vec::new();
-    let in_sight = |lane| app.bench.shows(lane, app.state.maximised);
-    if let Some(room) = app.results.room.value.as_ref().filter(|_| in_sight(Lane::Room)) {
+    let is_visible = |lane| app.bench.shows(lane, app.state.maximised);
+    if let Some(room) = app.results.room.value.as_ref().filter(|_| is_visible(Lane::Room)) {
         let age = age(app, &app.results.room, Lane::Room);
         let error = error_words(room.totals());
         list.push(Figure {
@@ -50,7 +50,7 @@ fn figures(app: &App) -> Vec<Figure> {
             tip: shell::ROOM_LINE_TIP,
         });
     }
-    if let Some(lid) = app.results.lid.value.as_ref().filter(|_| in_sight(Lane::Lid)) {
+    if let Some(lid) = app.results.lid.value.as_ref().filter(|_| is_visible(Lane::Lid)) {
         let relative = if lid.flux.value > 0.0 { 100.0 * lid.flux.error / lid.flux.value } else { 0.0 };
         let age = age(app, &app.results.lid, Lane::Lid);
         let error = percent(relative);

@@ -70,7 +70,7 @@ pub fn ring(ui: &Ui, app: &App, places: &Places) {
         Stop::Sun => place_of(app, SKY).into_iter().collect(),
         Stop::Light => [LID, ROOM].into_iter().filter_map(|tile| place_of(app, tile)).collect(),
         Stop::Compare => menu(COMPARE).into_iter().collect(),
-        Stop::HandOn => menu(FILE).into_iter().collect(),
+        Stop::Export => menu(FILE).into_iter().collect(),
     };
     let painter = ui.ctx().layer_painter(LayerId::new(Order::Middle, Id::unique("tour")));
     for rect in list {

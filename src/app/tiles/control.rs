@@ -82,7 +82,7 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
                     }
                 }
             });
-            combo.response.on_hover_text(say::RULES_APART);
+            combo.response.on_hover_text(say::SEPARATE_RULES);
         }
         let combo =
             ComboBox::from_id_salt("rule").width(92.0).selected_text(rules::words(mode).short).show_ui(ui, |ui| {

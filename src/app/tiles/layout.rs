@@ -162,11 +162,11 @@ impl Layout {
     }
 
     /// Returns the visible tiles, in order.
-    pub fn in_sight(&self) -> Vec<Tile> {
+    pub fn visible_tiles(&self) -> Vec<Tile> {
         match self {
             Self::Tile(tile) => vec![*tile],
-            Self::Tabs { front, tabs } => tabs.get(*front).or(tabs.first()).map_or_else(Vec::new, Self::in_sight),
-            Self::Row(list) | Self::Column(list) => list.iter().flat_map(|(_, child)| child.in_sight()).collect(),
+            Self::Tabs { front, tabs } => tabs.get(*front).or(tabs.first()).map_or_else(Vec::new, Self::visible_tiles),
+            Self::Row(list) | Self::Column(list) => list.iter().flat_map(|(_, child)| child.visible_tiles()).collect(),
         }
     }
 
@@ -266,7 +266,7 @@ impl Layout {
         match self {
             Self::Tabs { front, tabs } if tabs.iter().any(|tab| tab.tiles().contains(&tile)) => {
                 *front = (*front as i32 + step).rem_euclid(tabs.len() as i32) as usize;
-                tabs[*front].in_sight().first().copied()
+                tabs[*front].visible_tiles().first().copied()
             }
             _ => None,
         }

@@ -122,14 +122,14 @@ impl Bench {
     }
 
     /// Returns the visible tiles: one that fills the tile area hides the others.
-    pub fn in_sight(&self, maximised: Option<Tile>) -> Vec<Tile> {
-        maximised.map_or_else(|| self.layout().in_sight(), |tile| vec![tile])
+    pub fn visible_tiles(&self, maximised: Option<Tile>) -> Vec<Tile> {
+        maximised.map_or_else(|| self.layout().visible_tiles(), |tile| vec![tile])
     }
 
     /// Whether a visible tile draws what a lane computes.
     pub fn shows(&self, lane: Lane, maximised: Option<Tile>) -> bool {
-        let in_sight = self.in_sight(maximised);
-        self.drawn.iter().any(|(tile, drawn)| in_sight.contains(tile) && drawn.lanes().contains(&lane))
+        let visible = self.visible_tiles(maximised);
+        self.drawn.iter().any(|(tile, drawn)| visible.contains(tile) && drawn.lanes().contains(&lane))
     }
 
     /// Whether the content of a tile belongs to the scene before the last change.
@@ -198,7 +198,7 @@ mod tests {
         bench.follow(Some(&maker)).unwrap();
         assert!(bench.shows(Lane::Room, None) && !bench.shows(Lane::Year, None));
         assert!(bench.follow(Some(&"{".to_owned())).is_err());
-        assert_eq!(bench.layout().in_sight(), compared().collect::<Vec<_>>());
+        assert_eq!(bench.layout().visible_tiles(), compared().collect::<Vec<_>>());
         // Said once.
         assert!(bench.follow(Some(&"{".to_owned())).is_ok());
     }

@@ -110,17 +110,17 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
 /// Returns the results of the refinement series in sentences.
 pub fn sentence(accuracy: &Accuracy) -> String {
     let coverage = accuracy.ordinary_coverage();
-    let mut said =
+    let mut sentences =
         vec![say::accuracy_kept(fixed(100.0 * coverage.kept, 1), coverage.count, fixed(100.0 * coverage.padded, 1))];
-    said.extend(accuracy.references.iter().map(words::reference));
+    sentences.extend(accuracy.references.iter().map(words::reference));
     for series in accuracy.series.iter().filter(|series| series.is_ordinary()) {
-        let untold = series.rungs.iter().filter(|rung| !rung.is_told()).count();
-        if untold > 0 {
-            said.push(say::accuracy_left_out(untold, series.rungs.len(), name(series)));
+        let unreported = series.rungs.iter().filter(|rung| !rung.is_determined()).count();
+        if unreported > 0 {
+            sentences.push(say::accuracy_left_out(unreported, series.rungs.len(), name(series)));
         }
         if let Some(limit) = words::data_limit(series) {
-            said.push(format!("{}: {limit}.", name(series)));
+            sentences.push(format!("{}: {limit}.", name(series)));
         }
     }
-    said.join(" ")
+    sentences.join(" ")
 }

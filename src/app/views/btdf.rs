@@ -302,11 +302,11 @@ fn incident_side(
     }
     tile::name(ui, &response, say::INCIDENT_HEMISPHERE, selection_text(btdf, &input.incidence).full());
     if let Some(schemes) = &input.schemes {
-        let told = schemes.told(response.hover_pos(), &disk, projection);
+        let reason = schemes.reason_at(response.hover_pos(), &disk, projection);
         if let (Some(_), Some(legend)) = (map, place.legend) {
             schemes::legend(ui, legend, Align2::LEFT_TOP, input, &palette);
         }
-        return told;
+        return reason;
     }
     let pointed = response.hover_pos().and_then(cell_at);
     let pointed = pointed.map(|i| (cells.choices[i], btdf.tau(cells.choices[i])));

@@ -41,9 +41,9 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<(usize,
     let revision = 2 * input.revision + u64::from(state.diffuse);
     let drawn = hour_map::Input { map, revision, mark, on_page: true };
     let answer = ui.push_id("calendar", |ui| hour_map::show(ui, rect, &drawn, &mut state.map)).inner;
-    let said = answer.pointed.or(mark).map_or_else(|| say::CALENDAR_TIP.into(), |cell| hour_map::spoken(map, cell));
+    let text = answer.pointed.or(mark).map_or_else(|| say::CALENDAR_TIP.into(), |cell| hour_map::spoken(map, cell));
     let colour = Palette::of(ui.visuals()).weak;
-    ui.add(Label::new(RichText::new(said).size(13.0).color(colour)).truncate());
+    ui.add(Label::new(RichText::new(text).size(13.0).color(colour)).truncate());
     let picked = answer.picked.map(|cell| (cell, false)).or(answer.walked.map(|cell| (cell, true)));
     picked.and_then(|(cell, walking)| Some((map.from[cell]? as usize, walking)))
 }

@@ -134,14 +134,14 @@ fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut 
     let needed = if page == Page::Table { table::height(list.shown(input.look).len()) } else { f32::INFINITY };
     let why = why.max(left.height() - needed);
     let (upper, lower) = left.split_top_bottom_at_y(left.bottom() - why);
-    let said = if page == Page::Plot {
+    let text = if page == Page::Plot {
         plot::show(ui, upper, input, list, out)
     } else {
         table::show(ui, upper, input, list, out);
         summary(input, list)
     };
     why::show(ui, lower.with_min_y(lower.top() + 4.0), input, list, out);
-    said
+    text
 }
 
 /// Returns the number of products that are shown, out of how many, and their weather.

@@ -143,11 +143,11 @@ fn summary(picture: &Picture) -> Foot {
     match picture {
         Picture::Plan { values, .. } => {
             let mean = signed(values.iter().map(|one| one.value).sum::<f64>() / values.len().max(1) as f64, unit);
-            let apart = values.iter().filter(|one| one.value.abs() > one.error).count();
+            let distinct = values.iter().filter(|one| one.value.abs() > one.error).count();
             let all = values.len();
             Foot::from([
-                say::difference_mean(name, &mean, apart, all),
-                say::difference_mean_short(name, &mean, apart, all),
+                say::difference_mean(name, &mean, distinct, all),
+                say::difference_mean_short(name, &mean, distinct, all),
                 say::difference_mean_alone(name, mean),
             ])
         }

@@ -51,7 +51,7 @@ struct Shown {
     side: bool,
     span: Span,
     /// Whether a line states what lies beyond the picture.
-    told: bool,
+    has_beyond: bool,
 }
 
 /// Draws the tile into all the space of `ui`.
@@ -161,19 +161,19 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, action
         state.held = None;
     }
     let kept = state.shown.filter(|shown| state.held.is_some() && shown.side == side);
-    let Shown { span, told, .. } = *state.shown.insert(kept.unwrap_or_else(|| {
+    let Shown { span, has_beyond, .. } = *state.shown.insert(kept.unwrap_or_else(|| {
         let span = outside::span(input, side);
-        Shown { side, span, told: outside::tells(input, side, span) }
+        Shown { side, span, has_beyond: outside::has_beyond(input, side, span) }
     }));
-    let told = if told { outside::TOLD_HEIGHT } else { 0.0 };
+    let beyond_height = if has_beyond { outside::BEYOND_HEIGHT } else { 0.0 };
     let frame_rect = Rect::from_min_max(
-        pos2(rect.left() + LEFT, rect.top() + told + if side { 6.0 } else { 2.0 }),
+        pos2(rect.left() + LEFT, rect.top() + beyond_height + if side { 6.0 } else { 2.0 }),
         pos2(rect.right() - RIGHT, rect.bottom() - profile_height - legend_height - 6.0),
     );
     let frame = Frame::around(frame_rect, span, input.room, side);
-    let told = Rect::from_min_size(pos2(frame_rect.left(), rect.top()), vec2(frame_rect.width(), told));
-    if told.is_positive() {
-        outside::tell(ui, told, &frame, input, &palette);
+    let beyond_rect = Rect::from_min_size(pos2(frame_rect.left(), rect.top()), vec2(frame_rect.width(), beyond_height));
+    if beyond_rect.is_positive() {
+        outside::show_beyond(ui, beyond_rect, &frame, input, &palette);
     }
     outside::show(ui, &frame, input, &palette);
     let name = if side { say::ROOM_SECTION } else { say::ROOM_PLAN };

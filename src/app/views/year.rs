@@ -122,9 +122,9 @@ fn body(
     match input.look.page {
         Page::Map if rect.width() >= BOTH && rect.height() >= 240.0 => {
             let (left, right) = rect.split_left_right_at_fraction(0.5);
-            let said = map(ui, left, input, shown, state, out);
+            let text = map(ui, left, input, shown, state, out);
             figures::show(ui, right.with_min_x(right.left() + 8.0), shown.rows);
-            said
+            text
         }
         Page::Map => map(ui, rect, input, shown, state, out),
         Page::Figures => {
@@ -176,7 +176,7 @@ fn map(
         let step = cell.and_then(|cell| map.from[cell]);
         out.extend(step.map(|step| Action::Show(step as usize, walking)));
     }
-    let told = |cell: usize| {
+    let cell_text = |cell: usize| {
         let step = map.from[cell].map(|step| step as usize);
         let error =
             step.and_then(|step| error(shown.year, input.look.shows, step)).filter(|_| map.values[cell].is_finite());
@@ -184,9 +184,9 @@ fn map(
         format!("{}{error}", hour_map::spoken(map, cell))
     };
     match (answer.pointed, mark) {
-        (Some(cell), _) => told(cell),
-        (None, Some(cell)) if !shown.remark.is_empty() => format!("{} · {}", shown.remark, told(cell)),
-        (None, Some(cell)) => told(cell),
+        (Some(cell), _) => cell_text(cell),
+        (None, Some(cell)) if !shown.remark.is_empty() => format!("{} · {}", shown.remark, cell_text(cell)),
+        (None, Some(cell)) => cell_text(cell),
         (None, None) => summary(shown),
     }
 }

@@ -21,11 +21,11 @@ impl Neighbours {
             for a in of_ring(ring) {
                 let touches = |b: &usize| {
                     let (p, q) = (&cells[a], &cells[*b]);
-                    let apart = (p.phi - q.phi).rem_euclid(2.0 * PI);
-                    let apart = apart.min(2.0 * PI - apart);
+                    let separation = (p.phi - q.phi).rem_euclid(2.0 * PI);
+                    let separation = separation.min(2.0 * PI - separation);
                     // In the next ring a corner in common is not enough.
                     let slack = if of_ring(ring).contains(b) { SLACK } else { -SLACK };
-                    a != *b && apart < 0.5 * (p.width + q.width) + slack
+                    a != *b && separation < 0.5 * (p.width + q.width) + slack
                 };
                 list.push((ring.saturating_sub(1)..=(ring + 1).min(last)).flat_map(of_ring).filter(touches).collect());
             }

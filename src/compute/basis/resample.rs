@@ -34,7 +34,7 @@ impl Resampling {
                     let index = target.first_cell(to) + o;
                     let cell = target.cell(index);
                     for (i, &other) in others.iter().enumerate() {
-                        if apart((cell.phi, cell.width), other) {
+                        if are_disjoint((cell.phi, cell.width), other) {
                             continue;
                         }
                         let width = common_width((cell.phi, cell.width), other);
@@ -66,7 +66,7 @@ fn span(a: f64, b: f64) -> f64 {
 
 /// Whether two azimuth intervals, given by centre and width, surely do not overlap. Spares most pairs of fine cells the
 /// sum over the turns.
-fn apart(a: (f64, f64), b: (f64, f64)) -> bool {
+fn are_disjoint(a: (f64, f64), b: (f64, f64)) -> bool {
     let way = a.0 - b.0;
     (way - 2.0 * PI * (way / (2.0 * PI)).round()).abs() > 0.5 * (a.1 + b.1) + 1e-9
 }

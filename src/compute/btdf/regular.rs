@@ -91,14 +91,14 @@ pub fn separate_regular(btdf: &Btdf) -> Option<Btdf> {
         Scattered::Cells(matrix) => {
             let (incident, emergent) = (matrix.incident(), matrix.emergent());
             let rows: Vec<Row> = incident.cells().map(|cell| Row::of_cell(&cell, emergent)).collect();
-            let (tau, rest) = apart(&rows, emergent, |i| matrix.row(i).into_owned())?;
+            let (tau, rest) = separate_rows(&rows, emergent, |i| matrix.row(i).into_owned())?;
             let rest = rest.map(|rest| CellMatrix::new(incident.clone(), emergent.clone(), rest));
             Some(Btdf { regular: Some(tau), scattered: rest.flatten().map(|rest| Scattered::Cells(Box::new(rest))) })
         }
         Scattered::Directions(data) => {
             let of = |(d, share): (&Incident, &f64)| Row::of_direction(d.0, *share, data);
             let rows: Vec<Row> = data.incident().iter().zip(data.shares()).map(of).collect();
-            let (tau, rest) = apart(&rows, data.emergent(), |i| data.row(i).into_owned())?;
+            let (tau, rest) = separate_rows(&rows, data.emergent(), |i| data.row(i).into_owned())?;
             let rest = rest.map(|rest| Indicatrices::new(data.incident().to_vec(), data.emergent().clone(), rest));
             let scattered = rest.flatten().map(|rest| Scattered::Directions(Arc::new(rest)));
             Some(Btdf { regular: Some(tau), scattered })
@@ -138,7 +138,7 @@ impl Row {
 }
 
 /// Separates the regular transmittance; returns also what is left, row by row, or `None` for it where no light is left.
-fn apart(
+fn separate_rows(
     rows: &[Row],
     emergent: &RingBasis,
     row: impl Fn(usize) -> Vec<f64>,
@@ -188,10 +188,10 @@ fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
         .map(|list| {
             let mean = |of: usize| list.iter().map(|&row| found[row][of]).sum::<f64>() / list.len() as f64;
             let (tau, background) = (mean(0), mean(1));
-            let apart = list.iter().map(|&row| (found[row][0] - tau).abs()).fold(0.0, f64::max);
-            let noise = (DIGITS * strongest).hypot(ROUGH * background).hypot(apart);
+            let deviation = list.iter().map(|&row| (found[row][0] - tau).abs()).fold(0.0, f64::max);
+            let noise = (DIGITS * strongest).hypot(ROUGH * background).hypot(deviation);
             let row = &rows[list[0]];
-            let agree = apart <= EVEN * strongest + ROUGH * background;
+            let agree = deviation <= EVEN * strongest + ROUGH * background;
             agree.then(|| Known { theta: row.theta, points: row.points.clone(), tau, noise })
         })
         .collect();

@@ -107,14 +107,14 @@ impl Dataset {
             self.description.push(' ');
         }
         self.description.push_str(&words);
-        self.tell_partly_visible();
+        self.report_partly_visible();
     }
 
     /// Adds the finding of a mark that stands in the dataset's text; does nothing without one.
-    pub fn tell_partly_visible(&mut self) {
+    pub fn report_partly_visible(&mut self) {
         let [code, words] = PARTLY_VISIBLE;
-        let told = self.findings.iter().any(|one| one.code == code);
-        if let (Some(at), true, false) = (self.description.find(words), self.solar.is_some(), told) {
+        let is_reported = self.findings.iter().any(|one| one.code == code);
+        if let (Some(at), true, false) = (self.description.find(words), self.solar.is_some(), is_reported) {
             let rest = &self.description[at..];
             let sentence = rest.split_inclusive('.').next().unwrap_or(rest).to_owned();
             self.findings.push(Finding::info(code, sentence));
@@ -142,8 +142,8 @@ mod tests {
         assert_eq!(data.findings[0].message, "Solar band: visible taken as solar for 2 of 3 materials.");
         // As when it is read from a file that keeps the text alone.
         data.findings.clear();
-        data.tell_partly_visible();
-        data.tell_partly_visible();
+        data.report_partly_visible();
+        data.report_partly_visible();
         assert_eq!((data.findings.len(), data.solar_source()), (1, SolarSource::Partly));
     }
 

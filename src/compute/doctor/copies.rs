@@ -136,9 +136,9 @@ fn copied_reflection(at: &At) -> Option<Diagnosis> {
     }
     let transmissions = at.band.transmission_front.as_ref().zip(at.band.transmission_back.as_ref());
     let derived = at.dataset.derived.contains(&Component::TransmissionFront);
-    let apart = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !repeats(f, b));
+    let differ = transmissions.filter(|_| !derived).is_some_and(|(f, b)| tau_max(f) > 0.0 && !repeats(f, b));
     let message = format!("Reflection Back ({}) repeats the front number by number", at.name);
-    let one = if apart {
+    let one = if differ {
         Diagnosis::suspicion(
             Confidence::Likely,
             "copied-block",

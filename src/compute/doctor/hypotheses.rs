@@ -1,9 +1,9 @@
 //! Hypotheses about what is wrong with a file; each is about all blocks of a band together.
 
 use super::blocks::{Blocks, Turn};
+use super::evidence::Evidence;
 use super::reading::{Factor, Part, Reading, as_it_is};
 use super::repair::{BlockScope, RepairKind};
-use super::witnesses::Witnesses;
 use crate::compute::btdf::Component;
 
 /// Fault that blocks of a file may have.
@@ -98,9 +98,9 @@ pub(super) struct Hypothesis {
 
 /// Returns the hypotheses about the blocks of a band, one fault at a time. `copied`: whether the transmissions, and the
 /// reflections, of both sides are the same numbers, which neither a turn nor a transposition produces.
-pub(super) fn hypotheses(witnesses: &Witnesses, copied: [bool; 2]) -> Vec<Hypothesis> {
-    let blocks = witnesses.blocks;
-    let lit: Vec<Component> = Component::ALL.into_iter().filter(|c| witnesses.lit(*c as usize)).collect();
+pub(super) fn hypotheses(evidence: &Evidence, copied: [bool; 2]) -> Vec<Hypothesis> {
+    let blocks = evidence.blocks;
+    let lit: Vec<Component> = Component::ALL.into_iter().filter(|c| evidence.lit(*c as usize)).collect();
     let [through, back] = PAIRS.map(|pair| pair.iter().all(|component| lit.contains(component)));
     let copied = [copied[0] && through, copied[1] && back];
     let mut list = Vec::new();

@@ -41,7 +41,7 @@ pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
         return Vec::new();
     }
     let mut list = Vec::new();
-    let told = |code: &str| dataset.findings.iter().any(|finding| finding.code == code);
+    let is_reported = |code: &str| dataset.findings.iter().any(|finding| finding.code == code);
     for (what, word) in [("name", dataset.name.trim()), ("maker", dataset.manufacturer.trim())] {
         if template(word) {
             list.push(
@@ -51,7 +51,7 @@ pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
                 )
                 .into(),
             );
-        } else if word.is_empty() && !told("template-word") {
+        } else if word.is_empty() && !is_reported("template-word") {
             list.push(Finding::info("no-identity", format!("The file gives no {what}.")).into());
         }
     }

@@ -8,10 +8,10 @@
 
 use super::blocks::Blocks;
 use super::copies::copied;
+use super::evidence::{Answers, Evidence, Question};
 use super::hypotheses::{Fault, Hypothesis, hypotheses};
 use super::reading::{Factor, Reading, as_it_is};
 use super::repair::BandScope;
-use super::witnesses::{Answers, Question, Witnesses};
 use crate::compute::btdf::{Band, Component, Scattered, TreeRank};
 
 /// Returns the size of a misfit that genuine files show, and its weight: a misfit of that size counts ln 2 times the
@@ -43,7 +43,7 @@ const NOTHING: f64 = 0.05;
 /// Band with the evidence on its readings.
 pub(super) struct Side<'a> {
     pub(super) scope: BandScope,
-    pub(super) witnesses: Witnesses<'a>,
+    pub(super) evidence: Evidence<'a>,
     copied: [bool; 2],
 }
 
@@ -56,7 +56,7 @@ impl<'a> Side<'a> {
             let scattered = band.get(component).and_then(|btdf| btdf.scattered.as_ref());
             !(component.is_transmission() && scattered.is_some_and(averaged))
         };
-        Self { scope, witnesses: Witnesses::new(blocks, heard), copied: copied(band) }
+        Self { scope, evidence: Evidence::new(blocks, heard), copied: copied(band) }
     }
 }
 
@@ -105,12 +105,12 @@ fn cost(answers: &Answers) -> f64 {
 
 /// Returns the cost of different shapes of the same functions in two bands, which one product measured on one
 /// goniometer does not have.
-fn between_bands(a: (&Witnesses, &Reading), b: (&Witnesses, &Reading)) -> f64 {
+fn between_bands(a: (&Evidence, &Reading), b: (&Evidence, &Reading)) -> f64 {
     let mut sum = 0.0;
     for slot in 0..4 {
         let (Some(one), Some(other)) = (a.1[slot], b.1[slot]) else { continue };
         if a.0.lit(one.source) && b.0.lit(other.source) && a.0.blocks.basis == b.0.blocks.basis {
-            sum += (1.0 + a.0.shapes_apart(one, b.0, other) / BANDS).ln();
+            sum += (1.0 + a.0.shape_difference(one, b.0, other) / BANDS).ln();
         }
     }
     sum
@@ -118,13 +118,12 @@ fn between_bands(a: (&Witnesses, &Reading), b: (&Witnesses, &Reading)) -> f64 {
 
 /// Returns the best explanation of the misfits, however small its gain; `None` if there is nothing to explain.
 pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
-    let plain: Vec<Reading> = sides.iter().map(|side| as_it_is(side.witnesses.blocks)).collect();
-    let own: Vec<f64> =
-        sides.iter().zip(&plain).map(|(side, reading)| cost(&side.witnesses.answers(reading))).collect();
+    let plain: Vec<Reading> = sides.iter().map(|side| as_it_is(side.evidence.blocks)).collect();
+    let own: Vec<f64> = sides.iter().zip(&plain).map(|(side, reading)| cost(&side.evidence.answers(reading))).collect();
     let all = |costs: &[f64], readings: [&Reading; 2]| {
         let mean = costs.iter().sum::<f64>() / costs.len() as f64;
         match sides {
-            [a, b] => mean + between_bands((&a.witnesses, readings[0]), (&b.witnesses, readings[1])),
+            [a, b] => mean + between_bands((&a.evidence, readings[0]), (&b.evidence, readings[1])),
             _ => mean,
         }
     };
@@ -137,8 +136,8 @@ pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
     let lists: Vec<Vec<(Hypothesis, f64)>> = sides
         .iter()
         .map(|side| {
-            let list = hypotheses(&side.witnesses, side.copied).into_iter();
-            list.map(|one| (cost(&side.witnesses.answers(&one.reading)), one)).map(|(cost, one)| (one, cost)).collect()
+            let list = hypotheses(&side.evidence, side.copied).into_iter();
+            list.map(|one| (cost(&side.evidence.answers(&one.reading)), one)).map(|(cost, one)| (one, cost)).collect()
         })
         .collect();
     let mut rated: Vec<(Candidate, Vec<Reading>)> = Vec::new();
@@ -170,7 +169,7 @@ pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
     rated.sort_by(|a, b| rank(&b.0).total_cmp(&rank(&a.0)));
     let (best, readings) = rated.iter().find(|(one, _)| one.hypothesis.fault.repair().is_some())?.clone();
     let same = |other: &[Reading]| {
-        sides.iter().zip(&readings).zip(other).all(|((side, a), b)| side.witnesses.same(a, b, NOTHING))
+        sides.iter().zip(&readings).zip(other).all(|((side, a), b)| side.evidence.same(a, b, NOTHING))
     };
     // That one of two equal blocks is a copy is known by their equality; which, only the other blocks can say.
     let copy = |one: &Candidate| {
@@ -183,8 +182,8 @@ pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
     let rivals: Vec<Candidate> = near.filter(|(_, other)| !same(other)).map(|(one, _)| one.clone()).collect();
     let lead = rivals.first().map_or(SURE, |rival| best.gain - rival.gain).min(best.gain);
     let about = sides.iter().position(|side| best.bands == side.scope || best.bands == BandScope::Both)?;
-    let witnesses = &sides[about].witnesses;
-    let (then, now) = (witnesses.answers(&plain[about]), witnesses.answers(&readings[about]));
+    let band_evidence = &sides[about].evidence;
+    let (then, now) = (band_evidence.answers(&plain[about]), band_evidence.answers(&readings[about]));
     let evidence = then.iter().zip(&now).map(|(then, now)| (then.0, then.1, now.1)).collect();
     Some(Verdict { best, rivals, lead, evidence })
 }

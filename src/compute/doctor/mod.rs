@@ -17,9 +17,11 @@ mod copies;
 mod derive;
 mod diagnosis;
 mod energy;
+mod evidence;
 mod hypotheses;
 mod identity;
 mod judgement;
+mod message;
 mod orientation;
 mod patches;
 mod reading;
@@ -28,8 +30,6 @@ mod repair;
 mod repaired;
 mod resolution;
 mod symmetry;
-mod told;
-mod witnesses;
 
 pub use copies::same_values;
 pub use derive::by_reciprocity;
@@ -107,7 +107,7 @@ fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
     // One explanation is enough: numbers in another unit, or of another function, upset every comparison.
     if !list.iter().any(|one| ["percent", "block-mislabelled"].contains(&one.finding.code)) {
         let verdict = judged(dataset, blocks.as_ref(), solar.as_ref().and_then(|(_, blocks)| blocks.as_ref()));
-        for one in verdict.iter().flat_map(told::told) {
+        for one in verdict.iter().flat_map(message::diagnoses) {
             // That there is a copy is known already; now also which it is.
             let known = list.iter_mut().find(|fact| fact.finding.code == one.finding.code && fact.repair.is_none());
             match known.filter(|_| one.finding.code == "copied-block") {
@@ -152,7 +152,7 @@ pub fn standing(dataset: &Dataset) -> Option<Standing> {
     let blocks = Blocks::new(dataset, &dataset.visible);
     let solar = dataset.solar.as_ref().and_then(|solar| Blocks::new(dataset, solar));
     let Verdict { best, lead, .. } = judged(dataset, blocks.as_ref(), solar.as_ref())?;
-    Some(Standing { repairs: told::repairs(&best), gain: best.gain, lead })
+    Some(Standing { repairs: message::repairs(&best), gain: best.gain, lead })
 }
 
 fn band(dataset: &Dataset, band: &Band, name: &str, scope: BandScope, blocks: Option<&Blocks>) -> Vec<Diagnosis> {

@@ -41,7 +41,7 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
     let mut out = dataset.clone();
     let mut done = false;
     if repair.bands != BandScope::Solar {
-        done |= mend(&mut out.visible, repair)?;
+        done |= repair_band(&mut out.visible, repair)?;
         for component in &dataset.derived {
             rederive(&mut out.visible, *component, repair);
         }
@@ -62,7 +62,7 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
     if repair.bands != BandScope::Visible
         && let Some(solar) = &mut out.solar
     {
-        done |= mend(solar, repair)?;
+        done |= repair_band(solar, repair)?;
     }
     if !done {
         return Err(RepairError::Nothing(repair));
@@ -108,7 +108,7 @@ pub fn repaired_all(dataset: &Dataset, repairs: &[Repair]) -> Result<Dataset, Re
 }
 
 /// Repairs a band; returns whether it had any of the functions.
-fn mend(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
+fn repair_band(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
     let meant: Vec<Component> = Component::ALL.into_iter().filter(|c| repair.blocks.holds(*c)).collect();
     match repair.kind {
         RepairKind::DropBlock => {

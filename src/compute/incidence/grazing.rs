@@ -18,7 +18,7 @@ pub struct Grazing {
 /// τ at 90°, extrapolated in a straight line, as a share of the border's, below which it fades to zero.
 const FADES_BELOW: f64 = 0.65;
 /// τ at 90°, extrapolated in a straight line, as a share of the border's, above which it follows that line.
-const GOES_ON_ABOVE: f64 = 0.8;
+const CONTINUES_ABOVE: f64 = 0.8;
 
 impl Grazing {
     /// Creates the continuation at a vertex of the border; `None` elsewhere, and where nothing gets through or no row
@@ -40,7 +40,7 @@ impl Grazing {
         let slope = (1.0 - mean(&|n| tau[n]) / tau[vertex]) / back;
         // Parabola through the two rows and zero at grazing.
         let bend = (-1.0 - slope) / (1.0 + back);
-        let s = ((1.0 + slope - FADES_BELOW) / (GOES_ON_ABOVE - FADES_BELOW)).clamp(0.0, 1.0);
+        let s = ((1.0 + slope - FADES_BELOW) / (CONTINUES_ABOVE - FADES_BELOW)).clamp(0.0, 1.0);
         Some(Self { slope, bend, straight: s * s * (3.0 - 2.0 * s) })
     }
 

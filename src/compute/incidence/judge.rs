@@ -40,7 +40,7 @@ impl Judge {
         let (q, truth) = (self.picture(q), self.picture(truth));
         let weights = &self.compare.projected;
         let tau: f64 = truth.iter().zip(weights).map(|(q, w)| q * w).sum();
-        let apart: f64 = q.iter().zip(&truth).zip(weights).map(|((a, b), w)| (a - b).abs() * w).sum();
-        (tau > 0.0).then(|| 0.5 * apart / tau)
+        let difference: f64 = q.iter().zip(&truth).zip(weights).map(|((a, b), w)| (a - b).abs() * w).sum();
+        (tau > 0.0).then(|| 0.5 * difference / tau)
     }
 }

@@ -32,14 +32,14 @@ pub type Errors = [f64; SunScheme::ALL.len()];
 
 /// Incident direction predicted without its own data.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foretold {
+pub struct Prediction {
     /// Incident direction, towards the source.
     pub direction: Dir<Facade>,
     /// Share of its flux that every scheme misplaces, at doubled spacing.
     pub errors: Errors,
 }
 
-impl Foretold {
+impl Prediction {
     /// Returns the share of flux that a scheme misplaces.
     pub fn error(&self, scheme: SunScheme) -> f64 {
         self.errors[scheme as usize]
@@ -57,7 +57,7 @@ impl Foretold {
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
     /// Prediction of every direction of the data; `None` where no light gets through or no ring is left.
-    foretold: Vec<Option<Foretold>>,
+    predictions: Vec<Option<Prediction>>,
     /// Errors of every direction, at least the mean of the neighbours': a direction may be predicted well by chance.
     around: Vec<Option<Errors>>,
 }
@@ -67,14 +67,15 @@ impl LeftOut {
     pub fn new(model: &Model) -> Self {
         let judge = Judge::new(&model.grid);
         let count = model.lattice.points().len();
-        let foretold: Vec<Option<Foretold>> = (0..count).into_par_iter().map(|v| without(model, &judge, v)).collect();
-        let around = (0..count).map(|v| at_least_around(&model.lattice, &foretold, v)).collect();
-        Self { foretold, around }
+        let predictions: Vec<Option<Prediction>> =
+            (0..count).into_par_iter().map(|v| without(model, &judge, v)).collect();
+        let around = (0..count).map(|v| at_least_around(&model.lattice, &predictions, v)).collect();
+        Self { predictions, around }
     }
 
     /// Returns the directions that could be predicted.
-    pub fn directions(&self) -> impl Iterator<Item = &Foretold> {
-        self.foretold.iter().flatten()
+    pub fn directions(&self) -> impl Iterator<Item = &Prediction> {
+        self.predictions.iter().flatten()
     }
 
     /// Returns the mean over the directions of the share that a scheme misplaces; 0 without any.
@@ -96,7 +97,7 @@ impl LeftOut {
 }
 
 /// Computes the errors of all schemes in one direction, predicted without it.
-fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Foretold> {
+fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Prediction> {
     let tau = model.data.tau_by_direction();
     let mean = tau.iter().sum::<f64>() / tau.len() as f64;
     if tau[vertex] <= DARK * mean || model.lattice.neighbours(vertex).is_empty() {
@@ -119,13 +120,13 @@ fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Foretold> {
     for (sum, scheme) in errors.iter_mut().zip(SunScheme::ALL) {
         *sum = error(scheme)?;
     }
-    Some(Foretold { direction, errors })
+    Some(Prediction { direction, errors })
 }
 
 /// Returns the errors of a direction, none below the mean over its neighbours.
-fn at_least_around(lattice: &Lattice, foretold: &[Option<Foretold>], vertex: usize) -> Option<Errors> {
-    let ring: Vec<Errors> = lattice.neighbours(vertex).iter().filter_map(|&n| Some(foretold[n]?.errors)).collect();
-    let own = foretold[vertex].map(|one| one.errors).or(ring.first().copied())?;
+fn at_least_around(lattice: &Lattice, predictions: &[Option<Prediction>], vertex: usize) -> Option<Errors> {
+    let ring: Vec<Errors> = lattice.neighbours(vertex).iter().filter_map(|&n| Some(predictions[n]?.errors)).collect();
+    let own = predictions[vertex].map(|one| one.errors).or(ring.first().copied())?;
     let mean = |k: usize| ring.iter().map(|errors| errors[k]).sum::<f64>() / ring.len().max(1) as f64;
     Some(std::array::from_fn(|k| own[k].max(mean(k))))
 }
@@ -163,7 +164,7 @@ mod tests {
         let [responses, superposed] = [SunScheme::Responses, SunScheme::Superposed].map(|s| left_out.mean(s));
         assert!(responses < 0.5 * superposed, "responses {responses} against superposed {superposed}");
         // Where another scheme is better, it is named with what it gains.
-        let better: Vec<(SunScheme, f64)> = left_out.directions().filter_map(Foretold::better).collect();
+        let better: Vec<(SunScheme, f64)> = left_out.directions().filter_map(Prediction::better).collect();
         assert!(better.len() < 30, "{better:?}");
         assert!(better.iter().all(|(scheme, gain)| *scheme != SunScheme::Responses && *gain > 0.0));
     }

@@ -115,11 +115,11 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, share
     };
     // Disagreement with every neighbour, each counted up to the gate; wild responses pay for it.
     let score = |jacobian: DMat2| {
-        let apart: f64 = around
+        let disagreement: f64 = around
             .iter()
             .map(|&(n, step)| nearest(jacobian, n, step).map_or(GATE, |(cost, _)| cost.min(GATE)).powi(2))
             .sum();
-        apart + 2e-3 * unlike_a_turn(jacobian)
+        disagreement + 2e-3 * unlike_a_turn(jacobian)
     };
     let straight = lattice.points()[v];
     let side = |j: DMat2| (lift(j * straight.truncate()) - lobe.centre).length();

@@ -19,7 +19,7 @@ pub struct CellLuminance {
     /// Luminance by cell. \[cd/m²\]
     pub luminance: Vec<f64>,
     /// Signed difference to the simpler interpolation, by cell. \[cd/m²\]
-    pub doubt: Vec<f64>,
+    pub uncertainty: Vec<f64>,
     /// Uncertainties under the sun, by cell: from the lobes' own places (signed differences for lobes moved along x_F
     /// and along y_F), and from everything else. \[cd/m²\] Empty for diffuse light, where such moves cancel.
     pub shifts: Vec<Vec<f64>>,
@@ -38,7 +38,7 @@ pub const REST: f64 = 5e-3;
 impl CellLuminance {
     /// Creates luminances of 0 on `cells` cells.
     pub fn dark(cells: usize) -> Self {
-        Self { luminance: vec![0.0; cells], doubt: vec![0.0; cells], shifts: Vec::new() }
+        Self { luminance: vec![0.0; cells], uncertainty: vec![0.0; cells], shifts: Vec::new() }
     }
 
     /// Returns the luminance on the cells `target`, which lie within the cells `own`.
@@ -48,12 +48,12 @@ impl CellLuminance {
         }
         let parent = parents(own, target);
         let copy = |values: &[f64]| parent.iter().map(|&k| values[k]).collect();
-        Self { luminance: copy(&self.luminance), doubt: copy(&self.doubt), shifts: Vec::new() }
+        Self { luminance: copy(&self.luminance), uncertainty: copy(&self.uncertainty), shifts: Vec::new() }
     }
 
     fn add(&mut self, other: &Self) {
         self.luminance.iter_mut().zip(&other.luminance).for_each(|(sum, x)| *sum += x);
-        self.doubt.iter_mut().zip(&other.doubt).for_each(|(sum, x)| *sum += x);
+        self.uncertainty.iter_mut().zip(&other.uncertainty).for_each(|(sum, x)| *sum += x);
     }
 }
 
@@ -98,10 +98,10 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellL
         bases.iter_mut().zip(own).for_each(|(sum, x)| *sum = [sum[0] + x[0], sum[1] + x[1]]);
     }
     // Bases stay where they are, whatever sub-patch they serve: each is drawn once, with all its light.
-    for (vertex, &[e, doubt]) in bases.iter().enumerate().filter(|(_, e)| e[0] > 0.0) {
+    for (vertex, &[e, uncertainty]) in bases.iter().enumerate().filter(|(_, e)| e[0] > 0.0) {
         for (cell, q) in model.base(vertex).into_iter().enumerate() {
             light.luminance[cell] += e * q;
-            light.doubt[cell] += doubt * q;
+            light.uncertainty[cell] += uncertainty * q;
         }
     }
     light
@@ -128,12 +128,12 @@ fn chunk_of_diffuse(
         }
         for copy in &recipe.copies {
             // The lobe lies in the same place with either flux: the doubt is its light, scaled.
-            let doubt = copy.linear / copy.flux - 1.0;
+            let uncertainty = copy.linear / copy.flux - 1.0;
             // One direction a cell: sums over many sub-patches smooth what cells do not.
             model.moved(copy, model.grid(), 1, &mut scratch);
             for &(cell, q) in &scratch {
                 light.luminance[cell as usize] += e * q;
-                light.doubt[cell as usize] += e * q * doubt;
+                light.uncertainty[cell as usize] += e * q * uncertainty;
             }
         }
     }
@@ -150,7 +150,7 @@ pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Gri
         let q = model.base(base.vertex);
         for (cell, &k) in parent.iter().enumerate() {
             light.luminance[cell] += illuminance * base.factor * q[k];
-            light.doubt[cell] += illuminance * (base.linear - base.factor) * q[k];
+            light.uncertainty[cell] += illuminance * (base.linear - base.factor) * q[k];
         }
     }
     let mut scratch = Vec::new();
@@ -160,23 +160,23 @@ pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Gri
         model.moved(copy, target, points, &mut scratch);
         for &(cell, q) in &scratch {
             lobes.luminance[cell as usize] += illuminance * q;
-            lobes.doubt[cell as usize] += illuminance * q * copy.linear / copy.flux;
+            lobes.uncertainty[cell as usize] += illuminance * q * copy.linear / copy.flux;
         }
     }
     if target.basis().len() > parent.len().min(model.grid().basis().len()) {
         // Means over the data's own cells: what they alone can tell.
         coarse.resize(model.grid().basis().len(), [0.0; 2]);
         for (cell, &k) in parent.iter().enumerate() {
-            coarse[k][0] += lobes.doubt[cell] * target.projected[cell];
+            coarse[k][0] += lobes.uncertainty[cell] * target.projected[cell];
             coarse[k][1] += target.projected[cell];
         }
         for (cell, &k) in parent.iter().enumerate() {
-            lobes.doubt[cell] = coarse[k][0] / coarse[k][1];
+            lobes.uncertainty[cell] = coarse[k][0] / coarse[k][1];
         }
     }
     for (cell, l) in lobes.luminance.iter().enumerate() {
         light.luminance[cell] += l;
-        light.doubt[cell] += lobes.doubt[cell] - l;
+        light.uncertainty[cell] += lobes.uncertainty[cell] - l;
     }
     let reach = PLACE * (2.0 * PI / model.grid().basis().len() as f64).sqrt();
     for axis in [DVec3::X, DVec3::Y] {

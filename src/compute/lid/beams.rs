@@ -19,7 +19,7 @@ pub struct BeamLight {
     /// Estimated relative error of the beam's strength.
     pub error: f64,
     /// Relative uncertainty of the beam's strength, because the data do not resolve neighbouring sun positions.
-    pub doubt: f64,
+    pub uncertainty: f64,
 }
 
 impl BeamLight {
@@ -47,7 +47,7 @@ impl BeamLight {
             normal: tau * sun.direct_normal,
             straight: true,
             error: 0.0,
-            doubt: if tau > 0.0 { uncertainty / tau } else { 0.0 },
+            uncertainty: if tau > 0.0 { uncertainty / tau } else { 0.0 },
         };
         (beam.exitance > 0.0).then_some(beam)
     }

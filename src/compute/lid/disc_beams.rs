@@ -4,7 +4,7 @@ use super::{BeamLight, Facing};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::sky::sun_disc::Edge;
-use crate::compute::system::measure::{Beam, Side, Specimen, Structure};
+use crate::compute::system::measure::{Beam, OpticalModel, Side, Structure};
 use glam::DVec3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -100,9 +100,9 @@ struct Part {
 }
 
 impl Part {
-    fn new(specimen: &dyn Specimen, name: Dir<Facade>, weight: f64, flux: f64) -> Self {
+    fn new(model: &dyn OpticalModel, name: Dir<Facade>, weight: f64, flux: f64) -> Self {
         let mut part = Self { name, weight, flux, straight: 0.0, turned: Vec::new() };
-        for beam in specimen.beams_about(name, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
+        for beam in model.beams_about(name, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
             if beam.names.iter().all(|other| other.vector().distance(name.vector()) <= SAME) {
                 part.straight += beam.share;
             } else {
@@ -138,22 +138,22 @@ fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade
 }
 
 /// Computes the sun's beams behind a system, as means over the disc.
-pub(super) fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<BeamLight> {
+pub(super) fn sun_beams(model: &dyn OpticalModel, facing: &Facing<'_>) -> Vec<BeamLight> {
     let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
-    if let Structure::Along { upright } = specimen.structure() {
-        return beams_by_strips(specimen, facing, sun, upright);
+    if let Structure::Along { upright } = model.structure() {
+        return beams_by_strips(model, facing, sun, upright);
     }
-    let asked = |name: &Dir<Facade>| Part::new(specimen, *name, 1.0, cosine(*name));
+    let asked = |name: &Dir<Facade>| Part::new(model, *name, 1.0, cosine(*name));
     let few: Vec<Part> = if is_whole(facing, sun) {
         let (u, v) = sun.vector().any_orthonormal_pair();
-        match by_middle(specimen, facing, sun, &[u, v]) {
+        match by_middle(model, facing, sun, &[u, v]) {
             Ok(beams) => return beams,
             Err(parts) => parts,
         }
     } else {
         disc(facing, sun, FEW).iter().map(asked).collect()
     };
-    let mut beams: Vec<BeamLight> = straight_by_seeds(specimen, facing, sun).into_iter().collect();
+    let mut beams: Vec<BeamLight> = straight_by_seeds(model, facing, sun).into_iter().collect();
     if !few.is_empty() && few.iter().all(|part| part.turned.is_empty()) {
         return beams;
     }
@@ -173,13 +173,13 @@ pub(super) fn sun_beams(specimen: &dyn Specimen, facing: &Facing<'_>) -> Vec<Bea
 /// perpendicular to each other. Where shares are not as good as linear between them, returns the parts instead.
 /// Weighted so a mean holds for polynomials of the third degree, and the rim shows what begins to pass there.
 fn by_middle(
-    specimen: &dyn Specimen,
+    model: &dyn OpticalModel,
     facing: &Facing<'_>,
     sun: Dir<Facade>,
     asides: &[DVec3],
 ) -> Result<Vec<BeamLight>, Vec<Part>> {
     const RIM: f64 = 0.125;
-    let asked = |name: Dir<Facade>, weight: f64| Part::new(specimen, name, weight, weight * cosine(name));
+    let asked = |name: Dir<Facade>, weight: f64| Part::new(model, name, weight, weight * cosine(name));
     let mut parts = vec![asked(sun, 1.0 - 2.0 * RIM * asides.len() as f64)];
     parts.extend(asides.iter().flat_map(|aside| rim(sun, *aside)).map(|name| asked(name, RIM)));
     let own = parts[0].shares();
@@ -201,12 +201,12 @@ fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
 }
 
 /// Computes the sun's beams behind a system that depends on a profile angle alone, by strips of the disc.
-fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
+fn beams_by_strips(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
     // Across the planes of equal profile angles.
     let across = (if upright { DVec3::Y } else { DVec3::X }).cross(sun.vector()).try_normalize();
     let mut begins = false;
     if let Some(across) = across.filter(|_| is_whole(facing, sun)) {
-        match by_middle(specimen, facing, sun, &[across]) {
+        match by_middle(model, facing, sun, &[across]) {
             Ok(beams) => return beams,
             Err(parts) => begins = parts.iter().any(|part| part.straight > 0.0),
         }
@@ -217,7 +217,7 @@ fn beams_by_strips(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade
         let whole = names.len() == 2 * pairs;
         let parts: Vec<Part> = strips(&names, upright, count)
             .into_iter()
-            .map(|(name, weight, flux)| Part::new(specimen, name, weight, flux))
+            .map(|(name, weight, flux)| Part::new(model, name, weight, flux))
             .collect();
         // Of the middle of a strip for all of it.
         let flux: f64 = parts.iter().map(|part| part.flux).sum();
@@ -259,12 +259,12 @@ fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, 
         normal: seen * normal,
         straight: true,
         error: off / share.max(off),
-        doubt: 0.0,
+        uncertainty: 0.0,
     })
 }
 
 /// Computes the straight beam by rising numbers of directions until its share converges.
-fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
+fn straight_by_seeds(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
     let mut found: Option<BeamLight> = None;
     for (round, seeds) in SEEDS.into_iter().enumerate() {
         let names = disc(facing, sun, seeds);
@@ -272,7 +272,7 @@ fn straight_by_seeds(specimen: &dyn Specimen, facing: &Facing<'_>, sun: Dir<Faca
             name: *name,
             weight: 1.0,
             flux: cosine(*name),
-            straight: specimen.straight(*name, Side::Front),
+            straight: model.straight(*name, Side::Front),
             turned: Vec::new(),
         };
         let parts: Vec<Part> = names.iter().map(part).collect();
@@ -328,7 +328,7 @@ impl Pieces {
             let cosine = to.vector().z;
             let normal = exitance / cosine;
             let error = error + TURNED[usize::from(fan)];
-            let beam = BeamLight { to, exitance, normal, straight: false, error, doubt: 0.0 };
+            let beam = BeamLight { to, exitance, normal, straight: false, error, uncertainty: 0.0 };
             (cosine > 1e-6 && exitance > 0.0).then_some(beam)
         };
         self.0.into_values().filter_map(beam).collect()
@@ -342,14 +342,14 @@ mod tests {
     use crate::compute::direction::{Orientation, Surface as Face};
     use crate::compute::sky::{Distribution, Outside, Sun};
 
-    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
+    use crate::compute::system::slats::{SlatArray, SlatModel, SlatProfile, Surface};
 
     /// Level flat slats, as far apart as 0.9 of their width, let 1 − tanψ/0.9 pass. Of a disc whose middle lies beyond
     /// that by a part of its radius the rest is seen through them, down to a sliver at the rim.
     #[test]
     fn what_begins_to_pass_at_the_rim_counts() {
         let flat = SlatProfile::Flat { width: 0.08 };
-        let specimen = SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, 0.0, [Surface::matt(0.5); 2]).unwrap());
+        let specimen = SlatModel::new(SlatArray::new(flat, 0.0, 0.072, 0.0, [Surface::matt(0.5); 2]).unwrap());
         let psi = 0.9_f64.atan();
         let outside = Outside::new(Distribution::uniform(), 0.0).unwrap();
         for (beyond, bound) in [(0.0_f64, 0.02), (0.5, 0.03), (0.8, 0.1), (0.9, 0.3)] {

@@ -29,7 +29,7 @@ pub struct CellLight {
     pub sun: Vec<f64>,
     /// Uncertainties of `diffuse` plus `sun`, each signed and by cell: difference to a simpler interpolation between
     /// the data, uncertainty of the place of a lobe. Independent of one another. \[cd/m²\]
-    pub doubts: Vec<Vec<f64>>,
+    pub uncertainties: Vec<Vec<f64>>,
     /// Estimated relative error of the luminances.
     pub relative_error: f64,
 }
@@ -141,7 +141,7 @@ impl Emission {
         emission.beams.extend(BeamLight::regular(btdf.regular.as_ref(), facing));
         emission.beam_source = match &btdf.scattered {
             _ if sun_direction.is_none() => BeamSource::None,
-            _ if emission.beams.iter().any(|beam| beam.doubt > 0.0) => BeamSource::Extracted,
+            _ if emission.beams.iter().any(|beam| beam.uncertainty > 0.0) => BeamSource::Extracted,
             _ if !emission.beams.is_empty() => BeamSource::Described,
             None | Some(Scattered::Lambert(_)) => BeamSource::None,
             Some(_) => BeamSource::Cells,
@@ -174,7 +174,7 @@ impl Emission {
                 emission.cells.push(CellLight {
                     basis: Arc::new(matrix.emergent().clone()),
                     diffuse: matrix.luminance(&values),
-                    doubts: Vec::new(),
+                    uncertainties: Vec::new(),
                     sun: if sun.is_empty() { vec![0.0; matrix.emergent().len()] } else { sun },
                     relative_error: relative(emission.incident_diffuse),
                 });
@@ -200,7 +200,7 @@ impl Emission {
                     basis: Arc::new(data.emergent().clone()),
                     diffuse,
                     sun,
-                    doubts: Vec::new(),
+                    uncertainties: Vec::new(),
                     relative_error: relative(emission.incident_diffuse),
                 });
             }
@@ -214,7 +214,7 @@ impl Emission {
                     basis: Arc::new(basis),
                     diffuse,
                     sun,
-                    doubts: Vec::new(),
+                    uncertainties: Vec::new(),
                     relative_error: relative(emission.incident_diffuse) + TREE_CELL_ERROR,
                 });
             }
@@ -259,18 +259,19 @@ impl Emission {
 
     /// Whether the data cause an uncertainty.
     pub fn is_uncertain(&self) -> bool {
-        self.cells.iter().any(|light| !light.doubts.is_empty())
+        self.cells.iter().any(|light| !light.uncertainties.is_empty())
             || self.regular.as_ref().is_some_and(AngularTransmittance::is_estimated)
-            || self.beams.iter().any(|beam| beam.doubt > 0.0)
+            || self.beams.iter().any(|beam| beam.uncertainty > 0.0)
     }
 
     /// Returns the uncertainty of [`Self::exitance`] that the data cause. \[lm/m²\]
-    pub fn exitance_doubt(&self) -> f64 {
-        let flux = |light: &CellLight, doubt: &Vec<f64>| -> f64 {
-            light.basis.cells().zip(doubt).map(|(cell, l)| cell.projected_solid_angle() * l).sum()
+    pub fn exitance_uncertainty(&self) -> f64 {
+        let flux = |light: &CellLight, uncertainty: &Vec<f64>| -> f64 {
+            light.basis.cells().zip(uncertainty).map(|(cell, l)| cell.projected_solid_angle() * l).sum()
         };
-        let on_cells = |light: &CellLight| light.doubts.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
-        let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.doubt).sum();
+        let on_cells =
+            |light: &CellLight| light.uncertainties.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
+        let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.uncertainty).sum();
         // By degrees, as a uniform outside sends it.
         let even = |degree: usize| (2.0 * (degree as f64 + 0.5).to_radians()).sin() * PI / 180.0;
         let even = std::array::from_fn(|degree| self.incident_diffuse.value * even(degree));

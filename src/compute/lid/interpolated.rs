@@ -106,11 +106,11 @@ impl Interpolator {
             light.shifts.push(light.luminance.iter().zip(&other).map(|(a, b)| a - b).collect());
             light.luminance = other;
         }
-        let told = "`cfs accuracy` tells what leaving out each direction costs";
+        let text = "`cfs accuracy` tells what leaving out each direction costs";
         let note = match (scheme, model.lattice().locate(direction).triangle) {
-            (SunScheme::Responses, Some(_)) => format!("responses (lobes moved by their own neighbours); {told}"),
+            (SunScheme::Responses, Some(_)) => format!("responses (lobes moved by their own neighbours); {text}"),
             (SunScheme::Responses, None) => "beyond the last row of incident directions: as on its border".into(),
-            _ => format!("{}, as asked for; {told}", scheme.key()),
+            _ => format!("{}, as asked for; {text}", scheme.key()),
         };
         (light, note)
     }
@@ -137,13 +137,13 @@ impl Emission {
             None => (own, diffuse, CellLuminance::dark(own.basis().len())),
         };
         let relative = if incident_diffuse.value > 0.0 { incident_diffuse.error / incident_diffuse.value } else { 0.0 };
-        let mut doubts = sun.shifts;
-        doubts.push(diffuse.doubt.iter().zip(&sun.doubt).map(|(a, b)| a + b).collect());
+        let mut uncertainties = sun.shifts;
+        uncertainties.push(diffuse.uncertainty.iter().zip(&sun.uncertainty).map(|(a, b)| a + b).collect());
         let cells = CellLight {
             basis: Arc::new(grid.basis().clone()),
             diffuse: diffuse.luminance,
             sun: sun.luminance,
-            doubts,
+            uncertainties,
             relative_error: relative + REST,
         };
         Self {

@@ -11,7 +11,7 @@ impl Emission {
     pub fn scaled(mut self, factor: f64) -> Self {
         self.uniform = self.uniform * factor;
         for light in &mut self.cells {
-            let parts = [&mut light.diffuse, &mut light.sun].into_iter().chain(&mut light.doubts);
+            let parts = [&mut light.diffuse, &mut light.sun].into_iter().chain(&mut light.uncertainties);
             parts.flatten().for_each(|l| *l *= factor);
         }
         self.bands.iter_mut().for_each(|bands| bands.illuminance *= factor);
@@ -39,14 +39,14 @@ impl Emission {
                         basis: Arc::clone(&light.basis),
                         diffuse: dark(),
                         sun: dark(),
-                        doubts: vec![dark(); light.doubts.len()],
+                        uncertainties: vec![dark(); light.uncertainties.len()],
                         relative_error: 0.0,
                     });
                 }
                 let own = &mut sum.cells[k];
                 own.relative_error = own.relative_error.max(light.relative_error);
                 let pairs = [(&mut own.diffuse, &light.diffuse), (&mut own.sun, &light.sun)];
-                for (to, from) in pairs.into_iter().chain(own.doubts.iter_mut().zip(&light.doubts)) {
+                for (to, from) in pairs.into_iter().chain(own.uncertainties.iter_mut().zip(&light.uncertainties)) {
                     to.iter_mut().zip(from).for_each(|(to, from)| *to += weight * from);
                 }
             }

@@ -8,7 +8,7 @@ mod facing;
 mod intensities;
 mod interpolated;
 mod lamp;
-mod leaf_doubt;
+mod leaf_uncertainty;
 mod mixed;
 mod patch_uncertainty;
 pub mod peaks;

@@ -18,17 +18,17 @@ impl Emission {
     pub fn estimate_patch_uncertainty(&mut self) {
         let Some(light) = self.cells.first_mut() else { return };
         let value = |d: DVec3| Dir::new(d).filter(|_| d.z > 0.0).and_then(|d| light.basis.index(d));
-        let mut doubts = [const { Vec::new() }; 3];
+        let mut uncertainties = [const { Vec::new() }; 3];
         for (cell, own) in light.basis.cells().zip(&light.diffuse) {
             let (v, width) = (cell.centre().vector(), cell.solid_angle().sqrt());
             let [[left, right], [below, above]] = [DVec3::X, DVec3::Y].map(|axis| {
                 let step = width * (axis - v * axis.dot(v)).normalize_or_zero();
                 [v - step, v + step].map(|d| value(d).map_or(*own, |k| light.diffuse[k]))
             });
-            doubts[0].push(HALVES * (right - left));
-            doubts[1].push(HALVES * (above - below));
-            doubts[2].push(MIDDLE * (own - 0.25 * (left + right + below + above)));
+            uncertainties[0].push(HALVES * (right - left));
+            uncertainties[1].push(HALVES * (above - below));
+            uncertainties[2].push(MIDDLE * (own - 0.25 * (left + right + below + above)));
         }
-        light.doubts.extend(doubts);
+        light.uncertainties.extend(uncertainties);
     }
 }

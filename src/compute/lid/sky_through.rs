@@ -16,7 +16,7 @@ use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Estimate;
 use crate::compute::sky::{Frame, incident_illuminances_within};
-use crate::compute::system::measure::{Beam, ProfileLight, Side, Specimen, Structure, front_basis};
+use crate::compute::system::measure::{Beam, OpticalModel, ProfileLight, Side, Structure, front_basis};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -90,14 +90,14 @@ pub(super) fn band_of(psi: f64) -> usize {
 }
 
 /// Returns the beams of light from inside that are transmitted in another direction than undeviated.
-fn turned_back(specimen: &dyn Specimen, name: Dir<Facade>) -> impl Iterator<Item = Beam> {
-    let beams = specimen.beams_about(name, Side::Back, ABOUT).into_iter();
+fn turned_back(model: &dyn OpticalModel, name: Dir<Facade>) -> impl Iterator<Item = Beam> {
+    let beams = model.beams_about(name, Side::Back, ABOUT).into_iter();
     beams.filter(move |beam| beam.transmitted && !is_straight(beam, name) && beam.share > FAINT)
 }
 
 /// Returns the share of light from outside that is transmitted undeviated.
-fn straight_about(specimen: &dyn Specimen, name: Dir<Facade>) -> f64 {
-    let beams = specimen.beams_about(name, Side::Front, ABOUT).into_iter();
+fn straight_about(model: &dyn OpticalModel, name: Dir<Facade>) -> f64 {
+    let beams = model.beams_about(name, Side::Front, ABOUT).into_iter();
     beams.filter(|beam| beam.transmitted && is_straight(beam, name)).map(|beam| beam.share).sum()
 }
 
@@ -120,16 +120,16 @@ struct StraightLattice {
 impl StraightLattice {
     /// Creates the lattice; `None` where it does not suit, or where results depend on the profile angle alone, which is
     /// quick.
-    fn new(specimen: &dyn Specimen) -> Option<Self> {
-        let Structure::Along { upright } = specimen.structure() else { return None };
-        if specimen.by_profile_alone().is_some() {
+    fn new(model: &dyn OpticalModel) -> Option<Self> {
+        let Structure::Along { upright } = model.structure() else { return None };
+        if model.by_profile_alone().is_some() {
             return None;
         }
         let rows = (0..=ALONG)
             .into_par_iter()
             .map(|row| {
                 let along = (0.99 * FRAC_PI_2 * row as f64 / ALONG as f64).sin();
-                let share = |band: usize| straight_about(specimen, name_of(upright, along, middle(band)));
+                let share = |band: usize| straight_about(model, name_of(upright, along, middle(band)));
                 (0..BANDS).map(share).collect()
             })
             .collect();
@@ -152,27 +152,27 @@ impl StraightLattice {
 
 impl SkyThrough {
     /// Computes the response of a system, in parallel; its light is put on [`sun_cells`].
-    pub fn new(specimen: &dyn Specimen) -> Self {
-        Self::on(specimen, Arc::clone(sun_cells()))
+    pub fn new(model: &dyn OpticalModel) -> Self {
+        Self::on(model, Arc::clone(sun_cells()))
     }
 
     /// Computes the response of a system on given cells.
-    fn on(specimen: &dyn Specimen, cells: Arc<RingBasis>) -> Self {
+    fn on(model: &dyn OpticalModel, cells: Arc<RingBasis>) -> Self {
         // What is made once for all directions is made before many threads ask side by side, and would wait for it.
         let ahead = name_of(false, 0.0, 0.0);
-        if specimen.profile_light(ahead, Side::Front).is_none() {
-            specimen.scattered_through(ahead, Side::Front, &cells);
+        if model.profile_light(ahead, Side::Front).is_none() {
+            model.scattered_through(ahead, Side::Front, &cells);
         }
         let list: Vec<_> = cells.cells().collect();
-        let lattice = StraightLattice::new(specimen);
+        let lattice = StraightLattice::new(model);
         let share = |name: Dir<Facade>| {
-            lattice.as_ref().map_or_else(|| specimen.straight(name, Side::Front), |lattice| lattice.share(name))
+            lattice.as_ref().map_or_else(|| model.straight(name, Side::Front), |lattice| lattice.share(name))
         };
         let straight = list
             .par_iter()
             .map(|cell| sub_directions(cell, POINTS).map(share).sum::<f64>() / (POINTS * POINTS) as f64)
             .collect();
-        let (turned, scattered) = (Turned::new(specimen, &cells), Scattered::new(specimen, &cells));
+        let (turned, scattered) = (Turned::new(model, &cells), Scattered::new(model, &cells));
         Self { cells, straight, turned, scattered }
     }
 
@@ -220,7 +220,7 @@ impl SkyThrough {
                 basis: Arc::clone(cells),
                 sun: vec![0.0; cells.len()],
                 diffuse: luminance,
-                doubts: Vec::new(),
+                uncertainties: Vec::new(),
                 relative_error,
             });
         }
@@ -251,14 +251,14 @@ fn through_bands(upright: bool, rows: &[ProfileLight], cells: &RingBasis, illumi
 }
 
 impl Turned {
-    fn new(specimen: &dyn Specimen, cells: &RingBasis) -> Self {
-        if let Some(upright) = specimen.by_profile_alone() {
+    fn new(model: &dyn OpticalModel, cells: &RingBasis) -> Self {
+        if let Some(upright) = model.by_profile_alone() {
             let sources: Vec<Vec<(f64, f64)>> = (0..BANDS)
                 .into_par_iter()
                 .map(|band| {
                     // Fans come in many pieces: those that fall together are one source.
                     let mut bins = std::collections::BTreeMap::<i64, (f64, f64)>::new();
-                    for beam in turned_back(specimen, name_of(upright, 0.0, middle(band))) {
+                    for beam in turned_back(model, name_of(upright, 0.0, middle(band))) {
                         let Some(name) = Dir::new(centre(&beam)) else { continue };
                         let psi = angles(upright, name).1;
                         let bin = bins.entry((psi / BIN).round() as i64).or_default();
@@ -275,7 +275,7 @@ impl Turned {
             .par_iter()
             .map(|cell| {
                 let source = |beam: Beam| Some(Source { name: Dir::new(centre(&beam))?, share: beam.share });
-                turned_back(specimen, cell.centre()).filter_map(source).collect()
+                turned_back(model, cell.centre()).filter_map(source).collect()
             })
             .collect();
         if sources.iter().any(|list| !list.is_empty()) { Self::ByCell(sources) } else { Self::None }
@@ -302,10 +302,10 @@ impl Turned {
 }
 
 impl Scattered {
-    fn new(specimen: &dyn Specimen, cells: &RingBasis) -> Self {
-        let upright = specimen.profile_light(name_of(false, 0.0, 0.0), Side::Front).map(|light| light.upright);
+    fn new(model: &dyn OpticalModel, cells: &RingBasis) -> Self {
+        let upright = model.profile_light(name_of(false, 0.0, 0.0), Side::Front).map(|light| light.upright);
         if let Some(upright) = upright {
-            let row = |band: usize| specimen.profile_light(name_of(upright, 0.0, middle(band)), Side::Front);
+            let row = |band: usize| model.profile_light(name_of(upright, 0.0, middle(band)), Side::Front);
             let rows: Option<Vec<ProfileLight>> = (0..BANDS).into_par_iter().map(row).collect();
             if let Some(rows) = rows {
                 return Self::ByProfile { upright, rows };
@@ -316,7 +316,7 @@ impl Scattered {
         let made: Vec<(Vec<f64>, f64)> = list
             .par_iter()
             .map(|cell| {
-                let light = specimen.scattered_through(cell.centre(), Side::Front, cells);
+                let light = model.scattered_through(cell.centre(), Side::Front, cells);
                 (light.transmitted, light.error)
             })
             .collect();
@@ -343,14 +343,14 @@ mod tests {
     use crate::compute::system::measure::beams::SharpBeams;
     use crate::compute::system::measure::upright::Upright;
     use crate::compute::system::panes::glazing::Pane;
-    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface as Face};
+    use crate::compute::system::slats::{SlatArray, SlatModel, SlatProfile, Surface as Face};
 
-    fn slats(tilt: f64, faces: [Face; 2]) -> SlatSpecimen {
+    fn slats(tilt: f64, faces: [Face; 2]) -> SlatModel {
         let flat = SlatProfile::Flat { width: 0.08 };
-        SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, tilt, faces).unwrap())
+        SlatModel::new(SlatArray::new(flat, 0.0, 0.072, tilt, faces).unwrap())
     }
 
-    fn panel() -> Box<dyn Specimen> {
+    fn panel() -> Box<dyn OpticalModel> {
         let sheet = Pane { index: 1.49, thickness: 0.006, absorption: 0.0 };
         Box::new(SharpBeams(CutPanel { panel: LaserCutPanel { sheet, spacing: 0.004 }, cut_loss: 0.0 }))
     }
@@ -395,7 +395,7 @@ mod tests {
             surface: Surface::Facade,
         };
         let (matt, mirror) = ([Face::matt(0.7); 2], [Face::mirror(0.8), Face::matt(0.5)]);
-        let systems: [(&str, Box<dyn Specimen>); 5] = [
+        let systems: [(&str, Box<dyn OpticalModel>); 5] = [
             ("matt, open", Box::new(slats(0.0, matt))),
             ("matt, tilted", Box::new(slats(0.6, matt))),
             ("mirror", Box::new(slats(0.2, mirror))),
@@ -430,7 +430,7 @@ mod tests {
         let cells = front_basis();
         let setting =
             crate::compute::system::measure::Setting { incident: &cells, emergent: &cells, error: 1e-3, seed: 1 };
-        for specimen in [Box::new(slats(0.4, [Face::matt(0.7); 2])) as Box<dyn Specimen>, panel()] {
+        for specimen in [Box::new(slats(0.4, [Face::matt(0.7); 2])) as Box<dyn OpticalModel>, panel()] {
             let emission = SkyThrough::new(specimen.as_ref()).emission(&facing);
             let tau = emission.exitance(&facing).value / emission.incident_diffuse.value;
             let band = specimen.examine(&setting, &crate::compute::estimate::Silent).unwrap().0;

@@ -5,7 +5,7 @@ use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::incidence::superpose::sub_patches;
-use crate::compute::system::measure::{ProfileLight, ScatteredLight, Side, Specimen};
+use crate::compute::system::measure::{OpticalModel, ProfileLight, ScatteredLight, Side};
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
@@ -30,7 +30,7 @@ fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
 }
 
 /// Computes the sunlight that a system scatters, where that depends on a profile angle alone.
-fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight> {
+fn by_profile(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<BandLight> {
     let illuminance = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
     let names = standing_for(facing, sun);
@@ -38,7 +38,7 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
     let mut mean: Option<ProfileLight> = None;
     for name in &names {
         let weight = name.vector().z.max(0.0) / cosines;
-        let own = specimen.profile_light(*name, Side::Front)?;
+        let own = model.profile_light(*name, Side::Front)?;
         let sum = mean.get_or_insert_with(|| ProfileLight { q: vec![0.0; own.q.len()], error: 0.0, ..own });
         sum.q.iter_mut().zip(&own.q).for_each(|(sum, q)| *sum += weight * q);
         sum.error += weight * own.error;
@@ -46,28 +46,28 @@ fn by_profile(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<BandLight>
     let mut light = mean?;
     if names.len() > 1 {
         // A few directions stand for a disc that covers degrees of the profile angle.
-        let middle = specimen.profile_light(sun, Side::Front)?;
-        light.error += middle.apart(&light);
+        let middle = model.profile_light(sun, Side::Front)?;
+        light.error += middle.difference(&light);
     }
     Some(BandLight { light, illuminance })
 }
 
 /// Returns q on [`sun_cells`] of the light that a system scatters from the direction `name`, and its relative error.
-pub fn scattered_of(specimen: &dyn Specimen, name: Dir<Facade>) -> (Vec<f64>, f64) {
-    let light = specimen.scattered_through(name, Side::Front, sun_cells());
+pub fn scattered_of(model: &dyn OpticalModel, name: Dir<Facade>) -> (Vec<f64>, f64) {
+    let light = model.scattered_through(name, Side::Front, sun_cells());
     let share: f64 = light.transmitted.iter().zip(sun_cells().projected_solid_angles()).map(|(q, w)| q * w).sum();
     let relative = if share > 0.0 { light.error / share } else { 0.0 };
     (light.transmitted, relative + CELL_ERROR)
 }
 
 /// Computes the sunlight that a system scatters, on [`sun_cells`]; `None` where it scatters nothing.
-fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> {
+fn scattered(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<CellLight> {
     let incident = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
     let cells = sun_cells();
     let names = standing_for(facing, sun);
     let lights: Vec<(ScatteredLight, f64)> =
-        names.iter().map(|name| (specimen.scattered_through(*name, Side::Front, cells), cosine(*name))).collect();
+        names.iter().map(|name| (model.scattered_through(*name, Side::Front, cells), cosine(*name))).collect();
     let cosines: f64 = lights.iter().map(|(_, cosine)| cosine).sum();
     let mut luminance = vec![0.0; cells.len()];
     let mut error = 0.0;
@@ -81,7 +81,7 @@ fn scattered(specimen: &dyn Specimen, facing: &Facing<'_>) -> Option<CellLight> 
         basis: Arc::clone(cells),
         diffuse: vec![0.0; cells.len()],
         sun: luminance,
-        doubts: Vec::new(),
+        uncertainties: Vec::new(),
         relative_error: error / total + CELL_ERROR,
     })
 }
@@ -96,15 +96,15 @@ pub struct SunThrough {
 
 impl SunThrough {
     /// Computes the beams and the scattered light of a system.
-    pub fn new(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
-        let bands = by_profile(specimen, facing);
-        let cells = if bands.is_none() { scattered(specimen, facing) } else { None };
-        Self { illuminance: facing.sun_illuminance(), beams: sun_beams(specimen, facing), bands, cells }
+    pub fn new(model: &dyn OpticalModel, facing: &Facing<'_>) -> Self {
+        let bands = by_profile(model, facing);
+        let cells = if bands.is_none() { scattered(model, facing) } else { None };
+        Self { illuminance: facing.sun_illuminance(), beams: sun_beams(model, facing), bands, cells }
     }
 
     /// Computes the beams of a system alone, without its scattered light.
-    pub fn beams_alone(specimen: &dyn Specimen, facing: &Facing<'_>) -> Self {
-        let beams = sun_beams(specimen, facing);
+    pub fn beams_alone(model: &dyn OpticalModel, facing: &Facing<'_>) -> Self {
+        let beams = sun_beams(model, facing);
         Self { illuminance: facing.sun_illuminance(), beams, bands: None, cells: None }
     }
 

@@ -35,7 +35,7 @@ impl Beam {
     /// mean over a patch is zero except at the edges.
     pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         let mut lit = Vec::with_capacity(3);
-        let mut landed = 0.0;
+        let mut incident = 0.0;
         for (number, wall) in mesh.walls.iter().enumerate() {
             let towards = wall.normal.dot(self.from);
             if towards <= 1e-9 {
@@ -47,14 +47,14 @@ impl Beam {
                 DVec2::new(hit[wall.along[0]], hit[wall.along[1]])
             };
             let whole = [0, 1].map(|side| [wall.lines[side][0], wall.lines[side][wall.lines[side].len() - 1]]);
-            let thrown: Vec<DVec2> = self.opening.iter().map(|corner| project(*corner)).collect();
-            let corners = overlap(&thrown, whole);
+            let projected: Vec<DVec2> = self.opening.iter().map(|corner| project(*corner)).collect();
+            let corners = overlap(&projected, whole);
             if corners.len() >= 3 {
-                landed += area(&corners).abs() * towards;
+                incident += area(&corners).abs() * towards;
                 lit.push(Lit { wall: number, corners, illuminance: towards });
             }
         }
-        let scale = if landed > 0.0 { self.flux / landed } else { 0.0 };
+        let scale = if incident > 0.0 { self.flux / incident } else { 0.0 };
         lit.iter_mut().for_each(|one| one.illuminance *= scale);
         lit
     }

@@ -92,7 +92,7 @@ pub fn beams_past(
         };
         let e = beam.normal * e;
         sum += Estimate::new(e, e * beam.error + beam.normal * off);
-        data_error += e * beam.doubt;
+        data_error += e * beam.uncertainty;
     }
     DirectLight { all: sum, beam: sum.value, data_error }
 }

@@ -86,8 +86,9 @@ pub fn illuminance(
     for (light, reception) in emission.cells.iter().zip(receptions) {
         let e: f64 =
             reception.cells.iter().zip(light.diffuse.iter().zip(&light.sun)).map(|(w, (d, s))| w * (d + s)).sum();
-        let at_sensor = |doubt: &Vec<f64>| reception.cells.iter().zip(doubt).map(|(w, l)| w * l).sum::<f64>();
-        data_error += light.doubts.iter().map(|doubt| at_sensor(doubt).powi(2)).sum::<f64>().sqrt();
+        let at_sensor =
+            |uncertainty: &Vec<f64>| reception.cells.iter().zip(uncertainty).map(|(w, l)| w * l).sum::<f64>();
+        data_error += light.uncertainties.iter().map(|uncertainty| at_sensor(uncertainty).powi(2)).sum::<f64>().sqrt();
         sum += Estimate::new(e, e * light.relative_error);
     }
     for (bands, weights) in emission.bands.iter().zip(weights.into_iter().cycle()) {
@@ -145,7 +146,7 @@ pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], 
         };
         let e = beam.normal * e;
         sum += Estimate::new(e, e * beam.error);
-        data_error += e * beam.doubt;
+        data_error += e * beam.uncertainty;
     }
     DirectLight { all: sum, beam: sum.value, data_error }
 }

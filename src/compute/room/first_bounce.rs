@@ -4,7 +4,7 @@ use super::aperture::{Aperture, View};
 use super::beam::{Beam, Lit, merged};
 use super::direct::Sensor;
 use super::mesh::Mesh;
-use super::outline::{Outline, thrown_on_patches};
+use super::outline::{Outline, patch_illuminances};
 use super::patch_weights::{MOST_CELLS, PatchWeights, merged_cells, merging, points_a_side, rules, samples};
 use super::radiosity::Radiosity;
 use super::through;
@@ -40,7 +40,7 @@ pub struct BeamLanding {
     /// Outlines of the lit pieces with the exitance that they reflect at once.
     pub outlines: Vec<Outline>,
     /// Mean illuminance of every patch from these outlines, the input of the balance of the patches for beams. \[lx\]
-    pub thrown: Vec<f64>,
+    pub reflected: Vec<f64>,
     /// Mean illuminance of every patch by the beams themselves, for views of the patches. \[lx\]
     pub direct: Vec<f64>,
     /// Share of the outlines' flux that the closure added or removed.
@@ -61,7 +61,7 @@ pub fn from_even(radiosity: &Radiosity, index: usize, aperture: &Aperture) -> Ve
         return radiosity.illuminance_from_aperture(index);
     }
     // Too small for a patch: an outline has no neighbours to share lines with.
-    thrown_on_patches(mesh, &[Outline::of_aperture(mesh, aperture, 1.0)]).0
+    patch_illuminances(mesh, &[Outline::of_aperture(mesh, aperture, 1.0)]).0
 }
 
 impl FirstLight {
@@ -155,14 +155,14 @@ impl FirstLight {
 
     /// Adds scattered light that is uniform over convex pieces of a wall with an aperture in it. \[lm/m²\]
     pub fn add_outlines(&mut self, mesh: &Mesh, outlines: &[Outline]) {
-        self.add_diffuse(thrown_on_patches(mesh, outlines));
+        self.add_diffuse(patch_illuminances(mesh, outlines));
     }
 
     /// Adds light on cells that is known as uniform over few parts of an aperture (`coarse`, which leaves all other
     /// parts out) but leaves it as in `fine`. The light of a patch is shifted as if it left in all directions alike.
     pub fn add_shifted(&mut self, mesh: &Mesh, mut on_cells: Self, coarse: &[Outline], fine: &[Outline]) {
         let before = std::mem::take(&mut on_cells.diffuse);
-        let (few, many) = (thrown_on_patches(mesh, coarse).0, thrown_on_patches(mesh, fine).0);
+        let (few, many) = (patch_illuminances(mesh, coarse).0, patch_illuminances(mesh, fine).0);
         let shifted: Vec<f64> = before
             .iter()
             .zip(few.iter().zip(&many))
@@ -197,12 +197,12 @@ impl FirstLight {
         few.iter().for_each(|beam| beam.add_to(mesh, &mut direct));
         // Points see every outline as it is; the patches, from which light is reflected on, see those of a fan
         // together.
-        let (thrown, gap) = if few.len() < self.beams.len() {
-            thrown_on_patches(mesh, &few.iter().flat_map(|beam| beam.outlines(mesh)).collect::<Vec<_>>())
+        let (reflected, gap) = if few.len() < self.beams.len() {
+            patch_illuminances(mesh, &few.iter().flat_map(|beam| beam.outlines(mesh)).collect::<Vec<_>>())
         } else {
-            thrown_on_patches(mesh, &outlines)
+            patch_illuminances(mesh, &outlines)
         };
-        Some(BeamLanding { outlines, thrown, direct, gap })
+        Some(BeamLanding { outlines, reflected, direct, gap })
     }
 
     fn add_diffuse(&mut self, (part, gap): (Vec<f64>, f64)) {

@@ -68,35 +68,35 @@ fn points(size: f64, distance: f64) -> usize {
 
 /// Computes the mean illuminance of every patch from all outlines, each scaled to the flux that it reflects; and the
 /// share of the flux that the scaling added or removed.
-pub fn thrown_on_patches(mesh: &Mesh, outlines: &[Outline]) -> (Vec<f64>, f64) {
+pub fn patch_illuminances(mesh: &Mesh, outlines: &[Outline]) -> (Vec<f64>, f64) {
     let rules: Vec<_> = (0..=MOST_POINTS).map(gauss_legendre).collect();
     let mut sums = vec![0.0; mesh.patches.len()];
     let (mut gaps, mut fluxes) = (0.0, 0.0);
     for outline in outlines {
-        let shining = Shining::new(mesh, outline, &rules);
+        let emitter = Emitter::new(mesh, outline, &rules);
         let factors: Vec<f64> = mesh
             .patches
             .par_iter()
             .with_min_len(128)
             .map(
                 |patch| {
-                    if patch.wall == outline.wall { 0.0 } else { shining.on(&mesh.walls[patch.wall], patch, &rules) }
+                    if patch.wall == outline.wall { 0.0 } else { emitter.on(&mesh.walls[patch.wall], patch, &rules) }
                 },
             )
             .collect();
         let received: f64 = factors.iter().zip(&mesh.patches).map(|(f, patch)| f * patch.area).sum();
         if received > 0.0 {
-            let scale = shining.area / received;
+            let scale = emitter.area / received;
             sums.iter_mut().zip(&factors).for_each(|(sum, f)| *sum += outline.exitance * scale * f);
-            gaps += (scale - 1.0).abs() * (outline.exitance * shining.area).abs();
-            fluxes += (outline.exitance * shining.area).abs();
+            gaps += (scale - 1.0).abs() * (outline.exitance * emitter.area).abs();
+            fluxes += (outline.exitance * emitter.area).abs();
         }
     }
     (sums, if fluxes > 0.0 { gaps / fluxes } else { 0.0 })
 }
 
 /// An outline with all that its exchange with patches needs.
-struct Shining {
+struct Emitter {
     corners: Vec<DVec3>,
     normal: DVec3,
     /// Corners of the smallest box around the outline.
@@ -107,7 +107,7 @@ struct Shining {
     samples: Vec<Vec<(DVec3, f64)>>,
 }
 
-impl Shining {
+impl Emitter {
     fn new(mesh: &Mesh, outline: &Outline, rules: &[Vec<(f64, f64)>]) -> Self {
         let wall = &mesh.walls[outline.wall];
         let corners: Vec<DVec3> = outline.corners.iter().map(|p| wall.point(p.x, p.y)).collect();
@@ -209,7 +209,7 @@ mod tests {
     fn an_outline_that_fills_a_wall_is_that_wall() {
         let nested = Nested::with_about(&room(1.0), &[], &[], 640).unwrap();
         let (thrown, gap) =
-            thrown_on_patches(&nested.fine, &[on_floor([[0.0, 0.0], [4.0, 0.0], [4.0, 6.0], [0.0, 6.0]])]);
+            patch_illuminances(&nested.fine, &[on_floor([[0.0, 0.0], [4.0, 0.0], [4.0, 6.0], [0.0, 6.0]])]);
         // Seen from the middle of a patch in closed form: near enough away from the edges of the floor.
         for (patch, e) in nested.fine.patches.iter().zip(&thrown).filter(|(patch, _)| patch.wall == 1) {
             let wall = &nested.fine.walls[1];
@@ -228,8 +228,8 @@ mod tests {
             let corner = |x: f64, y: f64| [1.0 + size * (x + 0.2 * y), 2.0 + size * (y - 0.1 * x)];
             let part =
                 |from: f64, to: f64| on_floor([corner(from, 0.0), corner(to, 0.0), corner(to, 1.0), corner(from, 1.0)]);
-            let (whole, _) = thrown_on_patches(&mesh, &[part(0.0, 1.0)]);
-            let (halves, _) = thrown_on_patches(&mesh, &[part(0.0, 0.5), part(0.5, 1.0)]);
+            let (whole, _) = patch_illuminances(&mesh, &[part(0.0, 1.0)]);
+            let (halves, _) = patch_illuminances(&mesh, &[part(0.0, 0.5), part(0.5, 1.0)]);
             assert!(largest_gap(&halves, &whole) < 8e-3, "{size}: {}", largest_gap(&halves, &whole));
         }
     }
@@ -244,7 +244,7 @@ mod tests {
             [[3.5, 5.3], [4.0, 5.3], [4.0, 6.0], [3.5, 6.0]],
         ] {
             let outline = on_floor(corners);
-            let (thrown, gap) = thrown_on_patches(&mesh, std::slice::from_ref(&outline));
+            let (thrown, gap) = patch_illuminances(&mesh, std::slice::from_ref(&outline));
             let arrived: f64 = thrown.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.area).sum();
             let left = outline.exitance * area(&outline.corners);
             assert!((arrived / left - 1.0).abs() < 1e-12, "{arrived} {left}");
@@ -260,8 +260,8 @@ mod tests {
     #[test]
     fn the_unit_of_length_does_not_matter() {
         let corners = [[1.0, 2.0], [1.4, 2.1], [1.4, 3.0], [1.0, 3.2]];
-        let (small, _) = thrown_on_patches(&mesh(1.0), &[on_floor(corners)]);
-        let (large, _) = thrown_on_patches(&mesh(1024.0), &[on_floor(corners.map(|p| p.map(|x| 1024.0 * x)))]);
+        let (small, _) = patch_illuminances(&mesh(1.0), &[on_floor(corners)]);
+        let (large, _) = patch_illuminances(&mesh(1024.0), &[on_floor(corners.map(|p| p.map(|x| 1024.0 * x)))]);
         assert!(largest_gap(&large, &small) < 1e-11);
     }
 
@@ -270,7 +270,7 @@ mod tests {
         let radiosity = Radiosity::new(Nested::with_about(&room(1.0), &[], &[], 640).unwrap()).unwrap();
         let patches = &radiosity.nested.fine.patches;
         let outline = on_floor([[1.0, 2.0], [1.07, 2.0], [1.07, 2.4], [1.0, 2.4]]);
-        let (thrown, _) = thrown_on_patches(&radiosity.nested.fine, std::slice::from_ref(&outline));
+        let (thrown, _) = patch_illuminances(&radiosity.nested.fine, std::slice::from_ref(&outline));
         let exitance = radiosity.exitance(&thrown);
         let absorbed: f64 = patches
             .iter()

@@ -326,12 +326,12 @@ impl FaceLight {
 
     /// Calls `tell` with the index and weight of each value in the light at a place; not at all where there is no
     /// panel.
-    pub fn weigh(&self, at: [f64; 2], mut tell: impl FnMut(usize, f64)) {
+    pub fn weigh(&self, at: [f64; 2], mut visit: impl FnMut(usize, f64)) {
         if let Part::Panel { limits, nodes, first, .. } = self.part(at) {
             if *nodes == 1 {
-                tell(*first, 1.0);
+                visit(*first, 1.0);
             } else {
-                weights(limits, at).into_iter().enumerate().for_each(|(k, weight)| tell(first + k, weight));
+                weights(limits, at).into_iter().enumerate().for_each(|(k, weight)| visit(first + k, weight));
             }
         }
     }

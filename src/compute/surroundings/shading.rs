@@ -34,8 +34,8 @@ pub fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
             }
         }
     }
-    let thrown = points.into_iter().map(|p| DVec2::from_array(face.coordinates(p - sun * (height(p) / towards))));
-    hull(thrown.collect())
+    let projected = points.into_iter().map(|p| DVec2::from_array(face.coordinates(p - sun * (height(p) / towards))));
+    hull(projected.collect())
 }
 
 /// Returns the convex hull, counter-clockwise (Andrew's chains).

@@ -1,13 +1,13 @@
 //! Interface of the families of systems, between a description and the rest of the program.
 
-use super::measure::Specimen;
+use super::measure::OpticalModel;
 
 /// Error of a description without optical model: what is wrong and what would be right.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
-pub struct NoSpecimen(pub String);
+pub struct OpticalModelError(pub String);
 
-impl NoSpecimen {
+impl OpticalModelError {
     /// Creates the error from the cause.
     pub fn because(error: impl std::fmt::Display) -> Self {
         Self(error.to_string())
@@ -59,7 +59,7 @@ pub trait Family {
     ///
     /// # Errors
     /// Returns an error if the geometry encloses nothing, if values are impossible, or for a stack.
-    fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen>;
+    fn optical_model(&self, state: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError>;
 }
 
 /// Height of the piece of a plain sheet that is drawn. \[m\]

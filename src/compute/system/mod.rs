@@ -15,12 +15,12 @@ pub mod sheets;
 pub mod slats;
 pub mod stack;
 
-pub use family::{Family, NoSpecimen, state_key};
+pub use family::{Family, OpticalModelError, state_key};
 
 use clear::prism::Prisms;
 use clear::redirecting::RedirectingGlass;
 use laser_cut::CutPanel;
-use measure::Specimen;
+use measure::OpticalModel;
 use measure::upright::Upright;
 use panes::PaneStack;
 use sheets::{Diffuser, Perforated, Woven};
@@ -97,14 +97,15 @@ impl SystemDescription {
     /// # Errors
     /// Returns an error for an unknown state, for geometry that encloses nothing, and for a stack, whose layers only
     /// its caller can find.
-    pub fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+    pub fn optical_model(&self, state: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
         let family = self.family();
         let states = self.states();
         if !states.iter().any(|key| key == state) {
             let states: Vec<String> = states.iter().map(|key| format!("\"{key}\"")).collect();
-            return Err(NoSpecimen(format!("no such state; its states are {}", states.join(", "))));
+            return Err(OpticalModelError(format!("no such state; its states are {}", states.join(", "))));
         }
-        let made = family.specimen(state).map_err(|error| NoSpecimen(format!("{}: {error}", family.word())))?;
+        let made =
+            family.optical_model(state).map_err(|error| OpticalModelError(format!("{}: {error}", family.word())))?;
         Ok(if self.upright { Box::new(Upright(made)) } else { made })
     }
 }

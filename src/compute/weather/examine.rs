@@ -34,7 +34,7 @@ pub struct Summary {
     /// Hours of sunshine: 120 W/m² or more on a plane that faces the sun (WMO).
     pub sunshine_hours: f64,
     /// Number of records for which the file has plausible illuminances.
-    pub told: usize,
+    pub with_illuminances: usize,
     /// Number of records with light but without diffuse part.
     pub without_sky: usize,
     /// Number of missing intervals.
@@ -83,7 +83,7 @@ impl Weather {
             sums: Sums::default(),
             lit_hours: 0.0,
             sunshine_hours: 0.0,
-            told: 0,
+            with_illuminances: 0,
             without_sky: 0,
             missing,
             closure,
@@ -209,7 +209,7 @@ impl Weather {
             }
             lit += 1;
             dew += usize::from(record.dew_point.is_some());
-            summary.told += usize::from(hour.light == LightSource::File);
+            summary.with_illuminances += usize::from(hour.light == LightSource::File);
             summary.without_sky += usize::from(hour.diffuse_horizontal_irradiance == 0.0);
             summary.lit_hours += length;
             if hour.direct_normal_irradiance >= SUNSHINE {
@@ -267,8 +267,8 @@ impl Weather {
             let message = "no dew points: luminous efficacies are those of 2 cm of water in the air";
             findings.push(Finding::info("dew-point-missing", message));
         }
-        if self.quantity != Quantity::NormalIlluminance && summary.told < lit {
-            let rows = lit - summary.told;
+        if self.quantity != Quantity::NormalIlluminance && summary.with_illuminances < lit {
+            let rows = lit - summary.with_illuminances;
             let message = format!(
                 "{rows} of {lit} lit rows without plausible illuminances: light = \"file\" takes luminous efficacy there"
             );

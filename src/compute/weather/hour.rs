@@ -262,11 +262,13 @@ impl Hours<'_> {
         [hour.direct_normal_irradiance, hour.diffuse_horizontal_irradiance] = irradiances;
         let (state, by_model) = by_efficacy(irradiances[0], irradiances[1]);
         hour.state = state;
-        let told = light.or_else(|| (self.light == LightSource::File).then(|| told(record, irradiances)).flatten());
-        if told.is_some() {
+        let reported = light.or_else(|| {
+            (self.light == LightSource::File).then(|| reported_illuminances(record, irradiances)).flatten()
+        });
+        if reported.is_some() {
             hour.light = LightSource::File;
         }
-        [hour.direct_normal, hour.diffuse_horizontal] = told.unwrap_or(by_model);
+        [hour.direct_normal, hour.diffuse_horizontal] = reported.unwrap_or(by_model);
         Ok(hour)
     }
 }
@@ -319,7 +321,7 @@ fn water(dew_point: f64) -> f64 {
 }
 
 /// Returns the file's own illuminances where both are present and plausible for their irradiances.
-fn told(record: &Record, [direct, diffuse]: [f64; 2]) -> Option<[f64; 2]> {
+fn reported_illuminances(record: &Record, [direct, diffuse]: [f64; 2]) -> Option<[f64; 2]> {
     let plausible = |light: Option<f64>, power: f64, least: f64, most: f64| match light {
         _ if power <= 0.0 => Some(0.0),
         Some(light) if (least * power..=most * power).contains(&light) => Some(light),

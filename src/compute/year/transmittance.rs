@@ -14,7 +14,7 @@ use crate::compute::direction::{Dir, Facade, Incident};
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::lattice::Lattice;
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::system::measure::{Side, Specimen};
+use crate::compute::system::measure::{OpticalModel, Side};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -85,19 +85,19 @@ impl DirectionalTransmittance {
 
     /// Creates the transmittance of a described system whose light depends on the profile angle alone; `None` for
     /// others.
-    pub fn by_profile(specimen: &dyn Specimen) -> Option<Self> {
-        let upright = specimen.by_profile_alone()?;
+    pub fn by_profile(model: &dyn OpticalModel) -> Option<Self> {
+        let upright = model.by_profile_alone()?;
         let emergent = RingBasis::even(EMERGENT);
         let weights = emergent.projected_solid_angles();
         let at = |psi: f64| {
             let (sin, cos) = psi.sin_cos();
             let name = Dir::from_unit(if upright { DVec3::new(sin, 0.0, cos) } else { DVec3::new(0.0, sin, cos) });
-            let beams = specimen.beams(name, Side::Front);
+            let beams = model.beams(name, Side::Front);
             let beams: f64 = beams.iter().filter(|beam| beam.transmitted).map(|beam| beam.share).sum();
-            match specimen.profile_light(name, Side::Front) {
+            match model.profile_light(name, Side::Front) {
                 Some(light) => (beams + light.share(), light.error),
                 None => {
-                    let light = specimen.scattered(name, Side::Front, &emergent).transmitted;
+                    let light = model.scattered(name, Side::Front, &emergent).transmitted;
                     (beams + light.iter().zip(&weights).map(|(q, w)| q * w).sum::<f64>(), 0.0)
                 }
             }
@@ -107,7 +107,7 @@ impl DirectionalTransmittance {
         let angle = |k: f64| (k * step - FRAC_PI_2).clamp(0.1 * step - FRAC_PI_2, FRAC_PI_2 - 0.1 * step);
         let nodes: Vec<(f64, f64)> = (0..=STEPS).into_par_iter().map(|k| at(angle(k as f64))).collect();
         let tau: Vec<f64> = nodes.iter().map(|(tau, _)| *tau).collect();
-        let doubt = nodes.iter().map(|(_, error)| *error).fold(0.0, f64::max);
+        let uncertainty = nodes.iter().map(|(_, error)| *error).fold(0.0, f64::max);
         let gap = |k: usize| {
             let k = (2 * k + 1) * STEPS / (2 * ASKED);
             let (middle, _) = at(angle(k as f64 + 0.5));
@@ -115,7 +115,7 @@ impl DirectionalTransmittance {
         };
         let between =
             ((0..ASKED).into_par_iter().map(gap).collect::<Vec<_>>().iter().sum::<f64>() / ASKED as f64).sqrt();
-        Some(Self { regular: None, scattered: Rest::Profile { upright, tau }, error: doubt + between })
+        Some(Self { regular: None, scattered: Rest::Profile { upright, tau }, error: uncertainty + between })
     }
 
     /// Returns the absolute uncertainty of a value, without that of the interpolation between directions.
@@ -254,7 +254,7 @@ mod tests {
             upper: matt,
             lower: matt,
         };
-        let specimen = blind.specimen(&blind.states()[0]).unwrap();
+        let specimen = blind.optical_model(&blind.states()[0]).unwrap();
         let tau = DirectionalTransmittance::by_profile(specimen.as_ref()).unwrap();
         let cells = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
         let setting = Setting { incident: &cells, emergent: &cells, error: 0.005, seed: 1 };
@@ -264,7 +264,8 @@ mod tests {
             assert!((own - other).abs() < 0.012 && (0.0..=1.0).contains(own), "cell {cell}: {own} {other}");
         }
         assert!(tau.error() < 0.01, "{}", tau.error());
-        let turned = crate::compute::system::measure::upright::Upright(blind.specimen(&blind.states()[0]).unwrap());
+        let turned =
+            crate::compute::system::measure::upright::Upright(blind.optical_model(&blind.states()[0]).unwrap());
         let upright = DirectionalTransmittance::by_profile(&turned).unwrap();
         // What was up points to the right as seen from outside.
         let (up, right) = (Dir::from_theta_phi(0.9, FRAC_PI_2), Dir::from_theta_phi(0.9, 0.0));

@@ -8,7 +8,7 @@
 
 use super::document::children;
 use crate::compute::btdf::{Dataset, DescribedState, Finding};
-use crate::formats::beams::{Fingerprint, Told, VERSION, not_restored};
+use crate::formats::beams::{Fingerprint, StoredDescription, VERSION, not_restored};
 use roxmltree::{Document, Node};
 
 /// Target of the instruction.
@@ -40,13 +40,13 @@ pub(super) fn described(root: Node<'_, '_>) -> Option<Result<DescribedState, Fin
             "<?{TARGET} version=\"{version}\"?> {by}; this program reads {VERSION}"
         ))));
     }
-    let told = (|| {
+    let stored = (|| {
         let described = DescribedState { text: value("text")?, state: value("state")? };
-        Some(Told { described, fingerprint: value("fingerprint")? })
+        Some(StoredDescription { described, fingerprint: value("fingerprint")? })
     })();
-    let Some(told) = told else { return Some(Err(not_restored("its instruction is not whole"))) };
-    let now = fingerprint(root, &told.described);
-    Some(told.restored(&now))
+    let Some(stored) = stored else { return Some(Err(not_restored("its instruction is not whole"))) };
+    let now = fingerprint(root, &stored.described);
+    Some(stored.restored(&now))
 }
 
 /// Returns the file with the description of its dataset in it.
@@ -67,7 +67,7 @@ pub(super) fn added(mut xml: String, dataset: &Dataset) -> String {
 }
 
 /// Whether the state key is that of the description. The format itself has no place for it.
-pub(super) fn tells_state(dataset: &Dataset) -> bool {
+pub(super) fn describes_state(dataset: &Dataset) -> bool {
     dataset.described.as_ref().is_some_and(|described| described.state == dataset.state)
 }
 

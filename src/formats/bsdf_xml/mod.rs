@@ -107,7 +107,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
         Some(Err(finding)) => dataset.findings.push(finding),
         None => {}
     }
-    dataset.tell_partly_visible();
+    dataset.report_partly_visible();
     assess::assess(&mut dataset)?;
     Ok(dataset)
 }
@@ -163,7 +163,7 @@ impl Reader<'_> {
         let words = layers::direction(block);
         let component = match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
             ["transmission"] => {
-                self.tell_without_side();
+                self.report_without_side();
                 self.without_side
             }
             ["transmission", "front"] => Component::TransmissionFront,
@@ -225,7 +225,7 @@ impl Reader<'_> {
             ));
         }
         let parsed = numbers::parse_tree(text, rank, at)?;
-        self.tell_negative(parsed.negative, title);
+        self.report_negative(parsed.negative, title);
         let axes = if outside { TreeAxes::Front } else { TreeAxes::Back };
         let tree = TensorTree::new(rank, axes, parsed.nodes)
             .map_err(|error| FormatError::new(at.clone(), error.to_string(), "a tensor tree"))?;
@@ -281,7 +281,7 @@ impl Reader<'_> {
                 *q = 0.0;
             }
         }
-        self.tell_negative(negative, title);
+        self.report_negative(negative, title);
         let map = if outside { AzimuthMap::KLEMS_FRONT } else { AzimuthMap::KLEMS_BACK };
         self.dataset.format = "bsdf-xml klems".into();
         self.dataset.incident_basis = incident.name().to_owned();
@@ -333,7 +333,7 @@ impl Reader<'_> {
         ))
     }
 
-    fn tell_without_side(&mut self) {
+    fn report_without_side(&mut self) {
         self.dataset.findings.push(Finding::info(
             "side-not-told",
             format!(
@@ -343,7 +343,7 @@ impl Reader<'_> {
         ));
     }
 
-    fn tell_negative(&mut self, (count, least): (usize, f64), title: &str) {
+    fn report_negative(&mut self, (count, least): (usize, f64), title: &str) {
         if count > 0 {
             self.dataset.findings.push(Finding::warning(
                 "negative-values",

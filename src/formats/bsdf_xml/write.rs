@@ -39,7 +39,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
 
 /// Returns findings on differences between the file and the dataset, after those of the file's head.
 fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> Vec<Finding> {
-    let mut tell = |code, text: String| findings.push(Finding::info(code, text));
+    let mut report = |code, text: String| findings.push(Finding::info(code, text));
     for component in dataset.visible.components() {
         let Some(btdf) = dataset.visible.get(component) else { continue };
         let name = component.key().replace('_', " ");
@@ -56,23 +56,23 @@ fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> 
             Some(Scattered::Cells(_)) | None => None,
         };
         if let Some(from) = from {
-            tell("resampled", format!("{name}: a {from}, averaged over the cells of {}.", basis.name()));
+            report("resampled", format!("{name}: a {from}, averaged over the cells of {}.", basis.name()));
         }
         if btdf.regular.is_some() {
-            tell("regular-in-cells", format!("{name}: light that goes straight on now fills its own cell."));
+            report("regular-in-cells", format!("{name}: light that goes straight on now fills its own cell."));
         }
         if dataset.derived.contains(&component) {
-            tell("derived-written", format!("{name}: derived, written like a block of the source."));
+            report("derived-written", format!("{name}: derived, written like a block of the source."));
         }
     }
     if dataset.solar.is_none() {
-        tell(
+        report(
             "window-solar",
             "There is no solar band; WINDOW needs one for heat gains, and none is invented.".to_owned(),
         );
     }
-    if !dataset.state.is_empty() && !beams::tells_state(dataset) {
-        tell("state-not-written", format!("The state key '{}' has no place in the format.", dataset.state));
+    if !dataset.state.is_empty() && !beams::describes_state(dataset) {
+        report("state-not-written", format!("The state key '{}' has no place in the format.", dataset.state));
     }
     findings
 }

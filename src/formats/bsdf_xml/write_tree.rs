@@ -90,7 +90,7 @@ pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatEr
         }
     }
     xml.push_str("\t\t</Layer>\n\t</Optical>\n</WindowElement>\n");
-    if !dataset.state.is_empty() && !beams::tells_state(dataset) {
+    if !dataset.state.is_empty() && !beams::describes_state(dataset) {
         findings.push(Finding::info(
             "state-not-written",
             format!("The state key '{}' has no place in the format.", dataset.state),

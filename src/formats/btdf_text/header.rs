@@ -2,7 +2,7 @@
 
 use super::{FAMILY, FORMAT};
 use crate::compute::btdf::{Component, DescribedState};
-use crate::formats::beams::{NAME, Told, VERSION};
+use crate::formats::beams::{NAME, StoredDescription, VERSION};
 use crate::formats::location::{FormatError, Location, excerpt};
 use serde::Deserialize;
 use toml::Spanned;
@@ -179,7 +179,7 @@ pub(super) struct Header {
     pub incidence: IncidenceChoice,
     pub incident_mean: bool,
     /// Whether the header omits the key that says if values are means.
-    pub mean_not_told: bool,
+    pub is_mean_unspecified: bool,
     pub symmetry: Option<Symmetry>,
     pub state: String,
     pub name: String,
@@ -188,7 +188,7 @@ pub(super) struct Header {
     pub thickness: Option<f64>,
     pub fields: CatalogueFields,
     /// Description in the header.
-    pub told: Option<Told>,
+    pub stored_description: Option<StoredDescription>,
 }
 
 /// Header and the text after it.
@@ -266,7 +266,7 @@ impl<'a> Iterator for Lines<'a> {
 fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
     let line_of =
         |byte: usize| first_line + text.as_bytes()[..byte.min(text.len())].iter().filter(|b| **b == b'\n').count();
-    let told = |error: &toml::de::Error| {
+    let located = |error: &toml::de::Error| {
         let at = Location::line(error.span().map_or(first_line, |span| line_of(span.start))).in_element("header");
         let message = error.message();
         match message.split_once(", expected ") {
@@ -275,7 +275,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
         }
     };
     // The format is checked before all keys, so that another version is not reported as unknown keys.
-    let table: toml::Table = toml::from_str(text).map_err(|error| told(&error))?;
+    let table: toml::Table = toml::from_str(text).map_err(|error| located(&error))?;
     if table.get("format").and_then(toml::Value::as_str) != Some(FORMAT) {
         let found = table
             .get("format")
@@ -294,7 +294,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
         ));
     }
     let beams = beams(&table, first_line)?;
-    let keys: Keys = toml::from_str(text).map_err(|error| told(&error))?;
+    let keys: Keys = toml::from_str(text).map_err(|error| located(&error))?;
     let at = |byte: usize, key: &str| Location::line(line_of(byte)).in_element(key);
     let incidence = *keys.incidence.get_ref();
     let incident_mean = keys.incident_mean.as_ref().is_some_and(|mean| *mean.get_ref());
@@ -321,7 +321,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
     }
     let state = keys.state.map(Key::text).unwrap_or_default();
     let described = match (beams, keys.system) {
-        (true, Some(text)) => Some(Told {
+        (true, Some(text)) => Some(StoredDescription {
             described: DescribedState { text, state: keys.system_state.unwrap_or_else(|| state.clone()) },
             fingerprint: keys.fingerprint.unwrap_or_default(),
         }),
@@ -349,7 +349,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
         }),
         incidence,
         incident_mean,
-        mean_not_told: keys.incident_mean.is_none(),
+        is_mean_unspecified: keys.incident_mean.is_none(),
         symmetry: keys.symmetry,
         state,
         name: keys.name,
@@ -373,7 +373,7 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
             },
             inside_face: keys.inside_face,
         },
-        told: described,
+        stored_description: described,
     })
 }
 
@@ -382,15 +382,15 @@ fn beams(table: &toml::Table, first_line: usize) -> Result<bool, FormatError> {
     let Some(value) = table.get("beams") else { return Ok(false) };
     let word = value.as_str().unwrap_or_default();
     let version = word.strip_prefix(NAME).and_then(|version| version.trim().parse::<u32>().ok());
-    let told = |found: String, expected: String| {
+    let wrong = |found: String, expected: String| {
         Err(FormatError::new(Location::line(first_line).in_element("header"), found, expected))
     };
     match version {
         Some(VERSION) => Ok(true),
-        Some(newer) if newer > VERSION => told(
+        Some(newer) if newer > VERSION => wrong(
             format!("beams = \"{NAME} {newer}\", written by a newer version of cfs"),
             format!("{NAME} {VERSION}, the newest that this program reads"),
         ),
-        _ => told(format!("beams = {}", excerpt(&value.to_string())), format!("beams = \"{NAME} {VERSION}\"")),
+        _ => wrong(format!("beams = {}", excerpt(&value.to_string())), format!("beams = \"{NAME} {VERSION}\"")),
     }
 }

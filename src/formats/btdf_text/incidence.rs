@@ -22,7 +22,7 @@ pub(super) fn lattice(choice: IncidenceChoice, component: Component, mean: bool)
 }
 
 /// Returns the chord between two directions, which equals their angle while it is small. \[rad\]
-pub(super) fn apart(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
+pub(super) fn chord(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
     (a.vector() - b.vector()).length()
 }
 
@@ -44,7 +44,7 @@ pub(super) fn place_on(
     let mut places = vec![None; basis.len()];
     for (k, incidence) in list.iter().enumerate() {
         let cell = basis.index(incidence.name).map(|index| (index, basis.cell(index).centre()));
-        let Some((index, _)) = cell.filter(|(_, centre)| apart(*centre, incidence.name) < SAME_DIRECTION) else {
+        let Some((index, _)) = cell.filter(|(_, centre)| chord(*centre, incidence.name) < SAME_DIRECTION) else {
             let near = cell.map(|(_, centre)| naming.file_angles(centre));
             let near = near.map(|[theta, phi]| format!(" (nearest: θ {theta}° φ {phi}°)")).unwrap_or_default();
             return Err(FormatError::new(
@@ -64,7 +64,7 @@ pub(super) fn place_on(
 /// Returns an error if a direction is listed twice.
 pub(super) fn distinct(list: &[Incidence]) -> Result<(), FormatError> {
     for (k, incidence) in list.iter().enumerate() {
-        if let Some(before) = list[..k].iter().find(|other| apart(other.name, incidence.name) < SAME_DIRECTION) {
+        if let Some(before) = list[..k].iter().find(|other| chord(other.name, incidence.name) < SAME_DIRECTION) {
             return Err(repeated(incidence, before));
         }
     }
@@ -100,7 +100,7 @@ pub(super) fn incomplete(missing: &[Dir<Facade>], total: usize, choice: Incidenc
 /// Returns a finding if parts of the hemisphere are far from any incidence of a list.
 pub(super) fn sparse(list: &[Dir<Facade>], naming: Naming) -> Option<Finding> {
     const FAR: f64 = 20.0;
-    let nearest = |d: Dir<Facade>| list.iter().map(|other| apart(*other, d)).fold(f64::INFINITY, f64::min);
+    let nearest = |d: Dir<Facade>| list.iter().map(|other| chord(*other, d)).fold(f64::INFINITY, f64::min);
     let (distance, direction) = RingBasis::equal_area(8)
         .cells()
         .map(|cell| (2.0 * (0.5 * nearest(cell.centre())).min(1.0).asin(), cell.centre()))

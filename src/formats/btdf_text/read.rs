@@ -35,18 +35,19 @@ const ROUNDING: f64 = 1.001;
 pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     let text = decode(bytes)?;
     let Split { mut header, body, body_line } = split(&text)?;
-    let told = header.told.take();
+    let stored = header.stored_description.take();
     let Measured { list, rows, basis, mut findings } = records(&header, body, body_line)?;
     findings.extend(repaired(bytes));
     plausible(&header, &list, &rows, &basis, &mut findings)?;
     let (names, rows, lattice) = complete(&header, &list, rows, &basis, &mut findings)?;
-    if header.mean_not_told {
-        let told = "The header does not say incident_mean; values are taken at the incident directions, not as means.";
-        findings.push(Finding::info("incident-mean-not-told", told));
+    if header.is_mean_unspecified {
+        let message =
+            "The header does not say incident_mean; values are taken at the incident directions, not as means.";
+        findings.push(Finding::info("incident-mean-not-told", message));
     }
-    let described = told.and_then(|told| {
-        let now = fingerprint(&header, body, &told.described);
-        told.restored(&now).map_err(|finding| findings.push(finding)).ok()
+    let described = stored.and_then(|stored| {
+        let now = fingerprint(&header, body, &stored.described);
+        stored.restored(&now).map_err(|finding| findings.push(finding)).ok()
     });
     let cells = basis.len();
     let scattered = match lattice {
@@ -225,7 +226,7 @@ fn complete(
         .cells()
         .zip(&places)
         .map(|(cell, place)| {
-            let image = || images.iter().position(|name| incidence::apart(*name, cell.centre()) < SAME_DIRECTION);
+            let image = || images.iter().position(|name| incidence::chord(*name, cell.centre()) < SAME_DIRECTION);
             place.or_else(|| image().map(|k| list.len() + k))
         })
         .collect();

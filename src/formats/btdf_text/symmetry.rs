@@ -5,7 +5,7 @@
 
 use super::SAME_DIRECTION;
 use super::header::Symmetry;
-use super::incidence::apart;
+use super::incidence::chord;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Finding;
 use crate::compute::direction::{Dir, Facade};
@@ -79,7 +79,7 @@ impl Known {
     }
 
     fn find(&self, among: usize, d: Dir<Facade>) -> Option<usize> {
-        self.names[..among].iter().position(|name| apart(*name, d) < SAME_DIRECTION)
+        self.names[..among].iter().position(|name| chord(*name, d) < SAME_DIRECTION)
     }
 
     /// Returns the measured incidence and the image by which it gives `wanted`.

@@ -83,7 +83,7 @@ struct Table {
 
 impl Table {
     fn of(btdf: &Btdf, component: Component, findings: &mut Vec<Finding>) -> Self {
-        let mut tell = |code, text: String| findings.push(Finding::info(code, text));
+        let mut report = |code, text: String| findings.push(Finding::info(code, text));
         let made;
         let (mut table, emergent) = match &btdf.scattered {
             // Only without straight light, which the format cannot say: it must go into cells first, as below.
@@ -94,7 +94,7 @@ impl Table {
                 (Self { incidence, mean: false, names, emergent: data.emergent().clone(), rows }, data.emergent())
             }
             Some(Scattered::Cells(matrix)) if btdf.regular.is_none() => {
-                (Self::of_matrix(matrix, &mut tell), matrix.emergent())
+                (Self::of_matrix(matrix, &mut report), matrix.emergent())
             }
             other => {
                 let from = match other {
@@ -106,14 +106,17 @@ impl Table {
                 // The finest incident cells whose means the format knows.
                 let incident = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
                 made = matrix_on(btdf, &incident, &even_rings(5_f64.to_radians()));
-                tell("resampled", format!("{from}, averaged over Klems' 145 incident cells and emergent rings of 5°."));
+                report(
+                    "resampled",
+                    format!("{from}, averaged over Klems' 145 incident cells and emergent rings of 5°."),
+                );
                 if btdf.regular.is_some() {
-                    tell(
+                    report(
                         "regular-in-cells",
                         "Light that goes straight on is spread over its incident cell (10° to 15°).".to_owned(),
                     );
                 }
-                (Self::of_matrix(&made, &mut tell), made.emergent())
+                (Self::of_matrix(&made, &mut report), made.emergent())
             }
         };
         // A file counts sectors from φ = 0 of its own angles. Where that only renumbers cells, values stay exact.
@@ -126,7 +129,7 @@ impl Table {
             None => {
                 let resampling = Resampling::new(&own, &table.emergent);
                 table.rows.iter_mut().for_each(|row| *row = resampling.apply(row));
-                tell(
+                report(
                     "resampled",
                     "Emergent sectors were turned by parts of a cell, since a file's first sector is centred on φ = 0."
                         .to_owned(),
@@ -138,14 +141,14 @@ impl Table {
         table
     }
 
-    fn of_matrix(matrix: &CellMatrix, tell: &mut impl FnMut(&'static str, String)) -> Self {
+    fn of_matrix(matrix: &CellMatrix, report: &mut impl FnMut(&'static str, String)) -> Self {
         let names: Vec<Dir<Facade>> = matrix.incident().cells().map(|cell| cell.centre()).collect();
         let rows = (0..names.len()).map(|k| matrix.row(k).to_vec()).collect();
         let lattice = [RingBasis::tregenza(), RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)]
             .into_iter()
             .find(|basis| same_cells(matrix.incident(), basis).is_some());
         if lattice.is_none() {
-            tell(
+            report(
                 "means-as-directions",
                 format!(
                     "Means over the {} incident cells of {} are written as values at their centres: the format knows means \

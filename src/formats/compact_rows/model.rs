@@ -96,10 +96,10 @@ pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) ->
 }
 
 /// Codes a sign, the number of binary digits one by one, then the digits after the first: the second has a context.
-fn magnitude(told: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) -> i32 {
-    let negative = bits.even(told < 0);
-    let told = told.unsigned_abs().max(1);
-    let digits = told.ilog2() as usize;
+fn magnitude(value: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) -> i32 {
+    let negative = bits.even(value < 0);
+    let absolute = value.unsigned_abs().max(1);
+    let digits = absolute.ilog2() as usize;
     let mut found = 0;
     while bits.bit(MORE + found.min(DIGITS - 1) * ACTIVITIES * LEVELS + place, digits > found) {
         found += 1;
@@ -110,7 +110,7 @@ fn magnitude(told: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) ->
     }
     let mut magnitude = 1_u32;
     for k in (0..found).rev() {
-        let digit = told >> k & 1 == 1;
+        let digit = absolute >> k & 1 == 1;
         let digit = if k + 1 == found { bits.bit(SECOND + found.min(DIGITS - 1), digit) } else { bits.even(digit) };
         magnitude = magnitude << 1 | u32::from(digit);
     }

@@ -115,7 +115,7 @@ fn solar_kind(text: &str, word: &str) -> Result<(Option<SystemKind>, [usize; 2])
         let at = Location::file().in_element("solar");
         FormatError::new(at, error.message(), "the keys of a system file")
     })?;
-    let (_, kind) = kind(&keys).map_err(solar::told)?;
+    let (_, kind) = kind(&keys).map_err(solar::located)?;
     Ok((Some(kind), materials))
 }
 

@@ -87,7 +87,7 @@ fn put(table: &mut Table, solar: Value, place: &str, properties: &[&str]) -> Res
 }
 
 /// Returns an error with its place marked as solar.
-pub(super) fn told(error: FormatError) -> FormatError {
+pub(super) fn located(error: FormatError) -> FormatError {
     let element = error.at.element.map_or_else(|| NAME.to_owned(), |inner| format!("{inner} (solar)"));
     FormatError::new(Location::file().in_element(element), error.found, error.expected)
 }

@@ -137,13 +137,13 @@ fn location(text: &str) -> Result<Station, FormatError> {
             "10: LOCATION, city, state, country, source, WMO number, latitude, longitude, time zone, elevation";
         return Err(FormatError::new(Location::line(1), found, expected));
     }
-    let told = |k: usize| Some(fields[k].text.trim()).filter(|text| *text != "-").unwrap_or_default().to_owned();
-    let number = told(5);
-    let source = if number.is_empty() { told(4) } else { format!("{} {number}", told(4)) };
+    let specified = |k: usize| Some(fields[k].text.trim()).filter(|text| *text != "-").unwrap_or_default().to_owned();
+    let number = specified(5);
+    let source = if number.is_empty() { specified(4) } else { format!("{} {number}", specified(4)) };
     let mut station = Station {
-        name: told(1),
-        region: told(2),
-        country: told(3),
+        name: specified(1),
+        region: specified(2),
+        country: specified(3),
         source: source.trim().to_owned(),
         ..Station::default()
     };

@@ -70,13 +70,18 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
         };
         values[index] = Some((number, value));
     }
-    let told = |k: usize| values[k].map_or(String::new(), |(_, text)| text.to_owned());
+    let specified = |k: usize| values[k].map_or(String::new(), |(_, text)| text.to_owned());
     let needed = |k: usize| match values[k] {
         Some((line, text)) => Ok(Field { text, line, column: KEYS[k].len() + 4, name: KEYS[k] }),
         None => Err(FormatError::new(Location::file().in_element(KEYS[k]), "missing", "this key in the table's head")),
     };
-    let mut station =
-        Station { name: told(0), region: told(1), country: told(2), source: told(3), ..Station::default() };
+    let mut station = Station {
+        name: specified(0),
+        region: specified(1),
+        country: specified(2),
+        source: specified(3),
+        ..Station::default()
+    };
     place(&mut station, [needed(4)?, needed(5)?, needed(6)?, needed(7)?], 1.0, 1.0)?;
     let clock = if values[8].is_some() { needed(8)?.within(-180.0, 180.0, "min")? } else { 0.0 };
     let tested = if values[9].is_some() { Some(closure(needed(9)?, clock)?) } else { None };

@@ -9,7 +9,7 @@ use crate::drawing::{Align, Drawing, Frame, Rgb, Shape, TEXT};
 use crate::study::moment;
 use crate::study::product_control::words;
 use crate::study::subject::{Controlled, Subject};
-use crate::texts::{fixed, hand_on as texts};
+use crate::texts::{export as texts, fixed};
 
 fn colour(states: usize, index: usize) -> Rgb {
     ColourMap::Sequential.rgb(index as f32 / (states.max(2) - 1) as f32)
@@ -36,11 +36,11 @@ pub(super) fn control(drawing: &mut Drawing, frame: Frame, subject: &Subject, in
     let now = control
         .profile_angle
         .map_or_else(|| texts::SUN_BEHIND.into(), |angle| texts::profile_angle_is(fixed(angle, 0)));
-    let mut said = vec![words(control.mode).does.to_owned(), now, state(control, control.current)];
+    let mut parts = vec![words(control.mode).does.to_owned(), now, state(control, control.current)];
     if let Some(year) = year {
-        said.push(texts::movements(year.movements));
+        parts.push(texts::movements(year.movements));
     }
-    Ok(said.join(" · "))
+    Ok(parts.join(" · "))
 }
 
 fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks) {

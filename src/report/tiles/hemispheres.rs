@@ -18,7 +18,7 @@ use crate::study::incoming::{flux_split, sun_paths};
 use crate::study::moment::{place_of_site, place_of_station};
 use crate::study::subject::Subject;
 use crate::texts::words::MONTHS;
-use crate::texts::{fixed, hand_on as texts};
+use crate::texts::{export as texts, fixed};
 
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
 /// Space around a disk for the texts at its rim.

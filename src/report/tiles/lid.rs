@@ -10,7 +10,7 @@ use crate::drawing::ticks::{self, number, si};
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT};
 use crate::study::comparison::scales::Range;
 use crate::study::subject::Subject;
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 use std::f64::consts::{PI, TAU};
 
 /// Space for the angles around the rim.

@@ -17,7 +17,7 @@ use crate::drawing::colours::Inks;
 use crate::drawing::{Drawing, Frame};
 use crate::study::comparison::scales::{self, Range};
 use crate::study::subject::{Subject, Wanted};
-use crate::texts::{Text, hand_on as texts};
+use crate::texts::{Text, export as texts};
 use std::str::FromStr;
 
 /// Kind of a tile.

@@ -13,7 +13,7 @@ use crate::study::comparison::scales::Range;
 use crate::study::scene_file::{SceneFile, SurfaceKey};
 use crate::study::scene_words::error_words;
 use crate::study::subject::Subject;
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 
 /// Floor plan on paper: depth to the right, x downwards (seen from above), the façade at the left.
 pub(crate) struct Plan {
@@ -117,10 +117,10 @@ pub(super) fn room(
     drawing.add(Shape::Text { at, text, colour, size: TEXT, align: Align::Middle, turn: -90.0 });
     legend::scale(drawing, below, &scale, "lx", inks);
     section(drawing, lower, &result.sensors, ([nx, ny], row, deep), &scale, inks);
-    let said = figures(&result.sensors);
+    let summary = figures(&result.sensors);
     Ok(match &file.sensors.plane {
-        Some(plane) => texts::e_on_plane_at(tick(plane.z), said),
-        None => texts::e_on_plane(said),
+        Some(plane) => texts::e_on_plane_at(tick(plane.z), summary),
+        None => texts::e_on_plane(summary),
     })
 }
 

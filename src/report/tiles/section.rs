@@ -3,7 +3,7 @@
 use crate::compute::system::SystemDescription;
 use crate::drawing::colours::Inks;
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT};
-use crate::texts::{decimal, hand_on as texts};
+use crate::texts::{decimal, export as texts};
 
 /// Number of periods that are drawn.
 const PERIODS: usize = 3;

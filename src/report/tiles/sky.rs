@@ -11,7 +11,7 @@ use crate::drawing::{Drawing, Frame, Shape, legend};
 use crate::study::comparison::scales::Range;
 use crate::study::moment::{height_words, sun_of_site};
 use crate::study::subject::Subject;
-use crate::texts::{fixed, hand_on as texts, words};
+use crate::texts::{export as texts, fixed, words};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Returns altitude and bearing of the middles of small pieces of the dome. \[rad\]
@@ -103,18 +103,18 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, range:
 /// Returns sun and illuminances as a text.
 fn figures(subject: &Subject, place: Option<(f64, f64)>) -> String {
     let scene = &subject.scene;
-    let mut said = vec![place.map_or_else(
+    let mut parts = vec![place.map_or_else(
         || texts::NO_SUN.into(),
         |(altitude, bearing)| {
             let bearing = bearing.to_degrees().round().rem_euclid(360.0);
             texts::sun_at(height_words(altitude.to_degrees(), 1), fixed(bearing, 0))
         },
     )];
-    said.push(texts::diffuse_horizontal(si(scene.outside.diffuse_horizontal(), "lx")));
-    said.push(texts::direct_horizontal(si(scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx")));
+    parts.push(texts::diffuse_horizontal(si(scene.outside.diffuse_horizontal(), "lx")));
+    parts.push(texts::direct_horizontal(si(scene.sun.map_or(0.0, |sun| sun.horizontal()), "lx")));
     if let Some((lid, _)) = &subject.lid {
         let (diffuse, direct) = lid.incident;
-        said.push(texts::e_on_aperture(si(diffuse.value + direct, "lx")));
+        parts.push(texts::e_on_aperture(si(diffuse.value + direct, "lx")));
     }
-    said.join(" · ")
+    parts.join(" · ")
 }

@@ -21,9 +21,9 @@ pub(super) fn year(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
         map.cell(step.month, step.time.day().unsigned_abs(), minute)
     });
     map.draw(drawing, frame, mark, inks);
-    let mut said = vec![title(look.shows), annual.year.steps.station.name.clone()];
-    said.extend(mark.map(|cell| texts::cell_is(map.when(cell), map.words(cell))));
-    Ok(said.join(" · "))
+    let mut parts = vec![title(look.shows), annual.year.steps.station.name.clone()];
+    parts.extend(mark.map(|cell| texts::cell_is(map.when(cell), map.words(cell))));
+    Ok(parts.join(" · "))
 }
 
 fn lamps(

@@ -116,7 +116,7 @@ pub fn annual(
     }
     let Some((finest, _)) = years.last() else { return Err(Cancelled.into()) };
     let area = file.room.width * file.room.depth;
-    let last = told(finest, area);
+    let last = figures_with_uncertainty(finest, area);
     let rungs = years
         .iter()
         .zip(&targets)
@@ -128,7 +128,7 @@ pub fn annual(
             errors: if k + 1 == targets.len() { Vec::new() } else { errors(year, finest) },
             stated: year.light.errors.iter().sum::<f64>()
                 / year.light.values.iter().sum::<f64>().max(f64::MIN_POSITIVE),
-            figures: beside(told(year, area), &last),
+            figures: beside(figures_with_uncertainty(year, area), &last),
         })
         .collect();
     let steps = [finest.chosen.len(), finest.chosen.len() - finest.light.dark];
@@ -180,7 +180,7 @@ fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
 }
 
 /// Returns the figures with their uncertainty by the errors of the hours.
-fn told(year: &Year, area: f64) -> Vec<YearFigure> {
+fn figures_with_uncertainty(year: &Year, area: f64) -> Vec<YearFigure> {
     let all: [Value; 3] = figures(year).map(|one| metrics::metrics(year, &one, area));
     let of = |key: &'static str| {
         let [Some(value), Some(less), Some(more)] = all.each_ref().map(|one| metrics::number(one, key)) else {

@@ -165,8 +165,8 @@ impl Ladder<'_> {
         let (finest, second) = (at(target)?, at(second)?);
         let values = finest.sensors.iter().map(|row| Estimate::new(row.total().value, row.numerical_error())).collect();
         let judge = Judge { values, outside: false };
-        let apart = Rung { errors: judge.errors(&second), ..Rung::default() };
-        let origin = Origin::FinestRun { target, rms: apart.rms(), max: apart.max() };
+        let difference = Rung { errors: judge.errors(&second), ..Rung::default() };
+        let origin = Origin::FinestRun { target, rms: difference.rms(), max: difference.max() };
         Ok((Reference { quantity, origin, stated: judge.stated() }, judge))
     }
 

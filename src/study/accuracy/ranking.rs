@@ -32,9 +32,9 @@ pub struct Pairs {
     /// Number of pairs that were ranked in both lists.
     pub all: usize,
     /// Number of pairs that differ in the finest list by more than twice its stated errors of both.
-    pub apart: usize,
+    pub distinct: usize,
     /// Number of these pairs that are distinguished in the same order.
-    pub told: usize,
+    pub same_order: usize,
     /// Number of these pairs that are distinguished in the opposite order; the rest is not distinguished.
     pub reversed: usize,
 }
@@ -105,7 +105,7 @@ pub fn ranking(
         let finest = k + 1 == efforts.len();
         let session = if finest { Session::passing().point_by_point() } else { Session::passing() };
         let lists = lists(groups, *effort, library, &session, &Inner(progress))?;
-        found.push((worth(&lists), clock.elapsed().as_secs_f64()));
+        found.push((scores(&lists), clock.elapsed().as_secs_f64()));
     }
     let Some((finest, _)) = found.last() else { return Err(Cancelled.into()) };
     let last = found.len() - 1;
@@ -163,9 +163,9 @@ fn lists(
 }
 
 /// Scores of the products, by list; `None` for excluded ones.
-type Worth = Vec<Vec<Option<Estimate>>>;
+type Scores = Vec<Vec<Option<Estimate>>>;
 
-fn worth(lists: &[List]) -> Worth {
+fn scores(lists: &[List]) -> Scores {
     let of = |list: &List| {
         let own = |found: &crate::study::rank::Found| utility(&list.objectives, &found.figures);
         list.rows.iter().map(|row| row.outcome.as_ref().ok().map(own)).collect()
@@ -173,7 +173,7 @@ fn worth(lists: &[List]) -> Worth {
     lists.iter().map(of).collect()
 }
 
-fn errors(own: &Worth, finest: &Worth) -> Vec<Errors> {
+fn errors(own: &Scores, finest: &Scores) -> Vec<Errors> {
     let both = own.iter().flatten().zip(finest.iter().flatten());
     both.filter_map(|(own, last)| {
         let (own, last) = ((*own)?, (*last)?);
@@ -182,7 +182,7 @@ fn errors(own: &Worth, finest: &Worth) -> Vec<Errors> {
     .collect()
 }
 
-fn pairs(own: &Worth, finest: &Worth) -> Pairs {
+fn pairs(own: &Scores, finest: &Scores) -> Pairs {
     let mut pairs = Pairs::default();
     for (own, finest) in own.iter().zip(finest) {
         let known: Vec<(Estimate, Estimate)> =
@@ -192,8 +192,8 @@ fn pairs(own: &Worth, finest: &Worth) -> Pairs {
                 pairs.all += 1;
                 let (above, below) = if a.1.value > b.1.value { (a, b) } else { (b, a) };
                 if above.1.value - below.1.value > 2.0 * (above.1.error + below.1.error) {
-                    pairs.apart += 1;
-                    pairs.told += usize::from(surely_above(above.0, below.0));
+                    pairs.distinct += 1;
+                    pairs.same_order += usize::from(surely_above(above.0, below.0));
                     pairs.reversed += usize::from(surely_above(below.0, above.0));
                 }
             }
@@ -208,18 +208,18 @@ mod tests {
 
     #[test]
     fn pairs_are_judged_by_the_finest() {
-        let of = |list: &[(f64, f64)]| -> Worth {
+        let of = |list: &[(f64, f64)]| -> Scores {
             vec![list.iter().map(|&(value, error)| Some(Estimate::new(value, error))).collect()]
         };
         let mut finest = of(&[(0.2, 0.01), (0.22, 0.01), (0.5, 0.01), (0.9, 0.01)]);
-        let all = |apart, told, reversed| Pairs { all: 6, apart, told, reversed };
+        let all = |apart, told, reversed| Pairs { all: 6, distinct: apart, same_order: told, reversed };
         assert_eq!(pairs(&finest, &finest), all(5, 5, 0));
         // The third may be the last; the first is said to be above the second, of which the finest knows nothing.
         assert_eq!(pairs(&of(&[(0.2, 0.0), (0.1, 0.0), (0.8, 0.2), (0.9, 0.01)]), &finest), all(5, 4, 0));
         assert_eq!(pairs(&of(&[(0.2, 0.01), (0.22, 0.01), (0.9, 0.01), (0.5, 0.01)]), &finest), all(5, 4, 1));
         // What either leaves out is nobody's pair.
         finest[0][3] = None;
-        assert_eq!(pairs(&of(&[(0.2, 0.0); 4]), &finest), Pairs { all: 3, apart: 2, told: 0, reversed: 0 });
+        assert_eq!(pairs(&of(&[(0.2, 0.0); 4]), &finest), Pairs { all: 3, distinct: 2, same_order: 0, reversed: 0 });
         assert_eq!(errors(&of(&[(0.3, 0.05); 4]), &finest).len(), 3);
     }
 }

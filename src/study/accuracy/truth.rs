@@ -48,13 +48,13 @@ impl Truth {
 
     fn parse(name: String, text: &str, scene: &Scene) -> Result<Self, String> {
         let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|error| told(&error))?;
+        let header = reader.headers().map_err(|error| message(&error))?;
         let line = header.position().map_or(1, csv::Position::line);
         let columns = Columns::of(header).map_err(|message| format!("line {line}: {message}"))?;
         let count = scene.sensors.len();
         let (mut total, mut direct) = (Vec::with_capacity(count), columns.direct.map(|_| Vec::with_capacity(count)));
         for record in reader.records() {
-            let record = record.map_err(|error| told(&error))?;
+            let record = record.map_err(|error| message(&error))?;
             let line = record.position().map_or(0, csv::Position::line);
             let at = |message: String| format!("line {line}: {message}");
             let Some(sensor) = scene.sensors.get(total.len()) else {
@@ -139,7 +139,7 @@ impl Columns {
 }
 
 /// Returns the message of the table reader in one line.
-fn told(error: &csv::Error) -> String {
+fn message(error: &csv::Error) -> String {
     let line = error.position().map_or(1, csv::Position::line);
     match error.kind() {
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {

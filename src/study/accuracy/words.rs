@@ -64,15 +64,15 @@ pub fn reference(reference: &Reference) -> String {
 }
 
 /// Returns the reason why this reference cannot determine the error of a computation; `None` if it can.
-pub fn untold(rung: &Rung, reference: &Reference) -> Option<String> {
-    if rung.is_told() {
+pub fn undetermined_reason(rung: &Rung, reference: &Reference) -> Option<String> {
+    if rung.is_determined() {
         return None;
     }
     let Errors { stated, real, open } = rung.typical();
-    let [open, stated, apart] = [open, stated, real].map(short);
+    let [open, stated, difference] = [open, stated, real].map(short);
     Some(match &reference.origin {
-        Origin::FinestRun { .. } => texts::untold_finest(open, stated, apart),
-        Origin::Given(name) => texts::untold_given(name, open, stated, apart),
+        Origin::FinestRun { .. } => texts::undetermined_finest(open, stated, difference),
+        Origin::Given(name) => texts::undetermined_given(name, open, stated, difference),
     })
 }
 

@@ -11,8 +11,8 @@ use crate::compute::room::first_bounce::FirstLight;
 use crate::compute::room::outline::Outline;
 use crate::compute::room::sunlit_part::SunlitPart;
 use crate::compute::sky::Sun;
+use crate::study::session::beam_responses::BeamResponses;
 use crate::study::session::interreflected::{DIFFERENCE_ALONE, UNEVEN};
-use crate::study::session::landed::Landed;
 use crate::study::session::responses::Responses;
 use crate::study::session::unit_beams::{Together, UnitBeam};
 use std::sync::{Arc, OnceLock};
@@ -96,7 +96,7 @@ impl Coefficients {
                 };
                 *sum += seen.all + Estimate::new(0.0, seen.data_error);
             }
-            let (Some(room), Some(landed)) = (&self.room, &self.landed) else { continue };
+            let (Some(room), Some(unit_beams)) = (&self.room, &self.unit_beams) else { continue };
             pieces = pieces.max(past.map_or(1, |(_, _, part)| part.pieces.len()));
             for beam in &beams {
                 if let Some((_, _, part)) = past {
@@ -104,15 +104,15 @@ impl Coefficients {
                     continue;
                 }
                 // Other systems may need the suns of a year.
-                let shared = || landed.of(&self.scene, index, beam, &facing, &room.radiosity);
+                let shared = || unit_beams.of(&self.scene, index, beam, &facing, &room.radiosity);
                 match (self.suns > 0).then(shared).flatten() {
                     Some(unit) => units.push((unit, beam.exitance * aperture.area())),
                     None => first.add_beam(aperture, beam, &facing),
                 }
             }
         }
-        if let (Some(room), Some(landed)) = (&self.room, &self.landed) {
-            self.add_landed(room, landed.landed(), (&units, first.beams), OUTLINED * pieces, &mut sums);
+        if let (Some(room), Some(unit_beams)) = (&self.room, &self.unit_beams) {
+            self.add_interreflected(room, unit_beams.responses(), (&units, first.beams), OUTLINED * pieces, &mut sums);
         }
         let whole = |e: Estimate| Estimate::new(e.value.max(0.0), e.error + 1e-6 * e.value.abs());
         sums.into_iter().map(whole).collect()
@@ -120,10 +120,10 @@ impl Coefficients {
 
     /// Adds the interreflected light of beams: of those that are known per 1 lm, each with its flux \[lm\], and of
     /// others.
-    fn add_landed(
+    fn add_interreflected(
         &self,
         room: &Responses,
-        landed: &Landed,
+        responses: &BeamResponses,
         (units, mut beams): (&[(Arc<UnitBeam>, f64)], Vec<Beam>),
         outlined: usize,
         sums: &mut [Estimate],
@@ -132,7 +132,7 @@ impl Coefficients {
             return;
         }
         let mesh = &room.radiosity.nested.fine;
-        let mut all = Together::dark(&room.radiosity, landed);
+        let mut all = Together::dark(&room.radiosity, responses);
         units.iter().for_each(|(unit, flux)| all.add(unit, *flux));
         // Uncertainty of the others' light at the sensors by their position within the patches.
         let mut placed = vec![0.0; sums.len()];
@@ -143,7 +143,7 @@ impl Coefficients {
                 direct
             };
             let on_patches = direct(&beams);
-            let light = landed.of(&room.radiosity, &on_patches);
+            let light = responses.of(&room.radiosity, &on_patches);
             all.add_others(&light, &on_patches);
             // The strongest are seen as sharp outlines; the difference to their light by patches estimates that of the
             // others.
@@ -152,7 +152,7 @@ impl Coefficients {
             let outlines: Vec<Outline> = few.iter().flat_map(|beam| beam.outlines(mesh)).collect();
             let rest: f64 = beams[few.len()..].iter().map(|beam| beam.flux).sum();
             let share = rest / few.iter().map(|beam| beam.flux).sum::<f64>();
-            let by_patch = if rest > 0.0 { landed.seen(&direct(few)) } else { light.seen.clone() };
+            let by_patch = if rest > 0.0 { responses.seen(&direct(few)) } else { light.seen.clone() };
             let mut sharp = vec![0.0; sums.len()];
             outlines.iter().for_each(|outline| outline.add_light(mesh, &self.scene.sensors, &mut sharp));
             for (s, sharp) in sharp.into_iter().enumerate() {
@@ -160,10 +160,10 @@ impl Coefficients {
                 placed[s] = if rest > 0.0 { share * (sharp - by_patch[s]).abs() } else { 0.0 };
             }
         }
-        let later = room.of_landed(&all.light, &all.direct);
+        let later = room.of_beams(&all.light, &all.direct);
         for (((sum, sharp), reflected), placed) in sums.iter_mut().zip(all.sharp).zip(later).zip(placed) {
             let error = (DIFFERENCE_ALONE * reflected.difference).hypot(self.rest() * reflected.value).hypot(placed);
-            *sum += Estimate::new(reflected.value + sharp, error + UNEVEN * reflected.thrown_back);
+            *sum += Estimate::new(reflected.value + sharp, error + UNEVEN * reflected.room_side_reflection);
         }
     }
 
@@ -179,8 +179,8 @@ impl Coefficients {
         let part = &self.parts[index];
         let (clear, sensors) = (part.clear, sums.len());
         for (s, sum) in sums.iter_mut().enumerate() {
-            let [value, reflected, doubt] = [0, 1, 2].map(|row| clear * found.light[row * sensors + s]);
-            let error = doubt.hypot(self.rest() * reflected) + clear * found.errors[s];
+            let [value, reflected, uncertainty] = [0, 1, 2].map(|row| clear * found.light[row * sensors + s]);
+            let error = uncertainty.hypot(self.rest() * reflected) + clear * found.errors[s];
             *sum += of_part(Estimate::new(value, error), reflected, shares.map(|shares| shares[s]));
         }
         let regular = part.regular.as_ref().filter(|_| part.sun.leaves_regular());
@@ -205,10 +205,13 @@ impl Coefficients {
             for (s, sum) in sums.iter_mut().enumerate() {
                 let error = column.as_ref().map_or(0.0, |column| {
                     let reflected = column.light[sensors + s].abs() * illuminance;
-                    let doubt = column.light[2 * sensors + s] * illuminance;
+                    let uncertainty = column.light[2 * sensors + s] * illuminance;
                     // Result of the data's own cells alone, with fluxes interpolated in straight lines.
-                    let simpler = column.doubt.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
-                    doubt.hypot(self.rest() * reflected) + simpler.abs() + part.transport.relative_error() * own[s]
+                    let simpler =
+                        column.difference.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
+                    uncertainty.hypot(self.rest() * reflected)
+                        + simpler.abs()
+                        + part.transport.relative_error() * own[s]
                 });
                 let reflected = column.as_ref().map_or(0.0, |column| column.light[sensors + s] * illuminance);
                 *sum += of_part(Estimate::new(own[s], error), reflected, shares.map(|shares| shares[s]));

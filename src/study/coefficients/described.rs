@@ -6,7 +6,7 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::dot::{add_scaled, wide};
 use crate::compute::lid::sky_columns::{PatchLight, ScatteredRows, between_rows};
 use crate::compute::lid::{BandLight, SkyThrough, direction, scattered_of, structure_angles, sun_cells};
-use crate::compute::system::measure::{ProfileLight, Specimen, Structure};
+use crate::compute::system::measure::{OpticalModel, ProfileLight, Structure};
 use crate::study::error::StudyError;
 use rayon::prelude::*;
 use std::collections::HashMap;
@@ -109,22 +109,22 @@ impl Around {
 
 impl Lattice {
     /// Creates an empty lattice with the steps that suit a system.
-    pub fn of(specimen: &dyn Specimen) -> Self {
-        let (upright, steps) = match specimen.structure() {
+    pub fn of(model: &dyn OpticalModel) -> Self {
+        let (upright, steps) = match model.structure() {
             Structure::Along { upright } => (upright, ACROSS),
             Structure::Even | Structure::Any => (false, EVEN),
         };
         Self { upright, steps, nodes: Mutex::default() }
     }
 
-    fn node(&self, specimen: &dyn Specimen, views: &Views, at: [i64; 2]) -> Node {
+    fn node(&self, model: &dyn OpticalModel, views: &Views, at: [i64; 2]) -> Node {
         // What is kept is whole even if another thread has failed while it held the lock.
         let nodes = || self.nodes.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = nodes().get(&at) {
             return Arc::clone(known);
         }
         let angles = [0, 1].map(|k| (at[k] as f64 * self.steps[k]).clamp(-STEEPEST, STEEPEST).to_radians());
-        let (light, error) = scattered_of(specimen, direction(self.upright, angles));
+        let (light, error) = scattered_of(model, direction(self.upright, angles));
         let mut row = vec![0.0; views.width()];
         views.add_all(&light, &mut row);
         let found = Arc::new((row, error));
@@ -135,7 +135,7 @@ impl Lattice {
     /// Adds the light at the sensors for one incident direction.
     pub fn add(
         &self,
-        specimen: &dyn Specimen,
+        model: &dyn OpticalModel,
         views: &Views,
         name: Dir<Facade>,
         illuminance: f64,
@@ -147,21 +147,21 @@ impl Lattice {
         let linear = [0, 1].map(|k: usize| around[k].linear());
         let mut own = vec![0.0; light.len()];
         let mut straight = vec![0.0; errors.len()];
-        let mut doubt = vec![0.0; errors.len()];
+        let mut uncertainty = vec![0.0; errors.len()];
         for (i, j) in (0..16).map(|k| (k / 4, k % 4)) {
             let cubic = around[0].cubic[i] * around[1].cubic[j];
             let linear = linear[0][i] * linear[1][j];
             if cubic == 0.0 && linear == 0.0 {
                 continue;
             }
-            let node = self.node(specimen, views, [around[0].first + i as i64, around[1].first + j as i64]);
+            let node = self.node(model, views, [around[0].first + i as i64, around[1].first + j as i64]);
             add_scaled(&mut own, &node.0, cubic);
             add_scaled(&mut straight, &node.0, linear);
             let error = linear * node.1;
-            wide(|| doubt.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += error * e.abs()));
+            wide(|| uncertainty.iter_mut().zip(&node.0).for_each(|(sum, e)| *sum += error * e.abs()));
         }
         for (s, error) in errors.iter_mut().enumerate() {
-            *error += illuminance * (doubt[s] + UNEVEN * (own[s] - straight[s]).abs());
+            *error += illuminance * (uncertainty[s] + UNEVEN * (own[s] - straight[s]).abs());
         }
         // A polynomial may run below zero amid four nodes above zero: this holds for the light, not for the values
         // that give its error.

@@ -61,7 +61,7 @@ pub struct Coefficients {
     behind: Option<Behind>,
     room: Option<Responses>,
     /// Responses of the sensors to beams; `None` where there are no beams.
-    landed: Option<Arc<UnitBeams>>,
+    unit_beams: Option<Arc<UnitBeams>>,
     directions: f64,
     /// Data part of the uncertainty, by aperture, as shares of the light.
     data: Vec<DataShare>,
@@ -171,12 +171,12 @@ impl Coefficients {
                 AperturePart::new(&opening, btdf, behind.as_ref())
             })
             .collect::<Result<Vec<_>, _>>()?;
-        let landed = match &room {
-            Some(room) if parts.iter().any(AperturePart::sends_beams) => Some(session.landed(scene, room)?),
+        let unit_beams = match &room {
+            Some(room) if parts.iter().any(AperturePart::sends_beams) => Some(session.unit_beams(scene, room)?),
             _ => None,
         };
         let mut coefficients =
-            Self { scene: scene.clone(), parts, behind, room, landed, directions: 0.0, data: Vec::new(), suns: 0 };
+            Self { scene: scene.clone(), parts, behind, room, unit_beams, directions: 0.0, data: Vec::new(), suns: 0 };
         coefficients.directions = match &coefficients.behind {
             Some(_) => BEHIND,
             None => OTHER_SKIES * coefficients.gap_of_directions(session),
@@ -273,7 +273,7 @@ impl Coefficients {
                 let relative = part.transport.relative_error() + directions;
                 for (s, sum) in estimates.iter_mut().enumerate() {
                     let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
-                    let squares = sums.doubtful[s].powi(2) + (rest * reflected).powi(2);
+                    let squares = sums.reflected_uncertainty[s].powi(2) + (rest * reflected).powi(2);
                     let error = value * relative + squares.sqrt() + sums.interpolated[s].abs() + 1e-6 * value;
                     let data = self.data.get(index).map_or(0.0, |share| {
                         let straight = share.direct.get(s).map_or(0.0, |share| share * (value - reflected).max(0.0));

@@ -24,7 +24,7 @@ use crate::study::session::Session;
 use crate::study::session::far::{self, Constants};
 use crate::study::session::sky_patches::{SkyPatches, illuminances};
 use crate::study::session::sky_year::{SkyYear, SunlitYear};
-use crate::study::system::VerySystem;
+use crate::study::system::SystemModel;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
 use glam::DVec3;
@@ -100,7 +100,7 @@ pub(super) struct Sums {
     /// Interreflected part of `total`.
     pub reflected: Vec<f64>,
     /// Uncertainty of `reflected`.
-    pub doubtful: Vec<f64>,
+    pub reflected_uncertainty: Vec<f64>,
     /// Uncertainty of the interpolation, signed.
     pub interpolated: Vec<f64>,
 }
@@ -109,15 +109,15 @@ impl Sums {
     /// Creates sums of no light at `sensors` sensors.
     pub fn dark(sensors: usize) -> Self {
         let dark = || vec![0.0; sensors];
-        Self { total: dark(), reflected: dark(), doubtful: dark(), interpolated: dark() }
+        Self { total: dark(), reflected: dark(), reflected_uncertainty: dark(), interpolated: dark() }
     }
 }
 
 impl AperturePart {
     pub fn new(opening: &Opening<'_>, btdf: &Btdf, behind: Option<&Behind>) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, .. } = *opening;
-        let very = scene.apertures[index].system.very.as_ref().filter(|_| scene.beams);
-        let described = very.map(|very| described_views(opening, very)).transpose()?;
+        let model = scene.apertures[index].system.model.as_ref().filter(|_| scene.beams);
+        let described = model.map(|model| described_views(opening, model)).transpose()?;
         let by_description = described_through(session, scene, index)
             .zip(described.as_ref())
             .map(|((_, through), views)| Described::new(&through.1, views));
@@ -135,8 +135,8 @@ impl AperturePart {
             Transport::Described(own) => own.by_angle.clone(),
             _ => None,
         };
-        let very = very.cloned().zip(described).map(|(very, views)| (very, views, by_angle));
-        let sun = SunWay::new(opening, btdf, very)?;
+        let model = model.cloned().zip(described).map(|(model, views)| (model, views, by_angle));
+        let sun = SunWay::new(opening, btdf, model)?;
         let regular = btdf.regular.as_ref();
         let (sky, tables, gap) = match behind {
             Some(behind) => {
@@ -145,8 +145,8 @@ impl AperturePart {
                 let reflecting = Opening { nodes: Some(&nodes), ..*opening };
                 let (columns, gap) = match (room, &through) {
                     (None, _) => (Vec::new(), 0.0),
-                    (Some(_), Some((very, through))) => {
-                        let own = Described::new(&through.1, &described_views(&reflecting, very)?);
+                    (Some(_), Some((model, through))) => {
+                        let own = Described::new(&through.1, &described_views(&reflecting, model)?);
                         columns(&reflecting, &Transport::Described(Box::new(own)), &patches, regular)?
                     }
                     (Some(_), None) => columns(&reflecting, &Transport::new(&reflecting, btdf)?, &patches, regular)?,
@@ -322,7 +322,8 @@ impl AperturePart {
             let mut all: Mat<f32> = Mat::zeros(self.tables.nrows(), columns);
             matmul(all.as_mut(), Accum::Replace, &self.tables, &light, 1.0, Par::Seq);
             for ((found, (outside, way)), sums) in all.col_iter().zip(skies).zip(sums) {
-                let parts = [&mut sums.total, &mut sums.reflected, &mut sums.doubtful, &mut sums.interpolated];
+                let parts =
+                    [&mut sums.total, &mut sums.reflected, &mut sums.reflected_uncertainty, &mut sums.interpolated];
                 for (sum, e) in parts.into_iter().flatten().zip(found.iter()) {
                     *sum += f64::from(*e);
                 }
@@ -337,9 +338,10 @@ fn described_through<'a>(
     session: &Session,
     scene: &'a Scene,
     index: usize,
-) -> Option<(&'a VerySystem, Arc<(VerySystem, SkyThrough)>)> {
-    let very = scene.apertures[index].system.very.as_ref().filter(|very| scene.beams && very.answers_for_the_sky())?;
-    Some((very, session.sky_through(very)))
+) -> Option<(&'a SystemModel, Arc<(SystemModel, SkyThrough)>)> {
+    let model =
+        scene.apertures[index].system.model.as_ref().filter(|model| scene.beams && model.answers_for_the_sky())?;
+    Some((model, session.sky_through(model)))
 }
 
 /// Returns the light at the sensors through all patches, without direct light by regular transmission, and the gap of
@@ -376,22 +378,22 @@ fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     let open = sky.samples.cells();
     let width = open.len() + 2;
     // Only lobes between directions have an uncertainty of interpolation: others save the fourth table.
-    let doubts = columns.iter().any(|column| !column.doubt.is_empty());
-    let rows = places * if doubts { 4 } else { 3 };
+    let has_differences = columns.iter().any(|column| !column.difference.is_empty());
+    let rows = places * if has_differences { 4 } else { 3 };
     let mut tables = Mat::zeros(rows, width);
     let mut put = |to: usize, light: &mut dyn Iterator<Item = f64>| {
         tables.col_as_slice_mut(to).iter_mut().zip(light).for_each(|(to, e): (&mut f32, f64)| *to = e as f32);
     };
     for (to, &p) in open.iter().enumerate() {
-        put(to, &mut columns[p].light.iter().chain(&columns[p].doubt).copied());
+        put(to, &mut columns[p].light.iter().chain(&columns[p].difference).copied());
     }
     // Both are uniform, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
     for (to, share) in [(width - 2, &sky.ground), (width - 1, &sky.skyline)] {
         let mut sum = vec![0.0; rows];
         for (column, share) in columns.iter().zip(share) {
-            let (light, doubt) = sum.split_at_mut(3 * places);
+            let (light, difference) = sum.split_at_mut(3 * places);
             add_scaled(light, &column.light, *share);
-            add_scaled(doubt, &column.doubt, *share);
+            add_scaled(difference, &column.difference, *share);
         }
         put(to, &mut sum.into_iter());
     }
@@ -399,9 +401,9 @@ fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
 }
 
 /// Computes the views of a described system's light from the sensors.
-fn described_views(opening: &Opening<'_>, very: &VerySystem) -> Result<DescribedViews, StudyError> {
+fn described_views(opening: &Opening<'_>, model: &SystemModel) -> Result<DescribedViews, StudyError> {
     let normal = Dir::from_unit(DVec3::Z);
-    let bands = very.0.profile_light(normal, Side::Front).map(|light| (light.upright, light.q.len()));
+    let bands = model.0.profile_light(normal, Side::Front).map(|light| (light.upright, light.q.len()));
     DescribedViews::new(opening, bands)
 }
 

@@ -8,7 +8,7 @@ use crate::compute::lid::peaks::{MOST_CELLS, Peaks};
 use crate::compute::lid::{BeamLight, Facing, SunThrough};
 use crate::study::error::StudyError;
 use crate::study::scene_file::Interpolation;
-use crate::study::system::VerySystem;
+use crate::study::system::SystemModel;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -28,7 +28,7 @@ pub(super) enum SunWay {
 /// Description of a system, with the method for its scattered light for many suns: by the profile angle where the
 /// light depends on nothing else, or else interpolated between directions.
 pub(super) struct ByDescription {
-    very: VerySystem,
+    model: SystemModel,
     views: DescribedViews,
     by_angle: Option<Arc<ByAngle>>,
     lattice: Lattice,
@@ -67,12 +67,12 @@ impl SunWay {
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
-        described: Option<(VerySystem, DescribedViews, Option<Arc<ByAngle>>)>,
+        described: Option<(SystemModel, DescribedViews, Option<Arc<ByAngle>>)>,
     ) -> Result<Self, StudyError> {
         let scene = opening.scene;
-        if let Some((very, views, by_angle)) = described {
-            let lattice = Lattice::of(very.0.as_ref());
-            return Ok(Self::Described(Box::new(ByDescription { very, views, by_angle, lattice })));
+        if let Some((model, views, by_angle)) = described {
+            let lattice = Lattice::of(model.0.as_ref());
+            return Ok(Self::Described(Box::new(ByDescription { model, views, by_angle, lattice })));
         }
         match &btdf.scattered {
             Some(Scattered::Cells(matrix)) if scene.beams && scene.interpolation != Interpolation::Patch => {
@@ -90,7 +90,7 @@ impl SunWay {
     pub fn light(&self, facing: &Facing<'_>, suns: usize, sensors: usize) -> Option<SunLight> {
         match self {
             Self::Data => None,
-            Self::Described(own) if own.by_angle.is_none() && suns < MANY => Some(own.anew(facing, sensors)),
+            Self::Described(own) if own.by_angle.is_none() && suns < MANY => Some(own.exact_sun(facing, sensors)),
             Self::Described(own) => Some(own.between(facing, sensors)),
             Self::Peaks(cells) => Some(cells.light(facing, sensors)),
         }
@@ -99,8 +99,8 @@ impl SunWay {
 
 impl ByDescription {
     /// Computes the light at the sensors for the actual sun position, without interpolation.
-    fn anew(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
-        let through = SunThrough::new(self.very.0.as_ref(), facing);
+    fn exact_sun(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
+        let through = SunThrough::new(self.model.0.as_ref(), facing);
         let mut sum = SunLight::of(&through, sensors);
         let mut add = |part: Vec<f64>, relative: f64| {
             sum.errors.iter_mut().zip(&part).for_each(|(error, e)| *error += relative * e);
@@ -121,14 +121,14 @@ impl ByDescription {
 
     /// Computes beams for the actual sun position and scattered light by interpolation between known directions.
     fn between(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
-        let very = self.very.0.as_ref();
-        let mut sum = SunLight::of(&SunThrough::beams_alone(very, facing), sensors);
+        let model = self.model.0.as_ref();
+        let mut sum = SunLight::of(&SunThrough::beams_alone(model, facing), sensors);
         let SunLight { light, errors, .. } = &mut sum;
         for (name, share) in SunThrough::standing_for(facing) {
             let e = share * facing.sun_illuminance();
             match &self.by_angle {
                 Some(by_angle) => by_angle.add(name, e, light, errors),
-                None => self.lattice.add(very, &self.views.cells, name, e, light, errors),
+                None => self.lattice.add(model, &self.views.cells, name, e, light, errors),
             }
         }
         sum
@@ -167,9 +167,9 @@ impl InCells {
         self.views.add_all(&sun.luminance, &mut sum.light);
         let mut squares = vec![0.0; sensors];
         let mut part = vec![0.0; 3 * sensors];
-        for doubt in &sun.doubts {
+        for uncertainty in &sun.uncertainties {
             part.fill(0.0);
-            self.views.add_all(doubt, &mut part);
+            self.views.add_all(uncertainty, &mut part);
             squares.iter_mut().zip(&part).for_each(|(sum, e)| *sum += e * e);
         }
         sum.errors.iter_mut().zip(squares).for_each(|(error, square)| *error = square.sqrt());

@@ -63,7 +63,7 @@ pub(super) struct Column {
     /// Light in three rows, see [`SensorRows`].
     pub light: SensorRows,
     /// Difference of a simpler interpolation, signed; empty where there is none.
-    pub doubt: Vec<f64>,
+    pub difference: Vec<f64>,
 }
 
 /// Returns the division of the incident hemisphere that suits a system, and the maximum distance of directions in it.
@@ -215,13 +215,13 @@ impl Transport {
 impl Lobes {
     fn for_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
         let mut column = Column::dark(sensors);
-        column.doubt = vec![0.0; sensors];
+        column.difference = vec![0.0; sensors];
         let (model, grid) = (self.interpolator.model(), self.interpolator.model().grid());
         let recipe = model.recipe(d);
         for base in &recipe.bases {
             let light = &self.bases[base.vertex];
             column.light.iter_mut().zip(light).for_each(|(sum, e)| *sum += base.factor * e);
-            column.doubt.iter_mut().zip(light).for_each(|(sum, e)| *sum += (base.linear - base.factor) * e);
+            column.difference.iter_mut().zip(light).for_each(|(sum, e)| *sum += (base.linear - base.factor) * e);
         }
         let mut scratch = Vec::new();
         let mut lobe = vec![0.0; self.views.width()];
@@ -229,9 +229,9 @@ impl Lobes {
             model.moved(copy, grid, 1, &mut scratch);
             lobe.fill(0.0);
             scratch.iter().for_each(|&(cell, q)| self.views.add(cell as usize, q, &mut lobe));
-            let doubt = copy.linear / copy.flux - 1.0;
+            let difference = copy.linear / copy.flux - 1.0;
             column.light.iter_mut().zip(&lobe).for_each(|(sum, e)| *sum += e);
-            column.doubt.iter_mut().zip(&lobe).for_each(|(sum, e)| *sum += doubt * e);
+            column.difference.iter_mut().zip(&lobe).for_each(|(sum, e)| *sum += difference * e);
         }
         column
     }
@@ -258,10 +258,10 @@ const SUN_POINTS: usize = 2;
 
 impl Column {
     fn dark(sensors: usize) -> Self {
-        Self { light: vec![0.0; 3 * sensors], doubt: Vec::new() }
+        Self { light: vec![0.0; 3 * sensors], difference: Vec::new() }
     }
 
     fn scaled(light: &[f64], factor: f64) -> Self {
-        Self { light: light.iter().map(|e| e * factor).collect(), doubt: Vec::new() }
+        Self { light: light.iter().map(|e| e * factor).collect(), difference: Vec::new() }
     }
 }

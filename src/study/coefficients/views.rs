@@ -112,14 +112,14 @@ impl Views {
             let many = basis.len() > MOST_CELLS;
             let merged = if many { merged_cells() } else { &basis };
             gap = room.weights(session, index, merged).gap();
-            let doubts = width > sensors;
-            let width = if doubts { 2 * sensors } else { sensors };
+            let with_uncertainty = width > sensors;
+            let width = if with_uncertainty { 2 * sensors } else { sensors };
             let mut rows = vec![0.0_f32; merged.len() * width];
-            for (s, by_cell) in room.of_cells(session, index, merged, doubts, nodes).iter().enumerate() {
+            for (s, by_cell) in room.of_cells(session, index, merged, with_uncertainty, nodes).iter().enumerate() {
                 for (row, light) in rows.chunks_exact_mut(width).zip(by_cell) {
                     row[s] = light.value as f32;
-                    if doubts {
-                        row[sensors + s] = light.doubt() as f32;
+                    if with_uncertainty {
+                        row[sensors + s] = light.uncertainty() as f32;
                     }
                 }
             }
@@ -152,7 +152,7 @@ impl Views {
                     let row = &mut rows[band * width..(band + 1) * width];
                     for (s, by_cell) in by_sensor.iter().enumerate() {
                         row[s] += (share * by_cell[cell].value) as f32;
-                        row[sensors + s] += (share * by_cell[cell].doubt()) as f32;
+                        row[sensors + s] += (share * by_cell[cell].uncertainty()) as f32;
                     }
                 }
             }
@@ -251,7 +251,7 @@ pub(super) fn even(opening: &Opening<'_>) -> Result<SensorRows, StudyError> {
     for (place, reflected) in found.into_iter().enumerate() {
         light[place] += reflected.value;
         light[places + place] = reflected.value;
-        light[2 * places + place] = reflected.doubt();
+        light[2 * places + place] = reflected.uncertainty();
     }
     Ok(light)
 }

@@ -55,8 +55,9 @@ pub fn judge(sense: Sense, values: &[Option<Value>]) -> Verdict {
         let equal = known.iter().all(|(_, one)| one.value == best.value);
         return if equal { Verdict::Within } else { Verdict::Unstated };
     }
-    let apart = |one: &Value| (best.value - one.value).abs() > best.error.unwrap_or(0.0) + one.error.unwrap_or(0.0);
-    let tied: Vec<usize> = known.iter().filter(|(_, one)| !apart(one)).map(|(at, _)| *at).collect();
+    let is_distinct =
+        |one: &Value| (best.value - one.value).abs() > best.error.unwrap_or(0.0) + one.error.unwrap_or(0.0);
+    let tied: Vec<usize> = known.iter().filter(|(_, one)| !is_distinct(one)).map(|(at, _)| *at).collect();
     if tied.len() == known.len() { Verdict::Within } else { Verdict::Better(tied) }
 }
 

@@ -48,7 +48,7 @@ impl Fault {
         self.message == other.message && self.place == other.place
     }
 
-    fn said(message: Option<&str>) -> Self {
+    fn with_message(message: Option<&str>) -> Self {
         Self { message: message.unwrap_or(NO_MESSAGE).to_owned(), ..Self::default() }
     }
 }
@@ -65,13 +65,13 @@ fn kept() -> MutexGuard<'static, VecDeque<Fault>> {
 
 /// Keeps the data of every panic from now on. With `true` panics are also printed on standard error where they happen,
 /// as without this call; with `false` whoever catches them has to report them. The value of the first call holds.
-pub fn watch(told: bool) {
+pub fn watch(is_printed: bool) {
     static WATCHING: Once = Once::new();
     WATCHING.call_once(|| {
         let before = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
             keep(info);
-            if told {
+            if is_printed {
                 before(info);
             }
         }));
@@ -84,7 +84,7 @@ fn keep(info: &PanicHookInfo<'_>) {
         thread: std::thread::current().name().unwrap_or("one of a pool").to_owned(),
         at: clock::now().timestamp().to_string(),
         backtrace: Backtrace::force_capture().to_string(),
-        ..Fault::said(info.payload_as_str())
+        ..Fault::with_message(info.payload_as_str())
     };
     let mut kept = kept();
     if kept.len() >= MOST_KEPT {
@@ -96,7 +96,7 @@ fn keep(info: &PanicHookInfo<'_>) {
 /// Returns the data of a panic that was caught, and removes them from the kept faults.
 pub fn caught(panic: &(dyn Any + Send)) -> Fault {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    let fault = Fault::said(text);
+    let fault = Fault::with_message(text);
     let mut kept = kept();
     let known = kept.iter().rposition(|one| one.message == fault.message);
     known.and_then(|place| kept.remove(place)).unwrap_or(fault)
@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn a_panic_without_text_or_watch_is_still_a_fault() {
         let panic = catch_unwind(|| std::panic::resume_unwind(Box::new(3_u8))).unwrap_err();
-        assert_eq!(caught(&*panic), Fault::said(None));
+        assert_eq!(caught(&*panic), Fault::with_message(None));
         let panic = catch_unwind(|| std::panic::resume_unwind(Box::new("from far away"))).unwrap_err();
         let fault = caught(&*panic);
         assert_eq!((fault.to_string().as_str(), fault.place.as_str()), ("from far away", ""));

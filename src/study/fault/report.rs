@@ -47,7 +47,7 @@ fn without_home(text: &str) -> String {
 }
 
 /// Appends one fault to a text.
-fn tell(text: &mut String, fault: &Fault) {
+fn append_fault(text: &mut String, fault: &Fault) {
     let place = if fault.place.is_empty() { "not known" } else { &fault.place };
     let [at, thread, backtrace] = [&fault.at, &fault.thread, &fault.backtrace];
     // Writing to a String cannot fail.
@@ -67,10 +67,10 @@ fn text(fault: &Fault, before: &[Fault], report: &Report<'_>) -> String {
         env!("CARGO_PKG_VERSION"),
         report.doing
     );
-    tell(&mut own, fault);
+    append_fault(&mut own, fault);
     for other in before.iter().filter(|other| !other.is_same(fault)) {
         own.push_str("\n== Another one, which nobody waited for\n");
-        tell(&mut own, other);
+        append_fault(&mut own, other);
     }
     if !report.steps.is_empty() {
         let _ = write!(own, "\n== Last steps\n{}\n", report.steps.join("\n"));

@@ -17,12 +17,12 @@ pub fn with_product(file: &SceneFile, product: &Product, by: RankControlKey) -> 
     let (own, stands) = product.representative();
     let moves = product.states.len() > 1;
     for aperture in scene.aperture.iter_mut().filter(|aperture| aperture.system == SystemKeys::Ranked) {
-        let told = aperture.control.as_ref().or(file.control.as_ref()).cloned();
+        let specified = aperture.control.as_ref().or(file.control.as_ref()).cloned();
         let rule =
             match by {
                 _ if !moves => None,
-                RankControlKey::Product => first_keys(own).or(told),
-                RankControlKey::Scene => Some(told.ok_or_else(|| {
+                RankControlKey::Product => first_keys(own).or(specified),
+                RankControlKey::Scene => Some(specified.ok_or_else(|| {
                     StudyError::key("rank.control", "\"scene\" needs a [control] section with a mode")
                 })?),
             };

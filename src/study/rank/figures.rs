@@ -48,7 +48,7 @@ const NO_FIGURE: &str = "rank.objective";
 /// evaluated.
 const COMPUTED: &str = "error-target-missed";
 /// Relative error of the light above which figures count as approximate.
-const DOUBTFUL: f64 = 0.05;
+const MAX_RELATIVE_ERROR: f64 = 0.05;
 
 /// Rounds to nine significant digits, as tables do, so that a ranking from tables is the same.
 pub(super) fn as_written(value: f64) -> f64 {
@@ -82,7 +82,7 @@ impl Setting<'_> {
         }
         let climate = if coarse { self.by_cells } else { self.climate };
         let mut year = year_in(climate, &file, &group.base, self.library, self.session, &|_| true, progress)?;
-        let mut found = Found { approximate: doubts(product, &year), ..Found::default() };
+        let mut found = Found { approximate: approximation_reasons(product, &year), ..Found::default() };
         if coarse {
             blur(&mut year);
         }
@@ -210,7 +210,7 @@ fn read(three: &[Value; 3], key: &str) -> Option<Estimate> {
 }
 
 /// Returns the reasons why figures are approximate beyond their errors.
-fn doubts(product: &Product, year: &Year) -> Vec<String> {
+fn approximation_reasons(product: &Product, year: &Year) -> Vec<String> {
     let mut list = Vec::new();
     if product.provenance.origin == Origin::Measured {
         list.push("measuring error not stated".to_owned());
@@ -236,7 +236,7 @@ fn doubts(product: &Product, year: &Year) -> Vec<String> {
         list.push(format!("LM-83: a shade of {:.0} % stands in for blinds", 100.0 * SHADE));
     }
     let (light, errors): (f64, f64) = (year.light.values.iter().sum(), year.light.errors.iter().sum());
-    if errors > DOUBTFUL * light {
+    if errors > MAX_RELATIVE_ERROR * light {
         list.push(format!("light known to {:.0} %", 100.0 * errors / light));
     }
     list

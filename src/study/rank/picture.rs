@@ -102,11 +102,11 @@ fn bars(drawing: &mut Drawing, frame: Frame, shown: &[&Entry], inks: &Inks) -> u
         }
         drawing.add(Shape::words([frame.left + 48.0, middle + 4.0], name, inks.ink, TEXT, Align::Start));
         let x = |share: f64| left + width * share.clamp(0.0, 1.0);
-        let (worth, error) = (entry.worth.value, entry.worth.error);
-        let bar = Frame::new(left, top + 4.0, x(worth) - left, ROW - 8.0);
+        let (score, error) = (entry.score.value, entry.score.error);
+        let bar = Frame::new(left, top + 4.0, x(score) - left, ROW - 8.0);
         drawing.add(Shape::area(bar.corners(), inks.series[0]));
-        drawing.add(Shape::line([[x(worth - error), middle], [x(worth + error), middle]], inks.ink, 1.5));
-        let words = format!("{} ± {}", fixed(worth, 3), fixed(error, 3));
+        drawing.add(Shape::line([[x(score - error), middle], [x(score + error), middle]], inks.ink, 1.5));
+        let words = format!("{} ± {}", fixed(score, 3), fixed(error, 3));
         drawing.add(Shape::words([left + width + 8.0, middle + 4.0], words, inks.ink, TEXT, Align::Start));
     }
     count

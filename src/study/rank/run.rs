@@ -59,7 +59,7 @@ pub fn run(
     library: &dyn SystemLibrary,
     session: &Session,
     stages: &[Stage],
-    told: &(dyn Fn(Answer<'_>) + Sync),
+    report: &(dyn Fn(Answer<'_>) + Sync),
     progress: &dyn Progress,
 ) -> Result<Vec<Outcome>, StudyError> {
     let mut ready: BTreeMap<usize, Ready> = BTreeMap::new();
@@ -115,21 +115,21 @@ pub fn run(
         if *stage == Stage::Coarse && stages.contains(&Stage::Full) {
             own.retain(|&at| is_quicker_by_cells(&groups[items[at].group].file));
         }
-        outcomes = side_by_side(items, &own, *stage, &one, told, progress)?;
+        outcomes = side_by_side(items, &own, *stage, &one, report, progress)?;
     }
     Ok(outcomes.into_iter().flatten().collect())
 }
 
 /// Returns the score of a product by its known figures; negative infinity without any.
 fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
-    let worth = || {
+    let score = || {
         let keys = group.file.rank.as_ref()?;
         let Some(Ok(found)) = known else { return None };
         let of = |figure: &str| Some(found.figures[group.figures.iter().position(|own| own == figure)?]);
         let figures: Vec<Estimate> = keys.objective.iter().map(|one| of(&one.figure)).collect::<Option<_>>()?;
         Some(utility(&objectives(keys).ok()?, &figures).value)
     };
-    worth().unwrap_or(f64::NEG_INFINITY)
+    score().unwrap_or(f64::NEG_INFINITY)
 }
 
 /// Whether patch-averaged data are quicker than the interpolation of the scene.
@@ -145,7 +145,7 @@ fn side_by_side(
     order: &[usize],
     stage: Stage,
     one: &(dyn Fn(&Item, Stage) -> Result<super::figures::Found, StudyError> + Sync),
-    told: &(dyn Fn(Answer<'_>) + Sync),
+    report: &(dyn Fn(Answer<'_>) + Sync),
     progress: &dyn Progress,
 ) -> Result<Vec<Option<Outcome>>, StudyError> {
     let (next, done, stopped) = (AtomicUsize::new(0), AtomicUsize::new(0), AtomicBool::new(false));
@@ -166,7 +166,7 @@ fn side_by_side(
                 }
                 Err(error) => Err(error.to_string()),
             };
-            told(Answer { item: *item, stage, outcome: &outcome });
+            report(Answer { item: *item, stage, outcome: &outcome });
             results.lock().unwrap_or_else(PoisonError::into_inner)[at] = Some(outcome);
             progress.advance(name, done.fetch_add(1, Ordering::Relaxed) + 1, order.len());
         }

@@ -25,7 +25,8 @@ pub enum Page {
 pub enum Sort {
     /// Descending score.
     #[default]
-    Worth,
+    #[serde(rename = "Worth")]
+    Score,
     /// Alphabetical order of names.
     Name,
     /// Order by the figure of this key, best first.
@@ -78,7 +79,7 @@ pub struct Entry {
     /// Figures in the order of the objectives; empty for an excluded product.
     pub figures: Vec<Estimate>,
     /// Score of the product, 0 … 1.
-    pub worth: Estimate,
+    pub score: Estimate,
     /// First and last rank within the uncertainty, from 1.
     pub ranks: (usize, usize),
     /// Position relative to the Pareto front; `None` for an excluded product.
@@ -97,7 +98,7 @@ pub struct Term {
     /// Index of the objective.
     pub objective: usize,
     /// Part of the score difference by this objective; the parts of all terms add up to the whole.
-    pub worth: f64,
+    pub score_difference: f64,
     /// Figures of both products.
     pub figures: [f64; 2],
     /// Largest parts of the figures' difference, each with season, sun and zone.
@@ -112,7 +113,7 @@ pub struct Reason {
     /// Whether the difference is within the uncertainty, so that the better one is not determined.
     pub open: bool,
     /// Difference of the scores.
-    pub worth: f64,
+    pub score_difference: f64,
     /// Terms of the difference, the largest first.
     pub terms: Vec<Term>,
 }
@@ -144,7 +145,7 @@ impl Shortlist {
                     product: row.product.clone(),
                     name: name(&row.product),
                     figures: found.figures.clone(),
-                    worth: one.utility,
+                    score: one.utility,
                     ranks: (one.ranks.first, one.ranks.last),
                     place: Some(one.place),
                     approximate: found.approximate.clone(),
@@ -157,7 +158,7 @@ impl Shortlist {
             product: row.product.clone(),
             name: name(&row.product),
             figures: Vec::new(),
-            worth: Estimate::exact(0.0),
+            score: Estimate::exact(0.0),
             ranks: (0, 0),
             place: None,
             approximate: Vec::new(),
@@ -176,7 +177,7 @@ impl Shortlist {
     pub fn shown(&self, look: &Look) -> Vec<&Entry> {
         let mut rows: Vec<&Entry> = self.entries.iter().filter(|entry| look.shows(entry)).collect();
         match &look.sort {
-            Sort::Worth => {}
+            Sort::Score => {}
             Sort::Name => rows.sort_by_cached_key(|entry| (entry.excluded.is_some(), entry.name.to_lowercase())),
             Sort::Figure(key) => {
                 let place = self.list.figures.iter().position(|figure| figure == key);
@@ -226,12 +227,12 @@ impl Shortlist {
                     .collect();
                 parts.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
                 parts.truncate(PARTS.0);
-                Term { objective, worth: share.utility, figures, parts }
+                Term { objective, score_difference: share.utility, figures, parts }
             })
             .collect();
-        terms.sort_by(|a, b| b.worth.abs().total_cmp(&a.worth.abs()));
-        let [x, y] = [own, other].map(|k| self.entries[k].worth);
-        Some(Reason { other, open: !surely_above(x, y) && !surely_above(y, x), worth: why.utility, terms })
+        terms.sort_by(|a, b| b.score_difference.abs().total_cmp(&a.score_difference.abs()));
+        let [x, y] = [own, other].map(|k| self.entries[k].score);
+        Some(Reason { other, open: !surely_above(x, y) && !surely_above(y, x), score_difference: why.utility, terms })
     }
 
     /// Returns the table, as `cfs rank --out` writes it.
@@ -313,9 +314,9 @@ mod tests {
         assert_eq!((against_best.other, against_best.open), (0, false));
         let two = list.reason("a", Some("c")).unwrap();
         assert_eq!(list.entries[two.other].product, "c");
-        let sum: f64 = two.terms.iter().map(|term| term.worth).sum();
+        let sum: f64 = two.terms.iter().map(|term| term.score_difference).sum();
         // (10 − 2)/10 − (10 − 6)/10 by energy, 0.05 by light, each counts a half.
-        assert!((sum - two.worth).abs() < 1e-12 && (two.worth - 0.225).abs() < 1e-12, "{two:?}");
+        assert!((sum - two.score_difference).abs() < 1e-12 && (two.score_difference - 0.225).abs() < 1e-12, "{two:?}");
         let energy = &two.terms[0];
         assert_eq!((energy.objective, energy.figures), (0, [2.0, 6.0]));
         // Of −4 three quarters are in winter with sun.

@@ -19,11 +19,11 @@ pub fn why(list: &List, ranked: &[Ranked], rows: &[(&str, &Found)], of: usize) -
     let mean = format!("{} the mean: {}", against(own.to_mean.utility), shares(list, rows[of].1, &own.to_mean, None));
     let Some((other, why)) = &own.to_best else { return "the only one".to_owned() };
     let rival = &ranked[*other];
-    let apart = surely_above(own.utility, rival.utility) || surely_above(rival.utility, own.utility);
-    let doubt = if apart { "" } else { "not to be told from it, as it comes out " };
+    let is_distinct = surely_above(own.utility, rival.utility) || surely_above(rival.utility, own.utility);
+    let qualifier = if is_distinct { "" } else { "not to be told from it, as it comes out " };
     let name = rows[*other].0;
     let shares = shares(list, rows[of].1, why, Some(rows[*other].1));
-    format!("{doubt}{} {name}: {shares}; {mean}", against(why.utility))
+    format!("{qualifier}{} {name}: {shares}; {mean}", against(why.utility))
 }
 
 fn against(utility: f64) -> String {

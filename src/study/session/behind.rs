@@ -42,7 +42,7 @@ pub(super) struct Split {
     /// Scattered sunlight, and parts of the aperture from the whole of it downwards.
     sun: Option<(SunTile, Emission)>,
     /// Scattered light for the room's patches: of sky and ground, and of the sun.
-    thrown: [Thrown; 2],
+    scattered: [ScatteredParts; 2],
     /// Beams of the sun, per sunlit area of the aperture.
     beams: Vec<BeamLight>,
     /// Sunlit pieces of the aperture, in the room frame. \[m\]
@@ -58,7 +58,7 @@ pub(super) struct Split {
 
 /// Scattered light, as finely as the patches of the room can distinguish it.
 #[derive(Default)]
-struct Thrown {
+struct ScatteredParts {
     /// Pieces with uniform light: outline and luminous exitance. \[m, lm/m²\]
     even: Vec<(Vec<DVec3>, f64)>,
     /// Few parts of the aperture with all other light: each direction costs weights of all patches.
@@ -128,7 +128,7 @@ impl Session {
             whole: Emission::dark(),
             exitance: Estimate::default(),
             regular: any_of(&leaves).regular.clone().map(|tau| (tau, Estimate::default())),
-            thrown: [thrown(&one.aperture, &leaves, &tiles, same), Thrown::default()],
+            scattered: [scattered_parts(&one.aperture, &leaves, &tiles, same), ScatteredParts::default()],
             smooth: leaves.iter().map(|leaf| leaf.smooth(&one.aperture)).filter(Smooth::is_lit).collect(),
             sun: None,
             leaves: Vec::new(),
@@ -225,14 +225,14 @@ impl SunTile {
     }
 
     /// Calls `tell` for every tile that is small enough for a sensor at `eye`, with its sunlit share.
-    fn visit(&self, eye: DVec3, tell: &mut dyn FnMut(&Aperture, f64)) {
+    fn visit(&self, eye: DVec3, on_tile: &mut dyn FnMut(&Aperture, f64)) {
         let small = self.part.size[0].max(self.part.size[1]) <= SUN_TILE_AWAY * self.part.distance(eye);
         if self.halves.is_empty() || small {
             if self.lit > 1e-9 {
-                tell(&self.part, self.lit);
+                on_tile(&self.part, self.lit);
             }
         } else {
-            self.halves.iter().for_each(|half| half.visit(eye, tell));
+            self.halves.iter().for_each(|half| half.visit(eye, on_tile));
         }
     }
 }
@@ -245,7 +245,7 @@ fn quarters(same: bool) -> Vec<Part> {
 }
 
 /// Returns the scattered light of sky and ground for the room's patches.
-fn thrown(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same: bool) -> Thrown {
+fn scattered_parts(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same: bool) -> ScatteredParts {
     let quarter = |part: Part| {
         let shares = tiles.iter().map(|(tile, light)| (overlap(part, *tile), light));
         (part_of(aperture, part), Emission::mixed(&shares.filter(|(share, _)| *share > 0.0).collect::<Vec<_>>()))
@@ -266,7 +266,7 @@ fn thrown(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same
         all.filter(|(_, exitance)| *exitance > 0.0).collect()
     };
     let on_cells = !same && quarters.iter().any(|(_, light)| !light.cells.is_empty() || !light.bands.is_empty());
-    Thrown { even: of(0), quarters, pieces: if on_cells { of(1) } else { Vec::new() } }
+    ScatteredParts { even: of(0), quarters, pieces: if on_cells { of(1) } else { Vec::new() } }
 }
 
 /// Returns the note for the plan of the computation.
@@ -291,7 +291,7 @@ impl Split {
             smooth: Vec::new(),
             leaves: Vec::new(),
             sun: None,
-            thrown: Default::default(),
+            scattered: Default::default(),
             beams: Vec::new(),
             lit: Vec::new(),
             rim: Vec::new(),
@@ -327,7 +327,7 @@ impl Split {
         self.sun = Some((SunTile::of(WHOLE, aperture, &reached), scattered.clone()));
         let whole = self.lit_share >= 1.0 - 1e-9;
         let exitance = scattered.scattered_exitance().value;
-        let [_, sunlit] = &mut self.thrown;
+        let [_, sunlit] = &mut self.scattered;
         for part in quarters(whole) {
             let lit = share(part);
             if lit > 0.0 {
@@ -349,7 +349,7 @@ impl Split {
         let seen = eyes.map(|(share, eye)| (share, scene.outside.seen_from(eye))).collect();
         LidResult {
             lid: self.whole.lid_through(&facing, aperture.size, seen),
-            flux: (self.exitance + Estimate::new(0.0, self.whole.exitance_doubt())) * aperture.area(),
+            flux: (self.exitance + Estimate::new(0.0, self.whole.exitance_uncertainty())) * aperture.area(),
             incident: (self.whole.incident_diffuse, self.whole.incident_sun),
         }
     }
@@ -425,17 +425,20 @@ impl Split {
             pieces.iter().map(|(corners, exitance)| outline(corners, *exitance)).collect()
         };
         let mut outlines = Vec::new();
-        for thrown in &self.thrown {
-            outlines.extend(of(&thrown.even));
+        for scattered in &self.scattered {
+            outlines.extend(of(&scattered.even));
             let mut on_cells = FirstLight::dark(mesh.patches.len());
-            thrown.quarters.iter().for_each(|(part, light)| on_cells.add_cells(light, &|basis| weights(part, basis)));
-            let (coarse, fine) = if thrown.pieces.is_empty() {
+            scattered
+                .quarters
+                .iter()
+                .for_each(|(part, light)| on_cells.add_cells(light, &|basis| weights(part, basis)));
+            let (coarse, fine) = if scattered.pieces.is_empty() {
                 (Vec::new(), Vec::new())
             } else {
-                let parts = thrown.quarters.iter().map(|(part, light)| {
+                let parts = scattered.quarters.iter().map(|(part, light)| {
                     outline(&part.corners(), light.scattered_exitance().value - PI * light.uniform.value)
                 });
-                (parts.collect(), of(&thrown.pieces))
+                (parts.collect(), of(&scattered.pieces))
             };
             first.add_shifted(mesh, on_cells, &coarse, &fine);
         }

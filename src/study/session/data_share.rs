@@ -32,12 +32,12 @@ impl Session {
             let mut lights = self.lights(&own, progress)?;
             let emission = &mut lights.emissions[0];
             if known(index) {
-                emission.cells.iter_mut().for_each(|light| light.doubts.clear());
+                emission.cells.iter_mut().for_each(|light| light.uncertainties.clear());
             }
             if !emission.is_uncertain() {
                 return Ok(DataShare::default());
             }
-            let uncertainty = emission.exitance_doubt() * own.apertures[0].aperture.area();
+            let uncertainty = emission.exitance_uncertainty() * own.apertures[0].aperture.area();
             let direct = if lights.splits.is_empty() {
                 self.direct(&own, &lights.emissions, progress)?
             } else {

@@ -8,7 +8,7 @@ use crate::compute::lid::{Emission, Facing, Interpolator, SkyThrough, SunThrough
 use crate::study::cache::bits;
 use crate::study::scene::{Scene, SceneAperture};
 use crate::study::scene_file::Interpolation;
-use crate::study::system::VerySystem;
+use crate::study::system::SystemModel;
 use std::sync::Arc;
 
 impl Session {
@@ -29,10 +29,10 @@ impl Session {
 
     fn of_system(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
         let system = &scene.apertures[aperture].system;
-        match system.very.as_ref().filter(|_| scene.beams) {
-            Some(very) => {
-                let mut emission = self.diffuse(scene, aperture, very, &Facing { sun: None, ..*facing });
-                emission.add_sun_through(&self.sun_through(very, facing).1);
+        match system.model.as_ref().filter(|_| scene.beams) {
+            Some(model) => {
+                let mut emission = self.diffuse(scene, aperture, model, &Facing { sun: None, ..*facing });
+                emission.add_sun_through(&self.sun_through(model, facing).1);
                 emission
             }
             None => self.by_data(scene, aperture, facing),
@@ -40,25 +40,25 @@ impl Session {
     }
 
     /// Computes the light that a described system makes of sky and ground.
-    fn diffuse(&self, scene: &Scene, aperture: usize, very: &VerySystem, facing: &Facing<'_>) -> Emission {
+    fn diffuse(&self, scene: &Scene, aperture: usize, model: &SystemModel, facing: &Facing<'_>) -> Emission {
         if !facing.outside.is_lit() {
             return Emission::dark();
         }
-        if !very.answers_for_the_sky() {
+        if !model.answers_for_the_sky() {
             return self.by_data(scene, aperture, facing);
         }
-        self.sky_through(very).1.emission(facing)
+        self.sky_through(model).1.emission(facing)
     }
 
     /// Returns the responses of a described system to all diffuse light; computed or kept.
-    pub(crate) fn sky_through(&self, very: &VerySystem) -> Arc<(VerySystem, SkyThrough)> {
-        let key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64];
-        self.skies.find(key, || (very.clone(), SkyThrough::new(very.0.as_ref())))
+    pub(crate) fn sky_through(&self, model: &SystemModel) -> Arc<(SystemModel, SkyThrough)> {
+        let key = vec![Arc::as_ptr(&model.0).cast::<()>() as u64];
+        self.skies.find(key, || (model.clone(), SkyThrough::new(model.0.as_ref())))
     }
 
     /// Returns the light that a described system makes of the sun; computed or kept.
-    fn sun_through(&self, very: &VerySystem, facing: &Facing<'_>) -> Arc<(VerySystem, SunThrough)> {
-        let mut key = vec![Arc::as_ptr(&very.0).cast::<()>() as u64, facing.surface as u64];
+    fn sun_through(&self, model: &SystemModel, facing: &Facing<'_>) -> Arc<(SystemModel, SunThrough)> {
+        let mut key = vec![Arc::as_ptr(&model.0).cast::<()>() as u64, facing.surface as u64];
         // Everything that decides how much of the disc is visible, and where.
         let edges = facing.sun_edges().map(|edge| edge.normal.extend(edge.offset).to_array());
         key.extend(bits(edges.into_iter().flatten()));
@@ -67,7 +67,7 @@ impl Session {
             key.extend(bits([sun.direct_normal]));
         }
         // The result keeps the system alive, so that no other can have its address.
-        self.suns.find(key, || (very.clone(), SunThrough::new(very.0.as_ref(), facing)))
+        self.suns.find(key, || (model.clone(), SunThrough::new(model.0.as_ref(), facing)))
     }
 
     /// Computes the light that the system's data make of the outside.
@@ -107,7 +107,7 @@ impl Session {
             Some(Scattered::Tree(tree)) => {
                 let mut emission = Emission::new(btdf, facing);
                 emission.estimate_patch_uncertainty();
-                emission.doubt_leaves(tree, facing);
+                emission.estimate_leaf_uncertainty(tree, facing);
                 emission
             }
             _ => Emission::new(btdf, facing),

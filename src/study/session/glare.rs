@@ -37,7 +37,7 @@ pub struct EyeGlare {
 }
 
 /// Light of all apertures for observers.
-pub(crate) struct Shining {
+pub(crate) struct ApertureLight {
     emissions: Vec<Emission>,
     /// Sunlit pieces of each aperture, and pieces for points of the sun's rim; empty without boxes and skyline by
     /// bearing.
@@ -57,17 +57,23 @@ impl Session {
     pub fn glare(&self, scene: &Scene, eye: &Sensor, progress: &dyn Progress) -> Result<EyeGlare, StudyError> {
         let own = Scene { sensors: vec![*eye], grid: None, ..scene.clone() };
         let vertical = self.room(&own, progress)?.sensors[0].total();
-        Ok(self.shining(scene, progress)?.glare(scene, &eye_field(scene, eye), eye, vertical, Threshold::default()))
+        Ok(self.aperture_light(scene, progress)?.glare(
+            scene,
+            &eye_field(scene, eye),
+            eye,
+            vertical,
+            Threshold::default(),
+        ))
     }
 
     /// Computes the light of all apertures for observers.
-    pub(crate) fn shining(&self, scene: &Scene, progress: &dyn Progress) -> Result<Shining, StudyError> {
-        Ok(Shining::of(scene, self.lights(scene, progress)?.emissions))
+    pub(crate) fn aperture_light(&self, scene: &Scene, progress: &dyn Progress) -> Result<ApertureLight, StudyError> {
+        Ok(ApertureLight::of(scene, self.lights(scene, progress)?.emissions))
     }
 
     /// Computes the light of all apertures for observers by the sun alone, with a dark outside; past boxes scattered
     /// light is the mean over the aperture.
-    pub(crate) fn sunshine(&self, scene: &Scene) -> Shining {
+    pub(crate) fn sunshine(&self, scene: &Scene) -> ApertureLight {
         let emission = |index: usize| {
             let facing = scene.facing(index);
             if facing.sun_illuminance() <= 0.0 {
@@ -82,7 +88,7 @@ impl Session {
             let beams = emission.beams.clone();
             Emission { beams, ..emission.scaled(share) }
         };
-        Shining::of(scene, (0..scene.apertures.len()).map(emission).collect())
+        ApertureLight::of(scene, (0..scene.apertures.len()).map(emission).collect())
     }
 }
 
@@ -107,7 +113,7 @@ fn open_rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Fa
     rays(eye, aperture, beams, |beam| beams_through(eye, aperture, &[*beam], facing).beam)
 }
 
-impl Shining {
+impl ApertureLight {
     fn of(scene: &Scene, emissions: Vec<Emission>) -> Self {
         let Some(around) = scene.outside.surroundings() else { return Self { emissions, lit: Vec::new() } };
         let reached = |(index, emission): (usize, &Emission)| {

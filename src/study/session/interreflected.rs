@@ -96,7 +96,7 @@ impl Session {
         if keeps(scene, 2 * patches) {
             return self.gathering(scene, count, radiosity).map(Gathered::Kept);
         }
-        Ok(Gathered::Anew([&radiosity.nested.fine, &radiosity.nested.coarse]))
+        Ok(Gathered::Recomputed([&radiosity.nested.fine, &radiosity.nested.coarse]))
     }
 
     /// Returns what every sensor receives from the patches, fine and coarse; computed or kept.
@@ -183,10 +183,10 @@ impl Session {
         let misplaced = first.misplaced;
         let mut all = first.diffuse;
         if let Some(landing) = &landing {
-            all.iter_mut().zip(&landing.thrown).for_each(|(sum, e)| *sum += e);
+            all.iter_mut().zip(&landing.reflected).for_each(|(sum, e)| *sum += e);
         }
         let mut exitance = radiosity.exitance(&all);
-        let mut thrown_back = vec![0.0; scene.sensors.len()];
+        let mut room_side_reflection = vec![0.0; scene.sensors.len()];
         let mirrors = mirrors(scene, weights);
         if !mirrors.is_empty() {
             check(progress)?;
@@ -197,7 +197,7 @@ impl Session {
                 let part = in_blocks(scene, "interreflection", progress, |s, sensor| {
                     Ok(dot(&seen.of(s, sensor).cells, &luminance))
                 })?;
-                thrown_back.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
+                room_side_reflection.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
             }
         }
         // The relative error of the emission is that of its reflections.
@@ -205,7 +205,7 @@ impl Session {
         let emitted_error = if emitted.value > 0.0 { emitted.error / emitted.value } else { 0.0 };
         let spans = [spans(mesh), spans(&radiosity.nested.coarse)];
         let estimates = in_blocks(scene, "interreflection", progress, |s, sensor| {
-            let (own, thrown_back) = (gather.of(s, sensor), thrown_back[s]);
+            let (own, room_side_reflection) = (gather.of(s, sensor), room_side_reflection[s]);
             let [fine, coarse] = &*own;
             let outlines =
                 landing.as_ref().map_or(0.0, |landing| landing.light_at(mesh, sensor.position, sensor.normal));
@@ -217,13 +217,15 @@ impl Session {
                 difference += by_fine - by_coarse;
                 squares += (by_fine - by_coarse).powi(2);
             }
-            let value = (value + difference / 3.0 + outlines + thrown_back).max(0.0);
+            let value = (value + difference / 3.0 + outlines + room_side_reflection).max(0.0);
             // The outlines are seen in closed form.
             let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced) * (value - outlines);
             let near = NEAR * dot(&fine.slopes, &exitance.fine);
             Ok(Estimate::new(
                 value,
-                (DIFFERENCE * squares.sqrt()).hypot(rest).hypot(near) + emitted_error * value + UNEVEN * thrown_back,
+                (DIFFERENCE * squares.sqrt()).hypot(rest).hypot(near)
+                    + emitted_error * value
+                    + UNEVEN * room_side_reflection,
             ))
         })?;
         Ok((estimates, gap))

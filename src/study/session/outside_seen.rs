@@ -22,22 +22,22 @@ impl OutsideSeen {
     /// Returns a sentence for each note.
     pub fn sentences(&self) -> Vec<String> {
         let number = self.aperture + 1;
-        let mut said = Vec::new();
+        let mut notes = Vec::new();
         if self.through {
-            said.push(texts::past_outside(number));
+            notes.push(texts::past_outside(number));
         }
         match self.parts {
-            Some(0) => said.push(texts::outside_alike(number, fixed(100.0 * self.change, 1))),
-            Some(1) => said.push(texts::outside_one_part(number, fixed(100.0 * self.change, 0))),
-            Some(parts) => said.push(texts::outside_parts(number, parts, fixed(100.0 * self.change, 0))),
+            Some(0) => notes.push(texts::outside_alike(number, fixed(100.0 * self.change, 1))),
+            Some(1) => notes.push(texts::outside_one_part(number, fixed(100.0 * self.change, 0))),
+            Some(parts) => notes.push(texts::outside_parts(number, parts, fixed(100.0 * self.change, 0))),
             None => {}
         }
         match self.sunlit {
-            Some(share) if share >= 1.0 - 1e-9 => said.push(texts::sun_on_all(number)),
-            Some(share) if share <= 1e-9 => said.push(texts::sun_on_none(number)),
-            Some(share) => said.push(texts::sun_on_part(number, fixed(100.0 * share, 0))),
+            Some(share) if share >= 1.0 - 1e-9 => notes.push(texts::sun_on_all(number)),
+            Some(share) if share <= 1e-9 => notes.push(texts::sun_on_none(number)),
+            Some(share) => notes.push(texts::sun_on_part(number, fixed(100.0 * share, 0))),
             None => {}
         }
-        said
+        notes
     }
 }

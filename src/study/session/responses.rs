@@ -4,11 +4,11 @@
 //! One set serves every sky, sun and system of a room; light that apertures reflect by direction is added by cells,
 //! see [`super::thrown_back`].
 
+use super::beam_responses::{BeamResponses, ReflectedBeamLight};
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};
-use super::landed::{Landed, LandedLight};
+use super::room_side_reflection::RoomSideReflection;
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
-use super::thrown_back::ThrownBack;
 use super::unit_beams::UnitBeams;
 use super::weights::{ByCells, Response, TOGETHER, by_walls};
 use super::{Session, check, sensor_key};
@@ -34,7 +34,7 @@ pub(crate) struct Responses {
     pub radiosity: Arc<Radiosity>,
     room: ThroughRoom,
     /// Light of apertures that reflect by direction.
-    mirrors: Option<ThrownBack>,
+    mirrors: Option<RoomSideReflection>,
     /// Requested number of fine patches.
     count: usize,
 }
@@ -47,13 +47,13 @@ pub(crate) struct Reflected {
     /// Difference of the two densities.
     pub difference: f64,
     /// Part that comes directly from apertures that reflect by direction.
-    pub thrown_back: f64,
+    pub room_side_reflection: f64,
 }
 
 impl Reflected {
     /// Returns the estimated absolute error.
-    pub fn doubt(&self) -> f64 {
-        DIFFERENCE_ALONE * self.difference + UNEVEN * self.thrown_back
+    pub fn uncertainty(&self) -> f64 {
+        DIFFERENCE_ALONE * self.difference + UNEVEN * self.room_side_reflection
     }
 }
 
@@ -69,7 +69,8 @@ impl Session {
         // reflect by cells, as one cell of uniform luminance: the room is black to all of them, and the same whatever
         // the product. Not where light may fall directly from one on another.
         let surface = |one: &SceneAperture| one.aperture.surface;
-        let black = self.evenly && scene.apertures.windows(2).all(|pair| surface(&pair[0]) == surface(&pair[1]));
+        let black =
+            self.reflects_uniformly && scene.apertures.windows(2).all(|pair| surface(&pair[0]) == surface(&pair[1]));
         let lambertian: Vec<f64> =
             scene.apertures.iter().map(|one| if black { one.diffuse_reflectance() } else { 0.0 }).collect();
         let own = scene;
@@ -96,16 +97,16 @@ impl Session {
         let geometry = scene.apertures.iter().map(|a| a.aperture).collect();
         let mesh_key = mesh_key(scene, count);
         let room = ThroughRoom { radiosity: Arc::clone(&radiosity), sensors, key, mesh_key, geometry, sensor_key };
-        let mirrors = ThrownBack::new(self, own, &lambertian, &room, progress)?;
+        let mirrors = RoomSideReflection::new(self, own, &lambertian, &room, progress)?;
         Ok(Responses { radiosity, room, mirrors, count })
     }
 
     /// Returns the responses of the sensors of [`Self::responses`] to beams; computed or kept.
-    pub(crate) fn landed(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
+    pub(crate) fn unit_beams(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
         let key = [&room.room.key[..], &room.room.sensor_key].concat();
-        self.landed.get(key, || {
+        self.unit_beams.get(key, || {
             let gather = self.gathering(scene, room.count, &room.radiosity)?;
-            Ok(UnitBeams::new(Landed::new(&room.radiosity, &gather, &room.room.sensors)))
+            Ok(UnitBeams::new(BeamResponses::new(&room.radiosity, &gather, &room.room.sensors)))
         })
     }
 }
@@ -157,7 +158,7 @@ impl Responses {
         session: &Session,
         index: usize,
         basis: &Arc<RingBasis>,
-        doubts: bool,
+        with_uncertainty: bool,
         nodes: Option<&Nodes>,
     ) -> Vec<Vec<Reflected>> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of_cells(session, &self.room, index, basis));
@@ -169,17 +170,19 @@ impl Responses {
                 let gap =
                     |(w, wall): (usize, &Vec<f64>)| wall[c] + added.map_or(0.0, |added| share * added.walls[w][c]);
                 let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
-                let thrown_back = added.map_or(0.0, |added| share * added.straight[c]);
-                Reflected { value, difference: squares.sqrt(), thrown_back }
+                let room_side_reflection = added.map_or(0.0, |added| share * added.straight[c]);
+                Reflected { value, difference: squares.sqrt(), room_side_reflection }
             };
             (0..basis.len()).map(cell).collect()
         };
         let all = |room: &ByCells, share: f64| -> Vec<Vec<Reflected>> {
             (0..self.room.sensors.len()).into_par_iter().map(|s| sensor(room, share, s)).collect()
         };
-        let Some(nodes) = nodes else { return all(&self.room.through_room(session, index, basis, doubts), 1.0) };
+        let Some(nodes) = nodes else {
+            return all(&self.room.through_room(session, index, basis, with_uncertainty), 1.0);
+        };
         // Light that apertures reflect hardly depends on where in one of them it entered.
-        let by_node = self.room.through_room_by_node(session, index, basis, doubts, nodes);
+        let by_node = self.room.through_room_by_node(session, index, basis, with_uncertainty, nodes);
         by_node.iter().zip(nodes.parts()).flat_map(|(room, part)| all(room, part)).collect()
     }
 
@@ -191,14 +194,18 @@ impl Responses {
             let value = dot(&sensor.value, first) + added.map_or(0.0, |added| added.value);
             let gap = |(w, wall): (usize, &Vec<f64>)| dot(wall, first) + added.map_or(0.0, |added| added.walls[w]);
             let squares: f64 = sensor.walls.iter().enumerate().map(gap).map(|x| x * x).sum();
-            Reflected { value, difference: squares.sqrt(), thrown_back: added.map_or(0.0, |added| added.straight) }
+            Reflected {
+                value,
+                difference: squares.sqrt(),
+                room_side_reflection: added.map_or(0.0, |added| added.straight),
+            }
         };
         self.room.sensors.iter().enumerate().map(one).collect()
     }
 
     /// Returns the light of beams at every sensor after two reflections or one by an aperture. `direct`: illuminance
     /// of the patches by the beams. \[lx\]
-    pub fn of_landed(&self, sums: &LandedLight, direct: &[f64]) -> Vec<Reflected> {
+    pub fn of_beams(&self, sums: &ReflectedBeamLight, direct: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(direct));
         let one = |s: usize| {
             let added = mirrored.as_ref().map(|all| &all[s]);
@@ -206,7 +213,7 @@ impl Responses {
             let gap = |(w, wall): (usize, f64)| wall + added.map_or(0.0, |added| added.walls[w]);
             let squares: f64 = sums.walls(s).enumerate().map(gap).map(|x| x * x).sum();
             let difference = (squares + sums.blur[s].powi(2)).sqrt();
-            Reflected { value, difference, thrown_back: added.map_or(0.0, |added| added.straight) }
+            Reflected { value, difference, room_side_reflection: added.map_or(0.0, |added| added.straight) }
         };
         (0..self.room.sensors.len()).map(one).collect()
     }

@@ -78,7 +78,7 @@ pub(super) fn in_blocks<T: Send>(
 /// Light that every sensor receives from one aperture per luminance, by cells.
 pub(super) enum Seen<'a> {
     Kept(Arc<Vec<Reception>>),
-    Anew(&'a Aperture, Option<&'a RingBasis>),
+    Recomputed(&'a Aperture, Option<&'a RingBasis>),
 }
 
 impl Seen<'_> {
@@ -86,7 +86,7 @@ impl Seen<'_> {
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, Reception> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
-            Self::Anew(aperture, basis) => Cow::Owned(Reception::new(sensor, aperture, *basis)),
+            Self::Recomputed(aperture, basis) => Cow::Owned(Reception::new(sensor, aperture, *basis)),
         }
     }
 }
@@ -95,7 +95,7 @@ impl Seen<'_> {
 pub(super) enum SeenBands<'a> {
     Kept(Arc<Vec<BandWeights>>),
     /// Aperture, whether the profile angle is in the horizontal plane, and number of bands.
-    Anew(&'a Aperture, bool, usize),
+    Recomputed(&'a Aperture, bool, usize),
 }
 
 impl SeenBands<'_> {
@@ -103,7 +103,7 @@ impl SeenBands<'_> {
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, BandWeights> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
-            Self::Anew(aperture, upright, count) => Cow::Owned(bands_of(sensor, aperture, *upright, *count)),
+            Self::Recomputed(aperture, upright, count) => Cow::Owned(bands_of(sensor, aperture, *upright, *count)),
         }
     }
 }
@@ -117,7 +117,7 @@ pub(crate) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, coun
 /// Light that every sensor receives from the patches, fine and coarse.
 pub(super) enum Gathered<'a> {
     Kept(Arc<Vec<[Reconstruction; 2]>>),
-    Anew([&'a Mesh; 2]),
+    Recomputed([&'a Mesh; 2]),
 }
 
 impl Gathered<'_> {
@@ -125,7 +125,7 @@ impl Gathered<'_> {
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, [Reconstruction; 2]> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
-            Self::Anew(meshes) => Cow::Owned(gathered(meshes, sensor)),
+            Self::Recomputed(meshes) => Cow::Owned(gathered(meshes, sensor)),
         }
     }
 }

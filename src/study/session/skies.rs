@@ -29,8 +29,8 @@ const MOST_NUMBERS: usize = 12_000 * 8784;
 /// Returns the stored hours of a year, for a list of directions with this fingerprint that gives `numbers` values per
 /// hour; `None` for more than can be kept. `year`: number of the year, and count of its hours.
 fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
-    let worth = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
-    worth.then(|| cache.find(vec![year.0, year.1 as u64, fingerprint], || SkyYear::nothing(year.1)))
+    let fits = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
+    fits.then(|| cache.find(vec![year.0, year.1 as u64, fingerprint], || SkyYear::nothing(year.1)))
 }
 
 impl Session {
@@ -137,14 +137,14 @@ impl Session {
         fingerprint: u64,
         find: impl FnOnce() -> Vec<f64>,
     ) -> Arc<Vec<f64>> {
-        let mut key = told_apart(outside);
+        let mut key = sky_key(outside);
         key.push(fingerprint);
         self.exact_skies.find(key, find)
     }
 }
 
 /// Returns the key of a sky: luminances that differ between all skies that are tried.
-fn told_apart(outside: &Outside) -> Key {
+fn sky_key(outside: &Outside) -> Key {
     let spiral = (0..24).map(|k| {
         let z = (f64::from(k) + 0.5) / 24.0;
         let (sin, cos) = (TAU * 0.381_966 * f64::from(k)).sin_cos();

@@ -211,7 +211,7 @@ impl Leaf {
         let local = |axis: usize, at: usize| (2 * at + 1) as f64 / count[axis] - 1.0;
         let tile = |(i, k): (usize, usize)| {
             let mut light = self.at(local(0, i), local(1, k));
-            doubt(&mut light, self.rough() + steps + AT_POINTS);
+            add_relative_error(&mut light, self.rough() + steps + AT_POINTS);
             ([place(0, i), place(1, k)], light)
         };
         (0..columns).flat_map(|i| (0..rows).map(move |k| (i, k))).map(tile).collect()
@@ -282,7 +282,7 @@ fn fullest<'a>(list: impl Iterator<Item = &'a Emission>) -> Option<&'a Emission>
 }
 
 /// Adds a relative error, of parabolas and of steps from tile to tile, to all kinds of light.
-fn doubt(light: &mut Emission, relative: f64) {
+fn add_relative_error(light: &mut Emission, relative: f64) {
     light.uniform.error += relative * light.uniform.value;
     light.cells.iter_mut().for_each(|cells| cells.relative_error += relative);
     for bands in &mut light.bands {
@@ -299,7 +299,7 @@ pub(super) fn mean_of(leaves: &[Leaf]) -> Emission {
     let (flux, left) = leaves
         .iter()
         .fold((0.0, 0.0), |(flux, left), leaf| (flux + leaf.flux(), left + leaf.left_over().iter().sum::<f64>()));
-    doubt(&mut mean, AT_POINTS + if flux > 0.0 { left / flux } else { 0.0 });
+    add_relative_error(&mut mean, AT_POINTS + if flux > 0.0 { left / flux } else { 0.0 });
     mean
 }
 

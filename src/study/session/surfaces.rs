@@ -58,11 +58,11 @@ impl Session {
         let lights = self.lights(scene, progress)?;
         let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
         let of_aperture = |(index, emission): (usize, &Emission)| {
-            (lights.flux_through(scene, index), emission.exitance_doubt() * geometry[index].area())
+            (lights.flux_through(scene, index), emission.exitance_uncertainty() * geometry[index].area())
         };
         let fluxes: Vec<_> = lights.emissions.iter().enumerate().map(of_aperture).collect();
         let flux: Estimate = fluxes.iter().map(|(flux, _)| *flux).sum();
-        let doubted: f64 = fluxes.iter().map(|(_, doubt)| doubt).sum();
+        let flux_uncertainty: f64 = fluxes.iter().map(|(_, uncertainty)| uncertainty).sum();
         check(progress)?;
         let count = PATCHES[0];
         let radiosity = self.radiosity(scene, count)?;
@@ -79,7 +79,7 @@ impl Session {
         let received = if Plan::new(scene).runs("interreflection") {
             let mut all = first.diffuse;
             if let Some(landing) = &landing {
-                all.iter_mut().zip(&landing.thrown).for_each(|(sum, e)| *sum += e);
+                all.iter_mut().zip(&landing.reflected).for_each(|(sum, e)| *sum += e);
             }
             let key = mesh_key(scene, count);
             let mirrors = mirrors(scene, |index: usize, basis: &Arc<RingBasis>| {
@@ -89,8 +89,8 @@ impl Session {
                 let mut exitance = radiosity.exitance(&all);
                 let luminances = settled_light(&radiosity, &geometry, &mirrors, &all, &beams, &mut exitance);
                 for ((_, mirror), luminance) in mirrors.iter().zip(luminances) {
-                    let (thrown, _) = mirror.weights().illuminance(&luminance);
-                    all.iter_mut().zip(thrown).for_each(|(sum, e)| *sum += e);
+                    let (reflected, _) = mirror.weights().illuminance(&luminance);
+                    all.iter_mut().zip(reflected).for_each(|(sum, e)| *sum += e);
                 }
             }
             radiosity.illuminance(&all)
@@ -98,7 +98,7 @@ impl Session {
             first.diffuse.into_iter().map(|e| (e, 0.0)).collect()
         };
         // The relative error of the flux that enters is that of the light it becomes.
-        let open = if flux.value > 0.0 { (flux.error + doubted) / flux.value } else { 0.0 };
+        let open = if flux.value > 0.0 { (flux.error + flux_uncertainty) / flux.value } else { 0.0 };
         let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced);
         let patches = mesh
             .patches

@@ -28,8 +28,8 @@ pub(super) struct ThroughRoom {
 }
 
 /// Returns the weights of a sensor: its value, then with `doubts` those of its walls.
-fn lists(sensor: &Response, doubts: bool) -> impl Iterator<Item = &[f64]> {
-    std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| doubts)).map(Vec::as_slice)
+fn lists(sensor: &Response, with_uncertainty: bool) -> impl Iterator<Item = &[f64]> {
+    std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| with_uncertainty)).map(Vec::as_slice)
 }
 
 impl ThroughRoom {
@@ -40,9 +40,15 @@ impl ThroughRoom {
 
     /// Returns the sensors' weights of the luminance of an aperture's cells, by way of the room alone, computed or
     /// kept; without `doubts` values only.
-    pub fn through_room(&self, session: &Session, index: usize, basis: &Arc<RingBasis>, doubts: bool) -> Arc<ByCells> {
-        let find = || self.by_cells(&self.weights(session, index, basis), doubts);
-        session.by_cells.find(self.cells_key(index, basis, doubts), find)
+    pub fn through_room(
+        &self,
+        session: &Session,
+        index: usize,
+        basis: &Arc<RingBasis>,
+        with_uncertainty: bool,
+    ) -> Arc<ByCells> {
+        let find = || self.by_cells(&self.weights(session, index, basis), with_uncertainty);
+        session.by_cells.find(self.cells_key(index, basis, with_uncertainty), find)
     }
 
     /// Returns the sensors' weights by node, for light that is 1 at one of the aperture's nodes and 0 at the others;
@@ -52,26 +58,26 @@ impl ThroughRoom {
         session: &Session,
         index: usize,
         basis: &Arc<RingBasis>,
-        doubts: bool,
+        with_uncertainty: bool,
         nodes: &Nodes,
     ) -> Arc<Vec<ByCells>> {
         let find = || {
             let all = PatchWeights::by_node(&self.radiosity.nested.fine, &self.geometry[index], basis, nodes);
-            all.iter().map(|weights| self.by_cells(weights, doubts)).collect()
+            all.iter().map(|weights| self.by_cells(weights, with_uncertainty)).collect()
         };
-        session.by_nodes.find(self.cells_key(index, basis, doubts), find)
+        session.by_nodes.find(self.cells_key(index, basis, with_uncertainty), find)
     }
 
-    fn cells_key(&self, index: usize, basis: &RingBasis, doubts: bool) -> Key {
+    fn cells_key(&self, index: usize, basis: &RingBasis, with_uncertainty: bool) -> Key {
         let mut key = [&self.key[..], &self.sensor_key].concat();
-        key.extend([index as u64, u64::from(doubts)]);
+        key.extend([index as u64, u64::from(with_uncertainty)]);
         key.extend(basis_key(Some(basis)));
         key
     }
 
-    fn by_cells(&self, weights: &PatchWeights, doubts: bool) -> ByCells {
+    fn by_cells(&self, weights: &PatchWeights, with_uncertainty: bool) -> ByCells {
         let block = |sensors: &[Response]| {
-            let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, doubts)).collect();
+            let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, with_uncertainty)).collect();
             weights.gathered(&all)
         };
         let found: Vec<Vec<Vec<f64>>> = self.sensors.par_chunks(TOGETHER).map(block).collect();
@@ -79,7 +85,7 @@ impl ThroughRoom {
         let (mut value, mut walls) = (Vec::new(), Vec::new());
         for sensor in self.sensors.iter() {
             value.extend(found.next());
-            if doubts {
+            if with_uncertainty {
                 walls.push(found.by_ref().take(sensor.walls.len()).collect());
             }
         }

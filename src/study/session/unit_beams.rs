@@ -4,7 +4,7 @@
 //! Panes, holes and what passes between slats transmit it undeviated, cut panels redirect it upwards. Every system
 //! meets the same suns, so that such a beam is computed once for all of them.
 
-use super::landed::{Landed, LandedLight};
+use super::beam_responses::{BeamResponses, ReflectedBeamLight};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::dot::wide;
 use crate::compute::lid::{BeamLight, Facing};
@@ -29,7 +29,7 @@ type Key = (usize, [u64; 3]);
 
 /// Responses of a room to beams, with those beams of 1 lm that were computed so far.
 pub(crate) struct UnitBeams {
-    landed: Landed,
+    responses: BeamResponses,
     known: Mutex<HashMap<Key, Arc<UnitBeam>>>,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct UnitBeam {
 /// Sum of the reflected light of beams.
 pub(crate) struct Together {
     /// Light after two reflections or more.
-    pub light: LandedLight,
+    pub light: ReflectedBeamLight,
     /// Illuminance after one reflection with sharp outlines, sensor by sensor. \[lx\]
     pub sharp: Vec<f64>,
     /// Direct illuminance of the patches by the beams. \[lx\]
@@ -63,13 +63,13 @@ fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
 
 impl UnitBeams {
     /// Creates the store without any beam of 1 lm.
-    pub fn new(landed: Landed) -> Self {
-        Self { landed, known: Mutex::default() }
+    pub fn new(responses: BeamResponses) -> Self {
+        Self { responses, known: Mutex::default() }
     }
 
     /// Returns the responses to beams of any direction.
-    pub fn landed(&self) -> &Landed {
-        &self.landed
+    pub fn responses(&self) -> &BeamResponses {
+        &self.responses
     }
 
     /// Returns the light of a beam of 1 lm through an aperture of the scene; `None` where the beam has to be computed
@@ -89,7 +89,7 @@ impl UnitBeams {
         if let Some(unit) = known().get(&key) {
             return Some(Arc::clone(unit));
         }
-        let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, &self.landed));
+        let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, &self.responses));
         let mut known = known();
         if known.len() * unit.numbers.len() < MOST_NUMBERS {
             known.insert(key, Arc::clone(&unit));
@@ -99,14 +99,14 @@ impl UnitBeams {
 }
 
 impl UnitBeam {
-    fn new(scene: &Scene, index: usize, to: Dir<Facade>, radiosity: &Radiosity, landed: &Landed) -> Self {
+    fn new(scene: &Scene, index: usize, to: Dir<Facade>, radiosity: &Radiosity, responses: &BeamResponses) -> Self {
         let aperture = &scene.apertures[index].aperture;
         let mesh = &radiosity.nested.fine;
         let from = aperture.surface.room_dir(to).vector();
         let beam = Beam { opening: aperture.corners().to_vec(), from, flux: 1.0 };
         let mut direct = vec![0.0; mesh.patches.len()];
         beam.add_to(mesh, &mut direct);
-        let light = landed.of(radiosity, &direct);
+        let light = responses.of(radiosity, &direct);
         let mut sharp = vec![0.0; scene.sensors.len()];
         beam.outlines(mesh).iter().for_each(|outline| outline.add_light(mesh, &scene.sensors, &mut sharp));
         let numbers = light.values.iter().copied().chain(light.blur.iter().copied()).chain(sharp).map(|e| e as f32);
@@ -119,8 +119,8 @@ impl UnitBeam {
 
 impl Together {
     /// Returns the sum of no beams.
-    pub fn dark(radiosity: &Radiosity, landed: &Landed) -> Self {
-        let light = landed.dark();
+    pub fn dark(radiosity: &Radiosity, responses: &BeamResponses) -> Self {
+        let light = responses.dark();
         let sharp = vec![0.0; light.values.len()];
         Self { light, sharp, direct: vec![0.0; radiosity.nested.fine.patches.len()] }
     }
@@ -142,7 +142,7 @@ impl Together {
     }
 
     /// Adds beams that were computed by themselves: their light and the direct illuminance of the patches.
-    pub fn add_others(&mut self, light: &LandedLight, direct: &[f64]) {
+    pub fn add_others(&mut self, light: &ReflectedBeamLight, direct: &[f64]) {
         let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, e)| *sum += e);
         add(&mut self.light.values, &light.values);
         add(&mut self.light.blur, &light.blur);

@@ -89,7 +89,7 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     })?;
     let hour = hours.at(index).map_err(failed)?;
     let record = &weather.records[index];
-    let mut warnings = places_apart(&weather.station, site);
+    let mut warnings = site_warnings(&weather.station, site);
     warnings.extend(kept.warnings().map(|one| format!("{}: {}", name.display(), one.message)));
     warnings.extend(clock_warning(weather, name, asked, closure, "sun_offset_minutes"));
     Ok(Some(HourOfWeather {
@@ -157,12 +157,12 @@ pub fn clock_warning(
 
 /// Whether a scene states another place or clock than its weather, whose place and clock are used.
 pub fn is_elsewhere(station: &Station, site: &SiteKeys) -> bool {
-    !places_apart(station, site).is_empty()
+    !site_warnings(station, site).is_empty()
 }
 
 /// Returns a warning for every key by which a scene states another place or clock than its weather, whose place and
 /// clock are used.
-pub fn places_apart(station: &Station, site: &SiteKeys) -> Vec<String> {
+pub fn site_warnings(station: &Station, site: &SiteKeys) -> Vec<String> {
     [
         ("site.latitude", site.latitude, station.latitude, SAME_PLACE, "°"),
         ("site.longitude", site.longitude, station.longitude, SAME_PLACE, "°"),

@@ -148,8 +148,8 @@ impl Engine {
             None => outside,
         };
         let scene = Scene { outside, sun, ..self.scene.clone() };
-        let shining = question.session.shining(&scene, &Silent)?;
-        let of = |((eye, field), vertical)| shining.glare(&scene, field, eye, vertical, Threshold::default());
+        let light = question.session.aperture_light(&scene, &Silent)?;
+        let of = |((eye, field), vertical)| light.glare(&scene, field, eye, vertical, Threshold::default());
         Ok(eyes.iter().zip(&self.fields).zip(vertical.iter().copied()).map(of).collect())
     }
 

@@ -41,7 +41,7 @@ impl DirectSun {
     /// Whether any aperture can transmit the sun unscattered. Systems with patch-averaged data alone do not.
     pub fn passes(&self) -> bool {
         let scene = &*self.scene;
-        let described = |index: usize| scene.beams && scene.apertures[index].system.very.is_some();
+        let described = |index: usize| scene.beams && scene.apertures[index].system.model.is_some();
         let regular = |index: usize| scene.apertures[index].transmission().is_some_and(|btdf| btdf.regular.is_some());
         (0..scene.apertures.len()).any(|index| described(index) || regular(index))
     }
@@ -77,8 +77,8 @@ impl DirectSun {
     /// Returns the unscattered and undeviated beams behind an aperture.
     fn beams(&self, index: usize, facing: &Facing<'_>) -> Vec<BeamLight> {
         let one = &self.scene.apertures[index];
-        let beams = match one.system.very.as_ref().filter(|_| self.scene.beams) {
-            Some(very) => SunThrough::beams_alone(very.0.as_ref(), facing).beams().to_vec(),
+        let beams = match one.system.model.as_ref().filter(|_| self.scene.beams) {
+            Some(model) => SunThrough::beams_alone(model.0.as_ref(), facing).beams().to_vec(),
             None => {
                 let regular = one.transmission().and_then(|btdf| btdf.regular.as_ref());
                 BeamLight::regular(regular, facing).into_iter().collect()

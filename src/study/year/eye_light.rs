@@ -22,7 +22,7 @@ use crate::study::session::far;
 use crate::study::session::seen::inside;
 use crate::study::session::sky_patches::SkyPatches;
 use crate::study::session::sky_year::SkyYear;
-use crate::study::system::VerySystem;
+use crate::study::system::SystemModel;
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -67,9 +67,9 @@ pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
 
 /// Returns the optical model of an aperture's system if it also computes light from the sky: it is more exact than the
 /// data.
-fn described(scene: &Scene, index: usize) -> Option<&VerySystem> {
-    let very = scene.apertures[index].system.very.as_ref();
-    very.filter(|very| scene.beams && very.answers_for_the_sky())
+fn described(scene: &Scene, index: usize) -> Option<&SystemModel> {
+    let model = scene.apertures[index].system.model.as_ref();
+    model.filter(|model| scene.beams && model.answers_for_the_sky())
 }
 
 impl EyeLight {
@@ -83,7 +83,7 @@ impl EyeLight {
         prepared: Option<&Arc<Prepared>>,
         year: (u64, usize),
     ) -> Self {
-        let own = described(scene, index).map(|very| session.sky_through(very));
+        let own = described(scene, index).map(|model| session.sky_through(model));
         let (patches, spacing) = match &own {
             Some(own) => (RingBasis::clone(own.1.basis()), SPACING),
             None => incident_patches(btdf, scene.interpolation),

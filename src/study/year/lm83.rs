@@ -83,7 +83,7 @@ pub(super) fn lm83(
 ) -> Result<Lm83, StudyError> {
     let (settings, steps) = (question.settings, question.steps);
     let groups = groups(question)?;
-    tell(question.file, settings, &groups, notes);
+    add_notes(question.file, settings, &groups, notes);
     let counts = |k: usize| steps.list[k].occupied && steps.list[k].hour.is_lit();
     let rows: Vec<usize> = (0..question.chosen.len()).filter(|&row| counts(question.chosen[row])).collect();
     let suns = Suns::new(question, &groups)?;
@@ -139,7 +139,7 @@ pub(super) fn lm83(
 }
 
 /// Adds notes on assumptions of the standard that the scene does not share.
-fn tell(file: &SceneFile, settings: &Settings, groups: &[Group], notes: &mut Vec<String>) {
+fn add_notes(file: &SceneFile, settings: &Settings, groups: &[Group], notes: &mut Vec<String>) {
     if settings.keys.hours != (HoursKeys { from: 8.0, to: 18.0, days: DaysKey::All }) {
         notes.push("LM-83-12 counts 8 to 18 h of all days: here the hours of year.hours are counted".to_owned());
     }

@@ -60,7 +60,7 @@ pub use lm83::{Group, Lm83, SHADE};
 pub use look::{Look, Page, Shows};
 pub use maps::{choices, error, map, title, weather_map};
 pub use opening::{NOT_JUDGED, Opening, opening};
-pub use resume::{Kept, PATIENCE};
+pub use resume::{Kept, STORE_DELAY};
 pub use settings::{Settings, settings};
 pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};

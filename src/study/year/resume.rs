@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Duration of a run before it stores its hours; shorter runs create no partial file.
-pub const PATIENCE: Duration = Duration::from_secs(10);
+pub const STORE_DELAY: Duration = Duration::from_secs(10);
 /// Duration of the computation between two writes; it sets the number of hours in a block.
 const BLOCK: Duration = Duration::from_secs(10);
 /// Number of hours in the first block, before their duration is known.
@@ -41,7 +41,7 @@ pub struct Kept {
     hours: BTreeMap<usize, Hour>,
     waiting: String,
     begun: Instant,
-    patience: Duration,
+    delay: Duration,
 }
 
 fn wrong(path: &Path, message: impl Into<String>) -> StudyError {
@@ -92,7 +92,7 @@ impl Kept {
     ///
     /// # Errors
     /// Returns an error if the partial file is of another scene, weather or program, or if another run is writing it.
-    pub fn beside(table: &Path, fingerprint: String, patience: Duration, anew: bool) -> Result<Self, StudyError> {
+    pub fn beside(table: &Path, fingerprint: String, delay: Duration, may_overwrite: bool) -> Result<Self, StudyError> {
         let mut name = table.as_os_str().to_owned();
         name.push(".part");
         let path = PathBuf::from(name);
@@ -103,16 +103,16 @@ impl Kept {
             hours: BTreeMap::new(),
             waiting: String::new(),
             begun: Instant::now(),
-            patience,
+            delay,
         };
         if kept.path.exists() {
-            kept.take_up(anew)?;
+            kept.take_up(may_overwrite)?;
         }
         Ok(kept)
     }
 
     /// Reads the existing file; new hours follow its last complete line.
-    fn take_up(&mut self, anew: bool) -> Result<(), StudyError> {
+    fn take_up(&mut self, may_overwrite: bool) -> Result<(), StudyError> {
         let cannot =
             |error: std::io::Error| wrong(&self.path, format!("cannot be read ({error}); check path and rights"));
         let mut file = OpenOptions::new().read(true).write(true).open(&self.path).map_err(cannot)?;
@@ -123,7 +123,7 @@ impl Kept {
         let whole = text.rfind('\n').map_or("", |end| &text[..=end]);
         let mut lines = whole.lines();
         let head = lines.next().unwrap_or_default();
-        if head != format!("{HEAD} {}", self.fingerprint) && !(anew || whole.is_empty()) {
+        if head != format!("{HEAD} {}", self.fingerprint) && !(may_overwrite || whole.is_empty()) {
             let what = match head.strip_prefix(HEAD) {
                 Some(_) => "holds hours of another scene, weather, product or program",
                 None => "is no part of a year",
@@ -140,11 +140,11 @@ impl Kept {
                 end += line.len() + 1;
             }
         }
-        let told = |error: std::io::Error| wrong(&self.path, format!("cannot be written ({error})"));
-        file.set_len(end as u64).map_err(told)?;
-        file.seek(SeekFrom::End(0)).map_err(told)?;
+        let write_error = |error: std::io::Error| wrong(&self.path, format!("cannot be written ({error})"));
+        file.set_len(end as u64).map_err(write_error)?;
+        file.seek(SeekFrom::End(0)).map_err(write_error)?;
         if end == 0 {
-            file.write_all(format!("{HEAD} {}\n", self.fingerprint).as_bytes()).map_err(told)?;
+            file.write_all(format!("{HEAD} {}\n", self.fingerprint).as_bytes()).map_err(write_error)?;
         }
         self.file = Some(file);
         Ok(())
@@ -167,18 +167,18 @@ impl Kept {
 
     /// Writes the hours that have not been written, once the run has taken longer than the delay.
     fn write(&mut self) -> Result<(), StudyError> {
-        if self.waiting.is_empty() || self.file.is_none() && self.begun.elapsed() < self.patience {
+        if self.waiting.is_empty() || self.file.is_none() && self.begun.elapsed() < self.delay {
             return Ok(());
         }
-        let told = |error: std::io::Error| wrong(&self.path, format!("cannot be written ({error}); make room"));
+        let write_error = |error: std::io::Error| wrong(&self.path, format!("cannot be written ({error}); make room"));
         if self.file.is_none() {
-            let mut file = OpenOptions::new().write(true).create_new(true).open(&self.path).map_err(told)?;
+            let mut file = OpenOptions::new().write(true).create_new(true).open(&self.path).map_err(write_error)?;
             locked(&file, &self.path)?;
-            file.write_all(format!("{HEAD} {}\n", self.fingerprint).as_bytes()).map_err(told)?;
+            file.write_all(format!("{HEAD} {}\n", self.fingerprint).as_bytes()).map_err(write_error)?;
             self.file = Some(file);
         }
         if let Some(file) = &mut self.file {
-            file.write_all(self.waiting.as_bytes()).map_err(told)?;
+            file.write_all(self.waiting.as_bytes()).map_err(write_error)?;
         }
         self.waiting.clear();
         Ok(())
@@ -193,8 +193,8 @@ impl Kept {
             None => Ok(()),
             Some(file) => {
                 drop(file);
-                let told = |error: std::io::Error| wrong(&self.path, format!("cannot be removed ({error})"));
-                std::fs::remove_file(&self.path).map_err(told)
+                let remove_error = |error: std::io::Error| wrong(&self.path, format!("cannot be removed ({error})"));
+                std::fs::remove_file(&self.path).map_err(remove_error)
             }
         }
     }
@@ -346,7 +346,7 @@ mod tests {
     #[test]
     fn short_runs_leave_nothing() {
         let folder = tempfile::tempdir().unwrap();
-        let mut kept = Kept::beside(&folder.path().join("a.csv"), "a".to_owned(), PATIENCE, false).unwrap();
+        let mut kept = Kept::beside(&folder.path().join("a.csv"), "a".to_owned(), STORE_DELAY, false).unwrap();
         kept.keep(1, hour(true));
         kept.write().unwrap();
         assert!(!kept.path().exists() && kept.done().is_ok());

@@ -179,12 +179,12 @@ pub(super) fn solar(
             list[*index].source = source.unwrap_or(SolarSource::Visible);
         }
     }
-    notes.push(told(&list));
+    notes.push(note(&list));
     Ok(Solar { watts, errors, apertures: list, floor: file.room.width * file.room.depth })
 }
 
 /// Returns the note on what the figures contain, and where visible properties are used instead of solar ones.
-fn told(list: &[ThroughAperture]) -> String {
+fn note(list: &[ThroughAperture]) -> String {
     let of = |source: SolarSource| -> Vec<String> {
         list.iter().filter(|one| one.source == source).map(|one| one.number.to_string()).collect()
     };
@@ -336,10 +336,10 @@ impl<'a> Engine<'a> {
     fn beam(&self, group: &Group, passage: &Passage, outside: &Outside, sun: Option<&Sun>) -> Estimate {
         let facing = Facing { outside, sun, orientation: self.orientation, surface: group.surface };
         let Some(d) = facing.sun_entering() else { return Estimate::default() };
-        let (share, doubt) = self.sunlit(group, outside, sun);
+        let (share, uncertainty) = self.sunlit(group, outside, sun);
         let received = facing.sun_illuminance();
         let [tau, constant] = [self.between, Between::Constant].map(|between| passage.tau.at(d, between));
-        let error = share * (0.5 * (tau - constant).abs() + passage.tau.error()) + doubt * tau;
+        let error = share * (0.5 * (tau - constant).abs() + passage.tau.error()) + uncertainty * tau;
         Estimate::new(received * share * tau, received * error)
     }
 

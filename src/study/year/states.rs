@@ -133,12 +133,12 @@ pub(super) fn states(
         list.push(decisions.iter().map(|one| one.state).collect());
     }
     let indoor = reader.map(|reader| reader.found);
-    tell(indoor.as_ref(), notes);
+    add_notes(indoor.as_ref(), notes);
     Ok(States { moving, list, movements, indoor })
 }
 
 /// Adds notes on readings that do not determine the state.
-fn tell(indoor: Option<&Indoor>, notes: &mut Vec<String>) {
+fn add_notes(indoor: Option<&Indoor>, notes: &mut Vec<String>) {
     let Some(Indoor { read, hunting, unsure }) = indoor else { return };
     if !hunting.is_empty() {
         notes.push(format!(

@@ -5,7 +5,7 @@ use crate::compute::sky::{Outside, Sun};
 use crate::compute::weather::{Closure, Hour, Station};
 use crate::study::error::StudyError;
 use crate::study::scene_file::{SceneFile, SiteKeys, SkyKeys};
-use crate::study::sky::{SkyKeyError, clock_warning, even_outside_of_hour, outside_of_hour, places_apart};
+use crate::study::sky::{SkyKeyError, clock_warning, even_outside_of_hour, outside_of_hour, site_warnings};
 use crate::study::weather::{kept, moment};
 use crate::study::weather_keys::reading;
 use crate::study::year_keys::{DaysKey, YearKeys};
@@ -112,7 +112,7 @@ pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps
         }
     }
     let closure = kept.summary.closure;
-    let mut warnings = places_apart(&weather.station, &file.site);
+    let mut warnings = site_warnings(&weather.station, &file.site);
     warnings.extend(kept.warnings().map(|one| format!("{}: {}", keys.weather.display(), one.message)));
     warnings.extend(clock_warning(weather, &keys.weather, reading, closure.as_ref(), "year.sun_offset_minutes"));
     if keys.hours.days == DaysKey::Weekdays && weather.first_weekday.is_none() && weather.is_spliced() {

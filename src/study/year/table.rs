@@ -55,7 +55,7 @@ pub struct Row {
     /// Unit of the figure; `%` for shares.
     pub unit: &'static str,
     /// Compliance with limits; empty without limits.
-    pub said: String,
+    pub compliance: String,
 }
 
 impl Row {
@@ -84,14 +84,14 @@ impl Row {
 }
 
 /// Returns the larger difference between a value and those with less and with more light.
-fn apart([own, less, more]: [f64; 3]) -> f64 {
+fn max_difference([own, less, more]: [f64; 3]) -> f64 {
     (less - own).abs().max((more - own).abs())
 }
 
 /// Returns whether a limit is met, or that the uncertainty does not decide it.
 fn verdict(values: [f64; 3], met: impl Fn(f64) -> bool) -> Text {
-    let told = values.map(met);
-    match told {
+    let outcomes = values.map(met);
+    match outcomes {
         [true, true, true] => say::MET,
         [false, false, false] => say::NOT_MET,
         _ => say::OPEN,
@@ -111,10 +111,10 @@ impl Rows<'_> {
             name,
             tip,
             value: values[0],
-            error: apart(values),
+            error: max_difference(values),
             between: None,
             unit,
-            said: String::new(),
+            compliance: String::new(),
         };
         self.list.push(row);
     }
@@ -132,9 +132,9 @@ impl Rows<'_> {
         }
     }
 
-    fn said(&mut self, words: impl Into<String>) {
+    fn set_compliance(&mut self, words: impl Into<String>) {
         if let Some(row) = self.list.last_mut() {
-            row.said = words.into();
+            row.compliance = words.into();
         }
     }
 }
@@ -159,11 +159,11 @@ fn light(rows: &mut Rows<'_>) {
     rows.mean(section, (say::CDA_300, say::CDA_TIP), "%", |one| &one.autonomy.cda_300);
     let values = rows.figures.each_ref().map(|one| one.autonomy.sda_300_50);
     rows.add(section, (say::SDA, say::SDA_TIP), "%", values);
-    rows.said(say::sda_limit(verdict(values, |value| value >= 0.55)));
+    rows.set_compliance(say::sda_limit(verdict(values, |value| value >= 0.55)));
     if let [Some(own), Some(less), Some(more)] = rows.figures.each_ref().map(|one| one.blinds.as_ref()) {
         let values = [own, less, more].map(|one| one.sda_300_50);
         rows.add(section, (say::SDA_LM83, say::SDA_LM83_TIP), "%", values);
-        rows.said(say::sda_limit(verdict(values, |value| value >= 0.55)));
+        rows.set_compliance(say::sda_limit(verdict(values, |value| value >= 0.55)));
     }
     rows.mean(section, (say::UDI_N, say::UDI_TIP), "%", |one| &one.autonomy.udi_n);
     rows.mean(section, (say::UDI_S, say::UDI_TIP), "%", |one| &one.autonomy.udi_s);
@@ -176,7 +176,7 @@ fn sun(rows: &mut Rows<'_>) {
     let [Some(own), Some(less), Some(more)] = rows.figures.each_ref().map(|one| one.exposure.as_ref()) else { return };
     let values = [own, less, more].map(|one| one.ase_1000_250);
     rows.add(Section::Sun, (say::ASE, say::ASE_TIP), "%", values);
-    rows.said(say::ase_limit(verdict(values, |value| value <= 0.1)));
+    rows.set_compliance(say::ase_limit(verdict(values, |value| value <= 0.1)));
     rows.mean(Section::Sun, (say::SUN_HOURS, say::SUN_HOURS_TIP), "h", |one| {
         one.exposure.as_ref().map_or(&[][..], |one| &one.hours_1000)
     });
@@ -194,7 +194,7 @@ fn provision(rows: &mut Rows<'_>) {
         };
         let mut add = |words: String, tip: Text, values: [f64; 3], least: f64| {
             rows.add(Section::Provision, (words, tip), "%", values);
-            rows.said(say::at_least(fixed(100.0 * least, 0), verdict(values, |value| value >= least)));
+            rows.set_compliance(say::at_least(fixed(100.0 * least, 0), verdict(values, |value| value >= least)));
         };
         let [target, minimum] = [target, minimum].map(|lux| fixed(lux, 0));
         add(say::by_point(name, &target), say::BY_POINT_TIP, level(|one| one.target.area_by_point), 0.5);
@@ -219,7 +219,11 @@ fn glare(rows: &mut Rows<'_>, length: f64) {
         let class = |value: f64| LIMITS.iter().filter(|limit| value > **limit).count();
         let classes = values.map(class);
         let words = [say::CLASS_HIGH, say::CLASS_MEDIUM, say::CLASS_MINIMUM, say::CLASS_NONE];
-        rows.said(if classes[1] == classes[2] { words[classes[0]].to_string() } else { say::OPEN.to_string() });
+        rows.set_compliance(if classes[1] == classes[2] {
+            words[classes[0]].to_string()
+        } else {
+            say::OPEN.to_string()
+        });
         let above: [fn(&crate::compute::year::glare::Glare) -> f64; 3] =
             [|one| one.above[0], |one| one.above[1], |one| one.above[2]];
         for (limit, share) in LIMITS.into_iter().zip(above) {
@@ -257,7 +261,7 @@ fn control(annual: &Annual) -> Vec<Row> {
             error: 0.0,
             between: None,
             unit,
-            said: String::new(),
+            compliance: String::new(),
         };
         list.push(row(say::movements_of(one.aperture), say::MOVEMENTS_TIP, "", year.movements[m] as f64));
         let (ranks, names) = states(&one.device);
@@ -282,6 +286,6 @@ mod tests {
         assert_eq!(verdict([0.56, 0.55, 0.6], met), say::MET);
         assert_eq!(verdict([0.56, 0.54, 0.6], met), say::OPEN);
         assert_eq!(verdict([0.5, 0.4, 0.549], met), say::NOT_MET);
-        assert!((apart([0.5, 0.4, 0.55]) - 0.1).abs() < 1e-15);
+        assert!((max_difference([0.5, 0.4, 0.55]) - 0.1).abs() < 1e-15);
     }
 }

@@ -64,9 +64,9 @@ impl<'a> DirectSolar<'a> {
 
     fn transmittance(&self, keys: &SystemKeys) -> Result<Found, StudyError> {
         let system = self.library.load(keys, self.base, Need::Light { lit: false })?;
-        if let Some(very) = &system.very {
-            let (specimen, source) = very.solar();
-            if let Some(tau) = DirectionalTransmittance::by_profile(specimen) {
+        if let Some(model) = &system.model {
+            let (solar, source) = model.solar();
+            if let Some(tau) = DirectionalTransmittance::by_profile(solar) {
                 return Ok(Found { tau, source });
             }
         }

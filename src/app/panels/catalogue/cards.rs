@@ -91,19 +91,19 @@ fn one(
     let look = (FontId::proportional(13.0), palette.text);
     let name = names::layout(&painter, &entry.name, beside, look, width);
     painter.galley(pos2(left, rect.top() + PICTURE + 8.0), name, palette.text);
-    let apart = found.like.as_ref().and_then(|like| like.apart.get(place));
-    let words = apart.map_or_else(
+    let distance = found.like.as_ref().and_then(|like| like.distances.get(place));
+    let words = distance.map_or_else(
         || {
             let tau = entry.tau_hemispherical.map_or_else(|| "–".to_owned(), |tau| fixed(tau, 2));
             let states =
                 if entry.moves() { format!(" · {}", text::states(entry.states.len())) } else { String::new() };
             format!("τ {tau}{states}")
         },
-        |apart| apart.words(),
+        |distance| distance.words(),
     );
     let words = theme::one_line(&painter, &words, FontId::proportional(13.0), palette.weak, width);
     painter.galley(pos2(left, rect.bottom() - 4.0 - words.size().y), words, palette.weak);
     let signs = pos2(rect.right() - 13.0, rect.top() + 16.0);
     entry::star(ui, signs, entry, commands);
-    entry::compare_sign(ui, signs + vec2(0.0, 24.0), entry, entry::in_tray(state, &entry.key), commands);
+    entry::compare_sign(ui, signs + vec2(0.0, 24.0), entry, entry::place_in_comparison(state, &entry.key), commands);
 }

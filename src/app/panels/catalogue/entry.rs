@@ -84,9 +84,9 @@ pub(super) fn respond(
             ui.label(text::PICTURE_TIP);
         }
         if let Some(like) = &found.like
-            && let Some(apart) = like.apart.get(place)
+            && let Some(distance) = like.distances.get(place)
         {
-            ui.label(text::from_like(&like.name, apart.words()));
+            ui.label(text::from_like(&like.name, distance.words()));
         }
     });
     response
@@ -141,7 +141,7 @@ pub(super) fn star(ui: &mut Ui, at: Pos2, entry: &Entry, commands: &mut Vec<Comm
 }
 
 /// Returns the place in the comparison of the first candidate with this product.
-pub(super) fn in_tray(state: &State, key: &str) -> Option<usize> {
+pub(super) fn place_in_comparison(state: &State, key: &str) -> Option<usize> {
     let is = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { key: own, .. } if own == key);
     state.document.scene.compare.iter().position(|one| one.system.as_ref().is_some_and(is))
 }
@@ -152,7 +152,7 @@ pub(super) fn compare_sign(ui: &mut Ui, at: Pos2, entry: &Entry, compared: Optio
     let rect = Rect::from_center_size(at, Vec2::splat(23.0));
     let response = ui.interact(rect, ui.scope_id().with(("compare", &entry.key)), Sense::click());
     let (what, tip, colour) = match compared {
-        Some(_) => (text::OUT_OF_TRAY, text::OUT_OF_TRAY_TIP, palette.accent),
+        Some(_) => (text::REMOVE_FROM_COMPARISON, text::REMOVE_FROM_COMPARISON_TIP, palette.accent),
         None => (text::COMPARE, text::COMPARE_TIP, palette.weak),
     };
     let label = text::about(what, &entry.name);

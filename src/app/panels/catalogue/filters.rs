@@ -39,10 +39,10 @@ fn in_or_out(list: &mut Vec<String>, value: &str) {
 
 fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>, words: fn(&str) -> String) {
     if facets.is_empty() {
-        ui.weak(text::NOBODY_TELLS.get());
+        ui.weak(text::NONE_SPECIFIED.get());
     }
     for facet in facets {
-        let words = if facet.value.is_empty() { text::NOT_TOLD.into() } else { words(&facet.value) };
+        let words = if facet.value.is_empty() { text::NOT_SPECIFIED.into() } else { words(&facet.value) };
         if value(ui, chosen.contains(&facet.value), &words, facet.count) {
             in_or_out(chosen, &facet.value);
         }
@@ -102,7 +102,7 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
         menu(ui, [text::DATA, text::DATA_FACET], query.has(Filter::Origin) || query.has(Filter::Builtin), |ui| {
             for facet in &found.facets.origins {
                 let origin = Origin::from_word(&facet.value);
-                let words = if origin == Origin::Unknown { text::NOT_TOLD } else { origin.words() };
+                let words = if origin == Origin::Unknown { text::NOT_SPECIFIED } else { origin.words() };
                 if value(ui, query.origin == Some(origin), words.get(), facet.count) {
                     query.origin = (query.origin != Some(origin)).then_some(origin);
                 }

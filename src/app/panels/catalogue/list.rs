@@ -71,7 +71,7 @@ fn row(ui: &mut Ui, state: &mut State, (found, place): (&Found, usize), height: 
         response.request_focus();
     }
     state.focus_list |= entry::arrows(ui, &response, (found, place), 1, commands);
-    let apart = found.like.as_ref().and_then(|like| like.apart.get(place));
+    let distance = found.like.as_ref().and_then(|like| like.distances.get(place));
     let painter = ui.painter_at(rect);
     let fill = palette.behind(chosen, &response);
     painter.rect_filled(rect.shrink2(vec2(0.0, 1.0)), 4, fill);
@@ -85,7 +85,7 @@ fn row(ui: &mut Ui, state: &mut State, (found, place): (&Found, usize), height: 
     let look = (FontId::proportional(13.5), palette.text);
     let name = names::layout(&painter, &entry.name, beside, look, width);
     // How far it is from what it should be like says more than its own figures.
-    let words = apart.map_or_else(|| entry::figures(entry, state.query.sort), |apart| apart.words());
+    let words = distance.map_or_else(|| entry::figures(entry, state.query.sort), |distance| distance.words());
     let words = theme::one_line(&painter, &words, FontId::proportional(13.0), palette.weak, width);
     // Both in the middle of the row, however many lines the name has.
     let top = rect.center().y - 0.5 * (name.size().y + 2.0 + words.size().y);
@@ -94,5 +94,5 @@ fn row(ui: &mut Ui, state: &mut State, (found, place): (&Found, usize), height: 
     painter.galley(pos2(left, under), words, palette.weak);
     let signs = pos2(rect.right() - 14.0, rect.center().y);
     entry::star(ui, signs - vec2(0.0, 12.0), entry, commands);
-    entry::compare_sign(ui, signs + vec2(0.0, 12.0), entry, entry::in_tray(state, &entry.key), commands);
+    entry::compare_sign(ui, signs + vec2(0.0, 12.0), entry, entry::place_in_comparison(state, &entry.key), commands);
 }

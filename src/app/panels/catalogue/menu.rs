@@ -1,9 +1,9 @@
 //! Menu of a right click on a row.
 
+use crate::app::catalogue_command::CatalogueCommand;
 use crate::app::command::Command;
 use crate::app::compare::Act;
 use crate::app::shelf::Entry;
-use crate::app::shelving::Shelving;
 use crate::app::state::Sheet;
 use crate::catalogue::Collection;
 use crate::texts::catalogue as text;
@@ -25,7 +25,7 @@ pub(super) fn show(row: &egui::Response, entry: &Entry, collections: &[Collectio
                 let mut inside = one.products.contains(&entry.key);
                 if ui.checkbox(&mut inside, &one.name).clicked() {
                     let name = one.name.clone();
-                    commands.push(Command::Shelve(Shelving::Collect { name, product: key(), put: inside }));
+                    commands.push(Command::Catalogue(CatalogueCommand::Collect { name, product: key(), put: inside }));
                     ui.close();
                 }
             }

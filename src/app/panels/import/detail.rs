@@ -7,7 +7,7 @@ use crate::app::import::{Import, Proposed, Row, number};
 use crate::app::import_steps::{Step, Word};
 use crate::compute::btdf::Severity;
 use crate::compute::doctor::{Repair, RepairKind};
-use crate::texts::{fixed, take_in as text};
+use crate::texts::{fixed, import as text};
 use egui::{TextEdit, Ui};
 
 /// Draws the details.
@@ -64,7 +64,7 @@ fn state(ui: &mut Ui, (own, place): Row, product: &Proposed, commands: &mut Vec<
             picture(ui, ways);
         }
     }
-    let repairs = product.wished.as_ref().unwrap_or(&product.repairs);
+    let repairs = product.requested_repairs.as_ref().unwrap_or(&product.repairs);
     let turn = Repair::whole(RepairKind::TurnUpsideDown);
     ui.horizontal_wrapped(|ui| {
         if ui.button(text::TURN).on_hover_text(text::TURN_TIP).clicked() {
@@ -80,7 +80,7 @@ fn state(ui: &mut Ui, (own, place): Row, product: &Proposed, commands: &mut Vec<
     if !repairs.is_empty() {
         let words: Vec<String> = repairs.iter().copied().map(repair_words).collect();
         let words = words.join("; ");
-        let line = if product.wished.is_some() { text::repairing(words) } else { text::repaired(words) };
+        let line = if product.requested_repairs.is_some() { text::repairing(words) } else { text::repaired(words) };
         ui.add(egui::Label::new(line).wrap());
     }
     ui.add_space(6.0);

@@ -7,7 +7,7 @@ use crate::app::theme;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways};
 use crate::texts::findings::words;
-use crate::texts::{Text, fixed, take_in as text};
+use crate::texts::{Text, fixed, import as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::sync::Arc;
 

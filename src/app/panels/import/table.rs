@@ -5,9 +5,9 @@ use crate::app::command::Command;
 use crate::app::import::{Import, Proposed, Row, StateWords, number};
 use crate::app::import_steps::{Choose, Step};
 use crate::app::theme::{self, Palette};
-use crate::catalogue::Doubt;
+use crate::catalogue::Ambiguity;
 use crate::compute::btdf::Severity;
-use crate::texts::{Text, fixed, take_in as text};
+use crate::texts::{Text, fixed, import as text};
 use egui::{Align, FontId, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 
 /// Height of a line. \[points\]
@@ -56,8 +56,8 @@ fn cells(line: Rect) -> [Rect; 5] {
 
 fn one(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     head(ui, import, number, product, commands);
-    if let Some(doubt) = product.doubt.as_ref().filter(|_| product.wanted()) {
-        question(ui, import, number, doubt, commands);
+    if let Some(ambiguity) = product.ambiguity.as_ref().filter(|_| product.wanted()) {
+        question(ui, import, number, ambiguity, commands);
     }
     there_already(ui, number, product, commands);
     if product.wanted()
@@ -160,7 +160,7 @@ fn head(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, command
     }
 }
 
-fn question(ui: &mut Ui, import: &Import, number: usize, doubt: &Doubt, commands: &mut Vec<Command>) {
+fn question(ui: &mut Ui, import: &Import, number: usize, ambiguity: &Ambiguity, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let name = import.products[number].fields.name.clone();
     indented(ui, |ui| {
@@ -171,18 +171,18 @@ fn question(ui: &mut Ui, import: &Import, number: usize, doubt: &Doubt, commands
                 button.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, &label));
                 button.clicked()
             };
-            match doubt {
-                Doubt::NumbersAlone => {
-                    if offer(text::APART, text::APART_FILES_TIP) {
+            match ambiguity {
+                Ambiguity::NumbersAlone => {
+                    if offer(text::SEPARATE, text::SEPARATE_FILES_TIP) {
                         commands.push(Command::Import(Step::ChooseProduct(number, Choose::Only)));
-                        commands.push(Command::Import(Step::Apart));
+                        commands.push(Command::Import(Step::Separate));
                     }
                     if offer(text::AS_STATES, text::AS_STATES_TIP) {
                         commands.push(Command::Import(Step::Settle(number)));
                     }
                 }
-                Doubt::PerhapsStates(others) => {
-                    if offer(text::APART, text::APART_TIP) {
+                Ambiguity::PerhapsStates(others) => {
+                    if offer(text::SEPARATE, text::SEPARATE_TIP) {
                         commands.push(Command::Import(Step::Settle(number)));
                     }
                     if offer(text::ONE_WITH, text::ONE_WITH_TIP) {
@@ -191,7 +191,7 @@ fn question(ui: &mut Ui, import: &Import, number: usize, doubt: &Doubt, commands
                 }
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let question = RichText::new(doubt.question()).color(palette.warning);
+                let question = RichText::new(ambiguity.question()).color(palette.warning);
                 ui.add(egui::Label::new(question).truncate());
             });
         });

@@ -104,8 +104,8 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
                         moved = move_to(aperture, surface, &room);
                     }
                 }
-                let take_out = several.then(|| ui.small_button("×").accessible_name(texts::take_out_number(index + 1)));
-                if take_out.is_some_and(|button| button.on_hover_text(texts::TAKE_OUT).clicked()) {
+                let remove = several.then(|| ui.small_button("×").accessible_name(texts::remove_aperture(index + 1)));
+                if remove.is_some_and(|button| button.on_hover_text(texts::REMOVE_APERTURE).clicked()) {
                     gone = Some(index);
                 }
             });

@@ -87,7 +87,7 @@ fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
             let list: Vec<_> = of_coordinates(place).into_iter().collect();
             (list, 1, None)
         }
-        Some(Err(told)) => (Vec::new(), 0, Some(told)),
+        Some(Err(message)) => (Vec::new(), 0, Some(message)),
         None => {
             let (list, count) = search(text, MOST);
             let none = (count == 0).then(|| texts::NO_CITY.into());
@@ -151,8 +151,8 @@ fn find(ui: &mut Ui) -> Option<Choice> {
     if !typed.text.trim().is_empty() {
         let (mut list, count, wrong) = choices(&typed.text);
         typed.row = typed.row.saturating_add_signed(step).min(list.len().saturating_sub(1));
-        if let Some(told) = wrong {
-            ui.add(Label::new(RichText::new(told).color(theme::palette(ui).error)).wrap());
+        if let Some(message) = wrong {
+            ui.add(Label::new(RichText::new(message).color(theme::palette(ui).error)).wrap());
         }
         let mut picked = (response.lost_focus() && entered && !list.is_empty()).then_some(typed.row);
         for (row, choice) in list.iter().enumerate() {

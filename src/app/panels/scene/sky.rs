@@ -117,7 +117,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<Text>) {
         figure(ui, texts::DIRECT_NORMAL, &klx(light.map(|light| light.direct_normal)));
     }
     match low_sun {
-        Some(told) => lines(ui, told.get(), palette.error, 2),
+        Some(message) => lines(ui, message.get(), palette.error, 2),
         None => lines(ui, &light.map_or_else(String::new, |light| origin(&light)), palette.weak, 2),
     }
 }

@@ -44,9 +44,9 @@ fn unknown_tiles_leave_missing_ones_come_as_tabs_and_broken_text_is_refused() {
 fn only_what_is_in_front_is_in_sight() {
     let [a, b, c, d] = tiles();
     let mut layout = sample();
-    assert_eq!(layout.in_sight(), [a, b, c]);
+    assert_eq!(layout.visible_tiles(), [a, b, c]);
     assert!(layout.reveal(d) && !layout.reveal(d) && !layout.reveal(a));
-    assert_eq!(layout.in_sight(), [a, b, d]);
+    assert_eq!(layout.visible_tiles(), [a, b, d]);
     assert_eq!(layout.next_tab(d, 1), Some(c));
     assert_eq!(layout.next_tab(c, -1), Some(d));
     assert_eq!(layout.next_tab(a, 1), None);
@@ -66,9 +66,9 @@ fn tiles_swap_join_split_and_grow() {
         ])
     );
     let alone = sample().joined(a, b);
-    assert_eq!(alone.in_sight(), [a, c]);
+    assert_eq!(alone.visible_tiles(), [a, c]);
     let split = sample().split(d);
-    assert_eq!(split.in_sight(), [a, b, c, d]);
+    assert_eq!(split.visible_tiles(), [a, b, c, d]);
     assert_eq!(sample().split(a), sample());
     let mut grown = sample();
     assert!(grown.resize(a, true, true) && !grown.resize(a, false, true));

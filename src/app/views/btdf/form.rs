@@ -69,7 +69,7 @@ impl<'a> FormInput<'a> {
     pub(super) fn foot(&self) -> Option<Foot> {
         let Some(made) = self.made() else { return Some(Foot::from(self.missing())) };
         let percent = |share: f64| fixed(100.0 * share, 1);
-        let far = made.apart.map(|apart| (number(apart.largest, 3), percent(apart.misplaced)));
+        let far = made.difference.map(|difference| (number(difference.largest, 3), percent(difference.misplaced)));
         Some(match (made.how, far) {
             (How::Filter { scheme, in_force }, Some((largest, moved))) => {
                 let why = if in_force { say::FILTER_IN_FORCE } else { say::FILTER_NOT_IN_FORCE };

@@ -130,8 +130,8 @@ pub(super) fn show(ui: &mut Ui, place: &Place, input: &Input<'_>, state: &mut St
     let largest = input.indicatrix.basis.cells().zip(&input.indicatrix.q);
     let largest = largest.map(|(cell, q)| drawn(*q, &cell, input.weighted)).fold(0.0, f64::max);
     let what = if input.weighted { "q·cosθ" } else { "q" };
-    let told = say::largest_q(what, crate::drawing::ticks::number(largest, 3));
-    tile::name(ui, &response, say::EMERGENT_BODY, &told);
+    let text = say::largest_q(what, crate::drawing::ticks::number(largest, 3));
+    tile::name(ui, &response, say::EMERGENT_BODY, &text);
     let hovered = response.hover_pos().filter(|_| !response.dragged());
     let Some(index) = hovered.and_then(|at| body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)) else {
         return (None, None);

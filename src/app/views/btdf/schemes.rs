@@ -64,7 +64,7 @@ impl<'a> SchemesInput<'a> {
 
     /// Returns the reason for the scheme of the triangle under the pointer; without a map the reason why there is none.
     /// `None` if there are triangles but the pointer is in none of them.
-    pub(super) fn told(&self, at: Option<Pos2>, disk: &Disk, projection: Projection) -> Option<Foot> {
+    pub(super) fn reason_at(&self, at: Option<Pos2>, disk: &Disk, projection: Projection) -> Option<Foot> {
         let Some(list) = self.triangles() else { return Some(Foot::from(self.missing())) };
         let d = Side::Incident.through_name(projection, disk.disk(at?))?;
         Some(self.why(list.iter().find(|one| holds(one, d.vector()))?))
@@ -214,8 +214,8 @@ mod tests {
         let at = disk.screen(Side::Incident.disk(Projection::default(), middle));
         let list = SchemesResult { key: (1, SunScheme::Responses, Default::default()), made: Ok(vec![one.clone()]) };
         let input = SchemesInput { result: Some(&list), error: None, revision: 1 };
-        assert!(input.told(Some(at), &disk, Projection::default()).is_some());
-        assert!(input.told(Some(pos2(100.0, 185.0)), &disk, Projection::default()).is_none());
+        assert!(input.reason_at(Some(at), &disk, Projection::default()).is_some());
+        assert!(input.reason_at(Some(pos2(100.0, 185.0)), &disk, Projection::default()).is_none());
         let drawn = mesh(&disk, Projection::default(), &[one], &input);
         assert_eq!(drawn.indices.len(), 3 * PARTS * PARTS);
         let covered = drawn.indices.chunks_exact(3).any(|t| {

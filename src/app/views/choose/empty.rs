@@ -28,8 +28,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
             }
             range(ui, input, out);
             let names: Vec<String> = input.objectives.iter().map(|one| figure_words(&one.figure).0).collect();
-            let told = say::would_count(names.join(" · "));
-            ui.add(Label::new(RichText::new(told).size(13.0).color(weak)).wrap());
+            let text = say::would_count(names.join(" · "));
+            ui.add(Label::new(RichText::new(text).size(13.0).color(weak)).wrap());
         });
     });
 }

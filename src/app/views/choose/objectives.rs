@@ -62,10 +62,10 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
         let suffix = if unit == "%" { " %" } else { "" };
         let speed = (0.01 * scale * (one.worst - one.best).abs()).max(1e-3);
         // A scale limit never passes the other one.
-        let apart = 0.01 * (one.worst - one.best).abs().max(1e-6);
+        let separation = 0.01 * (one.worst - one.best).abs().max(1e-6);
         let (low, high) = match one.better {
-            BetterKey::Less => (f64::NEG_INFINITY..=one.worst - apart, one.best + apart..=f64::INFINITY),
-            BetterKey::More => (one.worst + apart..=f64::INFINITY, f64::NEG_INFINITY..=one.best - apart),
+            BetterKey::Less => (f64::NEG_INFINITY..=one.worst - separation, one.best + separation..=f64::INFINITY),
+            BetterKey::More => (one.worst + separation..=f64::INFINITY, f64::NEG_INFINITY..=one.best - separation),
         };
         for (value, range, word, tip, named) in [
             (&mut one.worst, high, say::WORST, say::WORST_TIP, say::worst_of(&name)),

@@ -18,7 +18,7 @@ const ROW: f32 = 24.0;
 /// Width of the column of ranks. \[points\]
 const RANK: f32 = 48.0;
 /// Width of the column of scores. \[points\]
-const WORTH: f32 = 96.0;
+const SCORE: f32 = 96.0;
 /// Width of the column of an objective. \[points\]
 const FIGURE: f32 = 112.0;
 /// Minimum width of the column of names. \[points\]
@@ -35,23 +35,23 @@ pub(super) fn height(rows: usize) -> f32 {
 struct Columns {
     rank: f32,
     name: [f32; 2],
-    worth: [f32; 2],
+    score: [f32; 2],
     figures: Vec<[f32; 2]>,
 }
 
 impl Columns {
     fn of(rect: Rect, objectives: usize) -> Self {
         let right = rect.right() - 12.0;
-        let room = right - rect.left() - RANK - WORTH - NAME - 2.0 * GAP;
+        let room = right - rect.left() - RANK - SCORE - NAME - 2.0 * GAP;
         let count = ((room / (FIGURE + GAP)).floor().max(0.0) as usize).min(objectives);
         let first = right - count as f32 * (FIGURE + GAP);
         let figure = |k: usize| {
             let left = first + GAP + k as f32 * (FIGURE + GAP);
             [left, left + FIGURE]
         };
-        let worth = [first - WORTH, first];
+        let score = [first - SCORE, first];
         let rank = rect.left() + 2.0;
-        Self { rank, name: [rank + RANK, worth[0] - GAP], worth, figures: (0..count).map(figure).collect() }
+        Self { rank, name: [rank + RANK, score[0] - GAP], score, figures: (0..count).map(figure).collect() }
     }
 }
 
@@ -122,7 +122,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
 fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> f32 {
     let palette = Palette::of(ui.visuals());
     let mut heads = vec![
-        (columns.rank, RANK - GAP, say::RANK.get().to_owned(), Some(Sort::Worth), say::RANK_TIP_HEAD.get().to_owned()),
+        (columns.rank, RANK - GAP, say::RANK.get().to_owned(), Some(Sort::Score), say::RANK_TIP_HEAD.get().to_owned()),
         (
             columns.name[0],
             columns.name[1] - columns.name[0],
@@ -130,7 +130,7 @@ fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Sh
             Some(Sort::Name),
             say::MARKS_TIP.get().to_owned(),
         ),
-        (columns.worth[0], WORTH, say::WORTH.get().to_owned(), Some(Sort::Worth), say::WORTH_TIP.get().to_owned()),
+        (columns.score[0], SCORE, say::SCORE.get().to_owned(), Some(Sort::Score), say::SCORE_TIP.get().to_owned()),
     ];
     for (place, key) in columns.figures.iter().zip(&list.list.figures) {
         let (name, unit) = figure_words(key);
@@ -201,7 +201,7 @@ fn marks(entry: &Entry, in_room: &str) -> String {
 fn spoken(entry: &Entry) -> String {
     match &entry.excluded {
         Some(reason) => format!("{}: {}", entry.name, say::excluded_because(reason)),
-        None => format!("{} {}: {}", rank_words(entry.ranks), entry.name, words::worth(entry)),
+        None => format!("{} {}: {}", rank_words(entry.ranks), entry.name, words::score(entry)),
     }
 }
 
@@ -245,16 +245,16 @@ fn row(
     painter.galley(pos2(columns.name[0], middle - 0.5 * name.size().y), name, colour);
     let mut tip = spoken.clone();
     if let Some(reason) = &entry.excluded {
-        let reason = text(ui, reason, palette.weak, rect.right() - columns.worth[0] - 4.0, 1);
-        painter.galley(pos2(columns.worth[0], middle - 0.5 * reason.size().y), reason, palette.weak);
+        let reason = text(ui, reason, palette.weak, rect.right() - columns.score[0] - 4.0, 1);
+        painter.galley(pos2(columns.score[0], middle - 0.5 * reason.size().y), reason, palette.weak);
     } else {
-        bar(ui, rect, columns.worth, entry, pale, &palette);
+        bar(ui, rect, columns.score, entry, pale, &palette);
         for (k, (place, figure)) in columns.figures.iter().zip(&entry.figures).enumerate() {
-            let worth = list.list.objectives.get(k).map_or(0.0, |one| one.utility(figure.value));
+            let score = list.list.objectives.get(k).map_or(0.0, |one| one.utility(figure.value));
             let x = place[0]..=place[1];
             let under = Rect::from_x_y_ranges(x, rect.bottom() - 4.0..=rect.bottom() - 2.0);
             ui.painter().rect_filled(under, 0, palette.grid);
-            let full = under.with_max_x(egui::lerp(under.x_range(), worth as f32));
+            let full = under.with_max_x(egui::lerp(under.x_range(), score as f32));
             ui.painter().rect_filled(full, 0, palette.first.gamma_multiply(if pale { 0.4 } else { 0.8 }));
             let words = words::value(figure_words(&list.list.figures[k]).1, *figure);
             let words = text(ui, &words, colour, FIGURE, 1);
@@ -278,12 +278,12 @@ fn row(
 fn bar(ui: &Ui, rect: Rect, [left, right]: [f32; 2], entry: &Entry, pale: bool, palette: &Palette) {
     let x = |share: f64| left + (right - left - 6.0) * share.clamp(0.0, 1.0) as f32;
     let place = Rect::from_x_y_ranges(left..=x(1.0), rect.top() + 6.0..=rect.bottom() - 6.0);
-    let (worth, error) = (entry.worth.value, entry.worth.error);
+    let (score, error) = (entry.score.value, entry.score.error);
     let painter = ui.painter();
     painter.rect_filled(place, 2, palette.grid.gamma_multiply(0.6));
-    painter.rect_filled(place.with_max_x(x(worth)), 2, palette.first.gamma_multiply(if pale { 0.4 } else { 0.8 }));
+    painter.rect_filled(place.with_max_x(x(score)), 2, palette.first.gamma_multiply(if pale { 0.4 } else { 0.8 }));
     let y = rect.center().y;
-    let ends = [x(worth - error), x(worth + error)];
+    let ends = [x(score - error), x(score + error)];
     painter.line_segment(ends.map(|x| pos2(x, y)), Stroke::new(1.5, palette.ink));
     for x in ends {
         painter.line_segment([pos2(x, y - 3.0), pos2(x, y + 3.0)], Stroke::new(1.5, palette.ink));

@@ -20,19 +20,19 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
             return;
         };
         ui.horizontal(|ui| buttons(ui, input, list, entry, out));
-        lines(ui, &said(input, list, entry));
+        lines(ui, &explanation(input, list, entry));
     });
 }
 
 /// Returns the lines on a product; `true` marks those in the weak colour.
-fn said(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(String, bool)> {
+fn explanation(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(String, bool)> {
     if let Some(reason) = &entry.excluded {
         return vec![(say::excluded_because(reason), false)];
     }
     let Some(reason) = input.reason else { return vec![(say::ONLY_ONE.into(), true)] };
     let mut all = vec![(format!("{}: {}", entry.name, words::head(list, reason)), false)];
-    let told = reason.terms.iter().filter(|term| term.worth.abs() >= LEAST);
-    all.extend(told.map(|term| (words::term(list, term), false)));
+    let significant = reason.terms.iter().filter(|term| term.score_difference.abs() >= LEAST);
+    all.extend(significant.map(|term| (words::term(list, term), false)));
     if entry.coarse {
         all.push((say::COARSE_TIP.into(), true));
     }
@@ -66,7 +66,11 @@ fn buttons(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, entry: &Entry, out:
     if ui.add_enabled(enabled, Button::new(say::INTO_ROOM.get())).on_hover_text(say::INTO_ROOM_TIP).clicked() {
         out.push(Action::IntoRoom(product()));
     }
-    if ui.add_enabled(enabled, Button::new(say::INTO_TRAY.get())).on_hover_text(say::INTO_TRAY_TIP).clicked() {
+    if ui
+        .add_enabled(enabled, Button::new(say::ADD_TO_COMPARISON.get()))
+        .on_hover_text(say::ADD_TO_COMPARISON_TIP)
+        .clicked()
+    {
         out.push(Action::Compare(product()));
     }
     if !enabled || ui.available_width() < 150.0 {

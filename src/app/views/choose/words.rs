@@ -30,28 +30,28 @@ fn signed(text: String, value: f64) -> String {
 }
 
 /// Returns the score of a product with its error, as text.
-pub(super) fn worth(entry: &Entry) -> String {
-    say::worth(fixed(entry.worth.value, 3), fixed(entry.worth.error, 3))
+pub(super) fn score(entry: &Entry) -> String {
+    say::score(fixed(entry.score.value, 3), fixed(entry.score.error, 3))
 }
 
 /// Returns the sentence above the terms: the difference in score from the other product.
 pub(super) fn head(list: &Shortlist, reason: &Reason) -> String {
     let other = &list.entries[reason.other].name;
-    let worth = fixed(reason.worth.abs(), 3);
-    match (reason.open, reason.worth < 0.0) {
-        (true, false) => say::open_above(worth, other),
-        (true, true) => say::open_below(worth, other),
-        (false, false) => say::surely_above(worth, other),
-        (false, true) => say::surely_below(worth, other),
+    let score = fixed(reason.score_difference.abs(), 3);
+    match (reason.open, reason.score_difference < 0.0) {
+        (true, false) => say::open_above(score, other),
+        (true, true) => say::open_below(score, other),
+        (false, false) => say::surely_above(score, other),
+        (false, true) => say::surely_below(score, other),
     }
 }
 
 /// Returns a term as text: `+0.120 by Lighting energy: 4.1 against 9.3 kWh/m² (of it −3.2 in winter, no sun, rear)`.
 pub(super) fn term(list: &Shortlist, term: &Term) -> String {
     let (name, unit) = figure_words(&list.list.figures[term.objective]);
-    let worth = signed(fixed(term.worth, 3), term.worth);
+    let score = signed(fixed(term.score_difference, 3), term.score_difference);
     let [own, other] = term.figures.map(|figure| bare(unit, figure));
-    let text = say::by_objective(worth, name, own, other);
+    let text = say::by_objective(score, name, own, other);
     let part = |(part, [season, sun, zone]): &(f64, [String; 3])| {
         let words = [season, sun, zone].map(|word| say::part_word(word)).join(", ");
         say::part_is(signed(bare(unit, *part), *part), words)
@@ -75,14 +75,14 @@ pub(super) fn due(due: Due) -> Option<(&'static str, String)> {
     match due {
         Due::Nothing => None,
         Due::Changed => Some((say::AGAIN.get(), say::AGAIN_TIP.into())),
-        Due::Unfinished(left) => Some((say::GO_ON.get(), say::unfinished(left))),
+        Due::Unfinished(left) => Some((say::CONTINUE.get(), say::unfinished(left))),
         Due::Figure => Some((say::FIND_FIGURE.get(), say::FIND_FIGURE_TIP.into())),
     }
 }
 
 /// Returns a product with rank, score and all its figures on one line.
 pub(super) fn entry(list: &Shortlist, entry: &Entry) -> String {
-    let mut text = format!("{} · {} · {}", entry.name, say::rank_is(rank_words(entry.ranks)), worth(entry));
+    let mut text = format!("{} · {} · {}", entry.name, say::rank_is(rank_words(entry.ranks)), score(entry));
     for (key, figure) in list.list.figures.iter().zip(&entry.figures) {
         let (name, unit) = figure_words(key);
         let unit = if unit == "%" { "" } else { unit };

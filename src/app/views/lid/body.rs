@@ -123,17 +123,17 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State
         }
     }
     let aim = Aim::of(lid.surface);
-    let mut said = say::largest_drawn(input.scaling.text(*largest));
+    let mut text = say::largest_drawn(input.scaling.text(*largest));
     if let Some(peak) = input.peaks.and_then(|peaks| peaks.scattered).filter(|_| *largest > 0.0) {
         let to = aim.direction(peak.c, peak.gamma);
         let value = input.scaling.text(peak.intensity);
-        let told = say::peak_alone(&value);
-        said = say::peak_to(value, towards(lid.surface, to));
+        let label = say::peak_alone(&value);
+        text = say::peak_to(value, towards(lid.surface, to));
         // The file's mean over its step may be less than the largest value drawn.
         let length = 1.05 * (peak.intensity / *largest).clamp(1.0, 1.1);
-        ray(length * into_room(lid.surface, to), Stroke::new(2.0, palette.second), &told, palette.ink);
+        ray(length * into_room(lid.surface, to), Stroke::new(2.0, palette.second), &label, palette.ink);
     }
-    tile::name(ui, &response, say::LID_BODY, &said);
+    tile::name(ui, &response, say::LID_BODY, &text);
     let at = response.hover_pos().filter(|_| !response.dragged())?;
     let node = body.nearest(&view, DVec3::ZERO, 1.0, at, REACH)?;
     let (place, _) = view.screen(body.point(node)?)?;

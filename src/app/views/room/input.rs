@@ -66,7 +66,7 @@ impl Quantity {
     }
 
     /// Returns a value with its unit as text.
-    pub fn told(self, value: f64) -> String {
+    pub fn format(self, value: f64) -> String {
         match self {
             Self::Illuminance => si(value, "lx"),
             Self::DaylightFactor => format!("{} %", number(value, 3)),

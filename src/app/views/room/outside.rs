@@ -22,7 +22,7 @@ const MOST: f64 = 3.0;
 /// Maximum depth of the ground below the floor at which it is shown, relative to the height of the room.
 const GROUND_SHOWN: f64 = 1.25;
 /// Height of the line that states what lies beyond the picture. \[points\]
-pub(super) const TOLD_HEIGHT: f32 = 18.0;
+pub(super) const BEYOND_HEIGHT: f32 = 18.0;
 
 /// Returns a box in the room's axes.
 pub(super) fn solid(keys: &BoxKeys) -> Solid {
@@ -105,7 +105,7 @@ pub(super) fn span(input: &Input<'_>, side: bool) -> Span {
 }
 
 /// Whether any part of a box shows in a picture.
-fn in_sight(keys: &BoxKeys, frame: &Frame) -> bool {
+fn is_visible(keys: &BoxKeys, frame: &Frame) -> bool {
     bounds(keys, frame).intersects(frame.view.shrink(1.0))
 }
 
@@ -123,12 +123,12 @@ pub(super) fn polygon(keys: &BoxKeys, frame: &Frame) -> [Pos2; 4] {
 /// middle if it is not reached.
 fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
     let corners = room(input.room).corners();
-    let told = |(keys, name): &(BoxKeys, String)| {
+    let note = |(keys, name): &(BoxKeys, String)| {
         let place = bounds(keys, frame);
         if frame.view.expand(1.0).contains_rect(place) {
             return None;
         }
-        if in_sight(keys, frame) {
+        if is_visible(keys, frame) {
             let [depth, across] = extent(keys, frame.side).map(|[low, high]| fixed(high - low, 1));
             return Some((say::box_cut(name, depth, across), None));
         }
@@ -139,7 +139,7 @@ fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
         let under = frame.screen(0.5 * input.room[1], ground.height);
         (say::ground_below(fixed(-ground.height, 1)), Some(under))
     });
-    input.outside.iter().filter_map(told).chain(ground).collect()
+    input.outside.iter().filter_map(note).chain(ground).collect()
 }
 
 /// Draws what lies under the picture: the boxes, and marks on its border for those beyond it.
@@ -150,7 +150,7 @@ pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
     let painter = ui.painter().with_clip_rect(frame.view.intersect(ui.clip_rect()));
     painter.rect_filled(frame.view, 0, palette.face);
     let mut names: Vec<Rect> = Vec::new();
-    for (keys, name) in input.outside.iter().filter(|(keys, _)| in_sight(keys, frame)) {
+    for (keys, name) in input.outside.iter().filter(|(keys, _)| is_visible(keys, frame)) {
         let places = polygon(keys, frame);
         let fill = palette.weak.gamma_multiply(0.3);
         painter.add(Shape::convex_polygon(places.to_vec(), fill, PathStroke::new(1.5, palette.outline)));
@@ -190,7 +190,7 @@ pub(super) fn over(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
 }
 
 /// Draws a line that states what lies beyond the picture, with all of it as tooltip.
-pub(super) fn tell(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, palette: &Palette) {
+pub(super) fn show_beyond(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let list: Vec<String> = beyond(input, frame).into_iter().map(|(words, _)| words).collect();
     let Some(first) = list.first() else { return };
     let mut lines = vec![list.join(" · ")];
@@ -209,7 +209,7 @@ pub(super) fn tell(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, p
 }
 
 /// Whether anything lies beyond the picture, so that [`tell`] has something to state.
-pub(super) fn tells(input: &Input<'_>, side: bool, span: Span) -> bool {
+pub(super) fn has_beyond(input: &Input<'_>, side: bool, span: Span) -> bool {
     let holds = |extent: [[f64; 2]; 2]| {
         (0..2).all(|axis| span.0[axis][0] <= extent[axis][0] + 1e-9 && extent[axis][1] <= span.0[axis][1] + 1e-9)
     };
@@ -250,7 +250,7 @@ mod tests {
             let input = Input { room, outside, ..Input::nothing() };
             let span = span(&input, false);
             let frame = Frame::around(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)), span, room, false);
-            assert_eq!(tells(&input, false, span), told);
+            assert_eq!(has_beyond(&input, false, span), told);
             let said = beyond(&input, &frame);
             assert_eq!(said.len(), usize::from(told));
             assert!(!told || (said[0].0.contains("20.0 m") && said[0].1.is_some()), "{said:?}");

@@ -338,9 +338,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (boo
             let legend = Rect::from_min_max(pos2(rect.left(), rect.bottom() - LEGEND_HEIGHT + 2.0), rect.max);
             scale.paint_legend(ui.painter(), legend, "lx", pointed, &palette);
         }
-        let said: Vec<String> =
+        let parts: Vec<String> =
             [summary(light).full().to_owned()].into_iter().chain(ground::words_of_middle(input)).collect();
-        tile::name(ui, &response, say::ROOM_PERSPECTIVE, &said.join(" · "));
+        tile::name(ui, &response, say::ROOM_PERSPECTIVE, &parts.join(" · "));
     } else {
         tile::name(ui, &response, say::ROOM_PERSPECTIVE, say::BEING_COMPUTED.get());
     }

@@ -60,5 +60,5 @@ pub(super) fn show(
     let at = shown.screen(plot.place([at_depth(j), v.total])?);
     ui.painter().with_clip_rect(shown.area()).circle_filled(at, 4.0, palette.first);
     let words = value_text(&v, input.quantity).after(&say::metres_deep(number(at_depth(j), 3)));
-    Some(words.or(&input.quantity.told(v.total)))
+    Some(words.or(&input.quantity.format(v.total)))
 }

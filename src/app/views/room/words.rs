@@ -28,8 +28,8 @@ pub(super) fn value_text(v: &CellValue, quantity: Quantity) -> Foot {
         (all, 0.0) => format!(" ± {}", number(all, 2)),
         (all, data) => say::error_parts(number(all, 2), number((all - data).max(0.0), 2), number(data, 2)),
     };
-    let sun = if v.beam > 0.0 { say::sun_beam(quantity.told(v.beam)) } else { String::new() };
-    let (direct, inter) = (quantity.told(v.direct), quantity.told(v.inter));
+    let sun = if v.beam > 0.0 { say::sun_beam(quantity.format(v.beam)) } else { String::new() };
+    let (direct, inter) = (quantity.format(v.direct), quantity.format(v.inter));
     let total = number(v.total, 4);
     let short =
         if v.error > 0.0 { format!("{total} ± {} {unit}", number(v.error, 2)) } else { format!("{total} {unit}") };
@@ -47,12 +47,12 @@ fn dark() -> Foot {
 
 /// Returns the summary of all sensor points as text.
 pub(super) fn summary(input: &Input<'_>) -> Foot {
-    let told = |value| input.quantity.told(value);
+    let formatted = |value| input.quantity.format(value);
     let totals = || input.cells.iter().map(|c| c.total);
     let Some((mean, ratio)) = uniformity(input.cells) else { return dark() };
     let (min, max) = (totals().fold(f64::INFINITY, f64::min), totals().fold(0.0, f64::max));
     let error = error_words(input.cells.iter().map(|c| Estimate::new(c.total, c.error)));
-    let [mean_told, u0] = [told(mean.value), number(ratio.value, 2)];
+    let [mean_text, u0] = [formatted(mean.value), number(ratio.value, 2)];
     let [mean_error, ratio_error] = [mean.error, ratio.error]
         .map(|error| if error > 0.0 { format!(" ± {}", number(error, 2)) } else { String::new() });
     let why = if input.look.daylight_factor { input.no_factor } else { None };
@@ -60,16 +60,16 @@ pub(super) fn summary(input: &Input<'_>) -> Foot {
     Foot::from([
         say::room_summary(
             &why,
-            format!("{mean_told}{mean_error}"),
+            format!("{mean_text}{mean_error}"),
             format!("{u0}{ratio_error}"),
-            told(min),
-            told(max),
+            formatted(min),
+            formatted(max),
             error,
         ),
-        say::room_summary_range(why, &mean_told, &u0, number(min, 3), told(max)),
-        say::room_summary_ratio(&mean_told, u0),
-        say::range(number(min, 3), told(max)),
-        say::mean(mean_told),
+        say::room_summary_range(why, &mean_text, &u0, number(min, 3), formatted(max)),
+        say::room_summary_ratio(&mean_text, u0),
+        say::range(number(min, 3), formatted(max)),
+        say::mean(mean_text),
     ])
 }
 

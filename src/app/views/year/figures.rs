@@ -41,11 +41,11 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
                     if wide {
                         let between = Label::new(text(between, palette.weak)).extend();
                         ui.add(between).on_hover_text(say::BETWEEN_TIP);
-                    } else if !row.said.is_empty() {
+                    } else if !row.compliance.is_empty() {
                         ui.end_row();
                     }
-                    if !row.said.is_empty() {
-                        ui.add(Label::new(text(row.said.clone(), palette.weak)).extend());
+                    if !row.compliance.is_empty() {
+                        ui.add(Label::new(text(row.compliance.clone(), palette.weak)).extend());
                     }
                     ui.end_row();
                 }
@@ -70,7 +70,7 @@ pub(super) fn csv(rows: &[Row]) -> String {
             quoted(&row.name),
             row.value,
             row.error,
-            quoted(&row.said)
+            quoted(&row.compliance)
         );
     }
     out

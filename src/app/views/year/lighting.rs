@@ -31,9 +31,9 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &Shown<'_>) -> String {
         rect.split_top_bottom_at_fraction(0.55)
     };
     let installed = shown.year.settings.lamps.as_ref().map_or(0.0, |lamps| lamps.power);
-    let said = over_day(ui, left, day, installed);
+    let text = over_day(ui, left, day, installed);
     by_month(ui, right, months, shown.year);
-    said.unwrap_or_else(|| {
+    text.unwrap_or_else(|| {
         let total: f64 = months.iter().map(|(energy, _)| energy).sum();
         let error: f64 = months.iter().map(|(_, error)| error).sum();
         say::lighting_summary(day_words(day), fixed(total, 2), fixed(error, 2))

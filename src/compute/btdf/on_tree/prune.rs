@@ -85,8 +85,8 @@ fn levels(values: &[f64], shape: TreeShape, weights: &[f64]) -> Vec<Vec<Merged>>
                     .enumerate()
                     .fold((0.0, 0.0), |(sum, all), (k, q)| (sum + weight(k) * q, all + weight(k)));
                 let mean = if all > 0.0 { sum / all } else { 0.0 };
-                let apart: f64 = slice.iter().enumerate().map(|(k, q)| weight(k) * (q - mean).abs()).sum();
-                Merged { mean, deviation: if all > 0.0 { apart / all } else { 0.0 }, weight: all }
+                let deviations: f64 = slice.iter().enumerate().map(|(k, q)| weight(k) * (q - mean).abs()).sum();
+                Merged { mean, deviation: if all > 0.0 { deviations / all } else { 0.0 }, weight: all }
             };
             values.par_chunks(boxes).enumerate().map(of_slice).collect()
         })

@@ -18,7 +18,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
     let mut values = vec![0.0; codes.values];
     let rings = resolution / 2;
     let outward: Vec<usize> = grid.cells().map(|cell| codes.of_square(1, cell.position())).collect();
-    let (mut apart, mut all) = (0.0, 0.0);
+    let (mut misplaced, mut all) = (0.0, 0.0);
     match &btdf.scattered {
         Some(Scattered::Tree(tree)) if tree.rank() == TreeRank::Three => {
             spread_leaves(tree, grid.level(), codes, &mut values);
@@ -29,7 +29,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
             let rows: Vec<(Vec<f64>, f64, f64)> =
                 (0..rings).into_par_iter().map(|at| ring_mean(btdf, &sampler, axes, grid, at)).collect();
             for (at, (row, differs, flux)) in rows.into_iter().enumerate() {
-                apart += differs;
+                misplaced += differs;
                 all += flux;
                 for (place, q) in outward.iter().zip(row) {
                     values[codes.of(0, at) | place] += q;
@@ -48,7 +48,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
             }
         }
     }
-    (values, if all > 0.0 { apart / all } else { 0.0 })
+    (values, if all > 0.0 { misplaced / all } else { 0.0 })
 }
 
 /// Source of q of the scattered part, with what is the same for all emergent directions found once.
@@ -128,7 +128,7 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
     }
     // What is left at single azimuths is what rank 3 cannot hold. The ring's own weight lets the caller add up rings.
     let ring = sine(0.5) * grid.projected_solid_angle();
-    let apart: f64 = rows.iter().flat_map(|row| row.iter().zip(&mean).map(|(q, m)| (q - m).abs())).sum::<f64>();
+    let misplaced: f64 = rows.iter().flat_map(|row| row.iter().zip(&mean).map(|(q, m)| (q - m).abs())).sum::<f64>();
     let flux: f64 = mean.iter().sum();
     // The emergent square is sampled too coarsely to be trusted with the flux: τ of the scattered part alone (straight
     // light is put in by the caller) is averaged over more directions of incidence and sets it.
@@ -142,5 +142,5 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
         }
     }
     to_flux(&mut mean, tau / weight, grid.projected_solid_angle());
-    (mean, ring * apart / AZIMUTHS as f64, ring * flux)
+    (mean, ring * misplaced / AZIMUTHS as f64, ring * flux)
 }

@@ -73,10 +73,10 @@ fn add_nodes(list: &mut Vec<f64>, [from, to]: [f64; 2], step: f64, place: &dyn F
     let close = EDGE * step;
     let inside = (1..count as usize).map(|k| (from + k as f64 * step, 0.5 * step));
     let edges = [from - close, from + close, to - close, to + close].map(|node| (node, 0.1 * close));
-    for (node, apart) in edges.into_iter().chain(inside) {
+    for (node, distance) in edges.into_iter().chain(inside) {
         let Some(node) = place(node) else { continue };
         let at = list.partition_point(|other| *other < node);
-        let near = |other: Option<&f64>| other.is_some_and(|other| (other - node).abs() < apart);
+        let near = |other: Option<&f64>| other.is_some_and(|other| (other - node).abs() < distance);
         if !near(list.get(at)) && !near(at.checked_sub(1).and_then(|before| list.get(before))) {
             list.insert(at, node);
         }

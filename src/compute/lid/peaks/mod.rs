@@ -52,7 +52,7 @@ pub struct SunOnCells {
     /// Luminance of the rest by emergent cell. \[cd/m²\]
     pub luminance: Vec<f64>,
     /// Uncertainties of `luminance`, as in [`super::CellLight::doubts`].
-    pub doubts: Vec<Vec<f64>>,
+    pub uncertainties: Vec<Vec<f64>>,
     /// Sentence on what was done.
     pub note: String,
 }
@@ -287,7 +287,7 @@ impl Peaks {
             let normal = if straight { strength * light.direct_normal } else { exitance / to.vector().z };
             // What hides a part of the disc hides it from the sensor, too.
             let to = if straight { facing.sun_direction()? } else { to };
-            beams.push(BeamLight { to, exitance, normal, straight, error: 0.0, doubt: error / strength + lobe });
+            beams.push(BeamLight { to, exitance, normal, straight, error: 0.0, uncertainty: error / strength + lobe });
             if let Some(o) = self.basis().index(to) {
                 spread[o] += lobe * exitance / weight[o];
             }
@@ -311,7 +311,7 @@ impl Peaks {
             let near = self.around.of(o);
             near.iter().map(|&n| smooth[n]).sum::<f64>() / near.len().max(1) as f64
         };
-        let doubts = vec![
+        let uncertainties = vec![
             smooth.iter().map(|q| incident * relative.max(LEAST) * q).collect(),
             smooth.iter().zip(&own.even).map(|(a, b)| incident * (a - b)).collect(),
             smooth.iter().enumerate().map(|(o, q)| incident * (q - surroundings(o))).collect(),
@@ -330,7 +330,7 @@ impl Peaks {
                 self.contrast.min(999.0)
             )
         };
-        Some(SunOnCells { beams, luminance, doubts, note })
+        Some(SunOnCells { beams, luminance, uncertainties, note })
     }
 }
 
@@ -338,13 +338,13 @@ impl SunOnCells {
     /// Returns this light with its beams left on the cells; the beams then count as uncertainty.
     fn on_cells(mut self, row: &[f64]) -> Self {
         for beam in &mut self.beams {
-            let whole = 1.0 + beam.doubt;
+            let whole = 1.0 + beam.uncertainty;
             beam.exitance *= NOTHING;
             beam.normal *= NOTHING;
-            beam.doubt = whole / NOTHING;
+            beam.uncertainty = whole / NOTHING;
         }
         // A beam spread in its cell is off by itself everywhere: in its patch, and where the cell shines beside it.
-        self.doubts.push(row.iter().zip(&self.luminance).map(|(stored, apart)| stored - apart).collect());
+        self.uncertainties.push(row.iter().zip(&self.luminance).map(|(stored, rest)| stored - rest).collect());
         self.luminance = row.to_vec();
         self
     }
@@ -358,7 +358,7 @@ impl Emission {
         let found = !sun.beams.is_empty();
         let sun = if sharp { sun } else { sun.on_cells(&light.sun) };
         light.sun = sun.luminance;
-        light.doubts.extend(sun.doubts);
+        light.uncertainties.extend(sun.uncertainties);
         self.beams.extend(sun.beams);
         if sharp && found {
             self.beam_source = BeamSource::Extracted;

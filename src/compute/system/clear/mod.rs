@@ -16,12 +16,12 @@ const METHOD: &str = "section of endless clear bodies, beams followed with their
 
 mod beam;
 mod hit;
+mod model;
 mod outline;
 mod polarised;
 pub mod prism;
 pub mod redirecting;
 mod section;
-mod specimen;
 mod trace;
 
 pub use outline::{Outline, OutlineError};

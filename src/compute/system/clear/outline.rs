@@ -90,12 +90,12 @@ fn side(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
 
 /// Whether two edges have more in common than a shared end.
 fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2], slack: f64) -> bool {
-    let apart = |axis: usize| {
+    let are_disjoint = |axis: usize| {
         let range = |e: [[f64; 2]; 2]| (e[0][axis].min(e[1][axis]), e[0][axis].max(e[1][axis]));
         let ((a0, a1), (b0, b1)) = (range(a), range(b));
         a1 < b0 - slack || b1 < a0 - slack
     };
-    if apart(0) || apart(1) {
+    if are_disjoint(0) || are_disjoint(1) {
         return false;
     }
     let length = |e: [[f64; 2]; 2]| (e[1][0] - e[0][0]).hypot(e[1][1] - e[0][1]);

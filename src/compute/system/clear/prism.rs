@@ -3,8 +3,8 @@
 use super::outline::Outline;
 use super::section::{Body, ClearSection, Material};
 use super::{METHOD, OutlineError};
-use crate::compute::system::family::{Family, NoSpecimen, Polygons};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, Polygons};
+use crate::compute::system::measure::OpticalModel;
 use std::f64::consts::FRAC_PI_2;
 
 /// Sheet with prisms of two flanks.
@@ -67,8 +67,8 @@ impl Family for Prisms {
         self.section().map(|section| section.outline()).unwrap_or_default()
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        Ok(Box::new(self.section().map_err(NoSpecimen::because)?.specimen()))
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
+        Ok(Box::new(self.section().map_err(OpticalModelError::because)?.optical_model()))
     }
 }
 

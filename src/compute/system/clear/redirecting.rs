@@ -3,8 +3,8 @@
 use super::outline::Outline;
 use super::section::{Body, ClearSection, Material};
 use super::{METHOD, OutlineError};
-use crate::compute::system::family::{Family, NoSpecimen, Polygons};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, Polygons};
+use crate::compute::system::measure::OpticalModel;
 use crate::compute::system::panes::glazing::Pane;
 
 /// Bodies of clear material, stacked with a period, between two clear panes.
@@ -47,7 +47,7 @@ impl Family for RedirectingGlass {
         self.section().map(|section| section.outline()).unwrap_or_default()
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        Ok(Box::new(self.section().map_err(NoSpecimen::because)?.specimen()))
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
+        Ok(Box::new(self.section().map_err(OpticalModelError::because)?.optical_model()))
     }
 }

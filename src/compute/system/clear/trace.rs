@@ -46,7 +46,7 @@ impl Emission {
 
 /// Factor on the maximum number of surfaces of [`Effort`] up to which the beams of one direction are followed
 /// separately.
-const PATIENCE: u32 = 10;
+const SURFACE_FACTOR: u32 = 10;
 /// Number of surfaces after which light is given up.
 const MOST_SURFACES: u32 = 2000;
 /// Flux below which a beam counts as absorbed: caught between total reflections in absorbing material, all of it is
@@ -67,7 +67,7 @@ impl ClearSection {
         out.clear();
         let stack = std::mem::take(&mut out.waiting);
         let mut work = Work { section: self, share: effort.share, random: Random(effort.seed), stack, out };
-        let most = effort.surfaces.saturating_mul(PATIENCE);
+        let most = effort.surfaces.saturating_mul(SURFACE_FACTOR);
         let beam = self.incident(direction);
         work.meet_pane(beam, usize::from(direction.z > 0.0), true);
         while let Some(beam) = work.stack.pop() {

@@ -2,9 +2,9 @@
 
 use super::shares::LaserCutPanel;
 use crate::compute::direction::{Dir, Facade};
-use crate::compute::system::family::{Family, NoSpecimen, Polygons, rectangle};
+use crate::compute::system::family::{Family, OpticalModelError, Polygons, rectangle};
 use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, SharpBeams};
-use crate::compute::system::measure::{Side, Specimen};
+use crate::compute::system::measure::{OpticalModel, Side};
 
 /// Panel with cuts that do not reflect all light.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,7 +36,7 @@ impl Family for CutPanel {
         vec![rectangle([-depth, cut], [0.0, height - cut])]
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
         Ok(Box::new(SharpBeams(*self)))
     }
 }

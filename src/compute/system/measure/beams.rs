@@ -9,7 +9,7 @@
 
 use super::cells::CellFinder;
 use super::merged::{merged, without_faint};
-use super::{Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen, Structure};
+use super::{Beam, Measured, OneSide, OpticalModel, ScatteredLight, Setting, Side, Structure};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -128,7 +128,7 @@ const FAINT: [f64; 2] = [1e-6, 1e-5];
 #[derive(Debug, Clone)]
 pub struct SharpBeams<B>(pub B);
 
-impl<B: Beams> Specimen for SharpBeams<B> {
+impl<B: Beams> OpticalModel for SharpBeams<B> {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         Ok(measure(&self.0, setting, progress)?.made_reciprocal())
     }
@@ -255,14 +255,14 @@ impl Row {
 
     /// Returns the larger error of τ and ρ: [`SURE`] standard errors, as if the groups of directions, each of them a
     /// net all over the cell, were drawn independently. Together they are distributed more uniformly still.
-    fn doubt(&self) -> f64 {
+    fn uncertainty(&self) -> f64 {
         let groups = GROUPS as f64;
         let size = (self.totals.len() / GROUPS).max(1);
         let one = |k: usize| {
             let mean = |part: &[[f64; 2]]| part.iter().map(|total| total[k]).sum::<f64>() / part.len() as f64;
             let all = mean(&self.totals);
-            let apart: f64 = self.totals.chunks_exact(size).map(|group| (mean(group) - all).powi(2)).sum();
-            (apart / (groups * (groups - 1.0))).sqrt()
+            let squares: f64 = self.totals.chunks_exact(size).map(|group| (mean(group) - all).powi(2)).sum();
+            (squares / (groups * (groups - 1.0))).sqrt()
         };
         SURE * one(0).max(one(1))
     }
@@ -276,7 +276,7 @@ impl Row {
             }
         }
         self.absorbed *= each;
-        self.error = self.doubt() + self.lost * each;
+        self.error = self.uncertainty() + self.lost * each;
     }
 
     fn store(self, seen: &mut OneSide, index: usize) {
@@ -319,7 +319,7 @@ impl<'a, B: Beams> Bench<'a, B> {
         let mut doublings = (2 * fewest).min(MOST_DOUBLINGS);
         let share = self.share(side, index);
         self.add_net(&mut row, side, index, share, 0..1 << doublings);
-        while row.doubt() > AIM * self.setting.error && doublings < MOST_DOUBLINGS && row.surfaces < most {
+        while row.uncertainty() > AIM * self.setting.error && doublings < MOST_DOUBLINGS && row.surfaces < most {
             self.add_net(&mut row, side, index, share, 1 << doublings..2 << doublings);
             doublings += 1;
         }

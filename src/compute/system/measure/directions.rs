@@ -3,7 +3,7 @@
 
 use super::cells::CellFinder;
 use super::fan::{middle, pieces};
-use super::{Measured, OneSide, Setting, Side, Specimen};
+use super::{Measured, OneSide, OpticalModel, Setting, Side};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Band, Btdf, Component, Indicatrices, Scattered};
 use crate::compute::direction::{Dir, Facade, Incident};
@@ -21,7 +21,7 @@ const PIECE: f64 = 0.002;
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn at_directions(
-    specimen: &dyn Specimen,
+    model: &dyn OpticalModel,
     side: Side,
     names: &[Dir<Facade>],
     emergent: &RingBasis,
@@ -36,7 +36,7 @@ pub fn at_directions(
             if progress.cancelled() {
                 return Err(Cancelled);
             }
-            let row = row(specimen, side, name, emergent, &finder, &weight);
+            let row = row(model, side, name, emergent, &finder, &weight);
             progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, names.len());
             Ok(row)
         })
@@ -56,12 +56,12 @@ pub fn at_directions(
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn measured_at_directions(
-    specimen: &dyn Specimen,
+    model: &dyn OpticalModel,
     setting: &Setting<'_>,
     progress: &dyn Progress,
 ) -> Result<Measured, Cancelled> {
     let names: Vec<_> = setting.incident.cells().map(|cell| cell.centre()).collect();
-    let side = |side| at_directions(specimen, side, &names, setting.emergent, progress);
+    let side = |side| at_directions(model, side, &names, setting.emergent, progress);
     let (front, back) = (side(Side::Front)?, side(Side::Back)?);
     Ok(Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back })
 }
@@ -86,18 +86,18 @@ impl Measured {
 
 /// Computes the scattering of one direction.
 fn row(
-    specimen: &dyn Specimen,
+    model: &dyn OpticalModel,
     side: Side,
     name: Dir<Facade>,
     emergent: &RingBasis,
     finder: &CellFinder,
     weight: &[f64],
 ) -> OneSide {
-    let scattered = specimen.scattered(name, side, emergent);
+    let scattered = model.scattered(name, side, emergent);
     let filled = |q: Vec<f64>| if q.is_empty() { vec![0.0; weight.len()] } else { q };
     let mut transmitted = filled(scattered.transmitted);
     let mut reflected = filled(scattered.reflected);
-    for beam in specimen.beams(name, side) {
+    for beam in model.beams(name, side) {
         let to = if beam.transmitted { &mut transmitted } else { &mut reflected };
         for piece in pieces(&beam, PIECE) {
             let at = middle(&piece).vector();

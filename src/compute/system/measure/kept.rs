@@ -23,7 +23,7 @@ impl<T> Default for Once<T> {
 impl<T: Send> Once<T> {
     /// Returns the result, computed by the first call. Other threads wait for it.
     pub fn get(&self, make: impl FnOnce() -> T + Send) -> &T {
-        self.0.get_or_init(|| apart(make))
+        self.0.get_or_init(|| run_in_new_pool(make))
     }
 }
 
@@ -51,7 +51,7 @@ impl<T: Send> Kept<T> {
         if let Some((_, found)) = kept.iter().find(|(known, _)| known == cells) {
             return found.clone();
         }
-        let made = Arc::new(apart(make));
+        let made = Arc::new(run_in_new_pool(make));
         if kept.len() == MOST {
             kept.remove(0);
         }
@@ -61,7 +61,7 @@ impl<T: Send> Kept<T> {
 }
 
 /// Computes a result in a separate thread pool.
-fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
+fn run_in_new_pool<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     let threads = rayon::current_num_threads();
     let work = move || match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
         Ok(pool) => pool.install(make),

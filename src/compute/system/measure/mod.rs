@@ -127,7 +127,7 @@ impl Structure {
 const SAME_NAME: f64 = 1e-9;
 
 /// Optical model of a system: computes its scattering for any direction.
-pub trait Specimen: Send + Sync {
+pub trait OpticalModel: Send + Sync {
     /// Computes transmission and reflection of both sides on the cells of `setting`, within its error.
     ///
     /// # Errors
@@ -179,7 +179,7 @@ pub trait Specimen: Send + Sync {
     }
 
     /// Whether [`Self::examine`] stores undeviated light separately.
-    fn keeps_regular_apart(&self) -> bool {
+    fn separates_regular(&self) -> bool {
         false
     }
 
@@ -302,15 +302,15 @@ impl Measured {
         let same = same_cells(&self.emergent, &self.incident)?;
         let weight = self.incident.projected_solid_angles();
         let n = weight.len();
-        let (mut apart, mut flux) = (0.0, 0.0);
+        let (mut difference, mut flux) = (0.0, 0.0);
         for i in 0..n {
             for o in 0..n {
                 let there = self.front.transmitted[i * n + same[o]];
                 let back = self.back.transmitted[o * n + same[i]];
-                apart += (there - back).abs() * weight[i] * weight[o];
+                difference += (there - back).abs() * weight[i] * weight[o];
                 flux += 0.5 * (there + back) * weight[i] * weight[o];
             }
         }
-        (flux > 0.0).then(|| apart / flux)
+        (flux > 0.0).then(|| difference / flux)
     }
 }

@@ -76,9 +76,9 @@ impl ProfileLight {
     }
 
     /// Returns the share of light that differs from `other`: Σ |q − q′| over the bands, weighted.
-    pub fn apart(&self, other: &Self) -> f64 {
-        let apart = self.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs());
-        Self::weights(self.q.len()).zip(apart).map(|(weight, apart)| weight * apart).sum()
+    pub fn difference(&self, other: &Self) -> f64 {
+        let differences = self.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs());
+        Self::weights(self.q.len()).zip(differences).map(|(weight, difference)| weight * difference).sum()
     }
 
     /// Returns the projected solid angles of the bands: on a line of constant ψ, ∫ √(1 − x²) dx = π/2, and projected

@@ -1,6 +1,6 @@
 //! System rotated by 90° about the normal: vertical louvres from a description of horizontal ones.
 
-use super::{Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen, Structure};
+use super::{Beam, Measured, OpticalModel, ProfileLight, ScatteredLight, Setting, Side, Structure};
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
@@ -8,9 +8,9 @@ use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
 /// System rotated so that its upward direction points to the right as seen from outside.
-pub struct Upright(pub Box<dyn Specimen>);
+pub struct Upright(pub Box<dyn OpticalModel>);
 
-impl Specimen for Upright {
+impl OpticalModel for Upright {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let (incident, emergent) = (turned(setting.incident), turned(setting.emergent));
         let made = self.0.measure(&Setting { incident: &incident, emergent: &emergent, ..*setting }, progress)?;
@@ -35,8 +35,8 @@ impl Specimen for Upright {
         self.0.by_profile_alone().map(|upright| !upright)
     }
 
-    fn keeps_regular_apart(&self) -> bool {
-        self.0.keeps_regular_apart()
+    fn separates_regular(&self) -> bool {
+        self.0.separates_regular()
     }
 
     fn is_quick(&self) -> bool {
@@ -86,7 +86,7 @@ mod tests {
     use crate::compute::direction::Dir;
     use crate::compute::estimate::Silent;
     use crate::compute::system::measure::front_basis;
-    use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
+    use crate::compute::system::slats::{SlatArray, SlatModel, SlatProfile, Surface};
     use crate::compute::system::stack::DataLayer;
 
     #[test]
@@ -136,7 +136,7 @@ mod tests {
             SlatArray::new(SlatProfile::Flat { width: 0.08 }, 0.0, 0.072, 0.6, [Surface::matt(0.5); 2]).unwrap();
         let cells = front_basis();
         let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
-        let flat = DataLayer(SlatSpecimen::new(slats).examine(&setting, &Silent).unwrap().0);
+        let flat = DataLayer(SlatModel::new(slats).examine(&setting, &Silent).unwrap().0);
         let lying = flat.measure(&setting, &Silent).unwrap();
         let standing = Upright(Box::new(flat)).measure(&setting, &Silent).unwrap();
         let (a, b) = (lying.shares(&lying.front.transmitted), standing.shares(&standing.front.transmitted));

@@ -10,7 +10,9 @@ use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::gauss_legendre;
-use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen, Structure};
+use crate::compute::system::measure::{
+    Beam, Measured, OpticalModel, Quality, ScatteredLight, Setting, Side, Structure,
+};
 use std::f64::consts::PI;
 
 /// Panes one behind the other, outside first, air between.
@@ -37,9 +39,9 @@ impl Panes {
     }
 }
 
-impl Specimen for Panes {
+impl OpticalModel for Panes {
     /// Returns `true`: undeviated and mirrored light keep the through direction.
-    fn keeps_regular_apart(&self) -> bool {
+    fn separates_regular(&self) -> bool {
         true
     }
 
@@ -113,8 +115,8 @@ impl Specimen for Panes {
                 let seen = measured.seen_mut(side);
                 // The part neither transmitted nor reflected; clear panes leave 0, and rounding.
                 seen.absorbed[i] = (weight - mean.transmitted - reflected(&mean)).max(0.0) / weight;
-                let apart = (mean.transmitted - coarse.transmitted).abs();
-                seen.error[i] = apart.max((reflected(&mean) - reflected(&coarse)).abs()) / weight;
+                let difference = (mean.transmitted - coarse.transmitted).abs();
+                seen.error[i] = difference.max((reflected(&mean) - reflected(&coarse)).abs()) / weight;
             }
             progress.advance("goniophotometer", i + 1, n);
         }
@@ -124,11 +126,11 @@ impl Specimen for Panes {
 
 /// Returns the width of the azimuths that two cells share. \[rad\]
 fn overlap(a: &Cell, b: &Cell) -> f64 {
-    let apart = (a.phi - b.phi + PI).rem_euclid(2.0 * PI) - PI;
+    let separation = (a.phi - b.phi + PI).rem_euclid(2.0 * PI) - PI;
     [-2.0 * PI, 0.0, 2.0 * PI]
         .iter()
         .map(|turn| {
-            let middle = apart + turn;
+            let middle = separation + turn;
             let (low, high) =
                 ((middle - 0.5 * a.width).max(-0.5 * b.width), (middle + 0.5 * a.width).min(0.5 * b.width));
             (high - low).max(0.0)

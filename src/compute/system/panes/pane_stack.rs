@@ -2,8 +2,8 @@
 
 use super::coated::Layer;
 use super::measure::Panes;
-use crate::compute::system::family::{Family, NoSpecimen, PIECE, Polygons, rectangle};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, PIECE, Polygons, rectangle};
+use crate::compute::system::measure::OpticalModel;
 
 /// Equal panes with air between; interference left out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,7 +42,7 @@ impl Family for PaneStack {
         (0..self.panes).map(|k| rectangle([outer(k) - thickness, 0.0], [outer(k), PIECE])).collect()
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
         Ok(Box::new(Panes::equal(self.pane, self.panes)))
     }
 }

@@ -7,8 +7,8 @@
 use super::lobe::Lobe;
 use super::sheet::{Sheet, Spread};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf};
-use crate::compute::system::family::{Family, NoSpecimen, PIECE, Polygons, rectangle};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, PIECE, Polygons, rectangle};
+use crate::compute::system::measure::OpticalModel;
 use crate::compute::system::panes::glazing::{self, fresnel};
 
 /// Sheet that scatters light.
@@ -60,8 +60,8 @@ impl Family for Diffuser {
         true
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        let sheet = self.sheet().ok_or_else(|| NoSpecimen::because("values that no passive sheet has"))?;
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
+        let sheet = self.sheet().ok_or_else(|| OpticalModelError::because("values that no passive sheet has"))?;
         Ok(Box::new(sheet))
     }
 }

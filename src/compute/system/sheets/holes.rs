@@ -7,7 +7,7 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::dot::add_scaled;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::kept::{Kept, Once};
-use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen, front_basis};
+use crate::compute::system::measure::{Beam, Measured, OpticalModel, ScatteredLight, Setting, Side, front_basis};
 use faer::Mat;
 use std::f64::consts::PI;
 
@@ -70,8 +70,8 @@ impl Holes {
         let scale = if got > 1e-12 { due.max(0.0) / got } else { 0.0 };
         let wall = self.sheet.reflectance[2];
         first.iter_mut().for_each(|first| *first *= scale);
-        let landed = product(response, &first);
-        let exitance: Vec<f64> = landed.iter().zip(walls.areas()).map(|(l, area)| wall * l / (PI * area)).collect();
+        let incident = product(response, &first);
+        let exitance: Vec<f64> = incident.iter().zip(walls.areas()).map(|(l, area)| wall * l / (PI * area)).collect();
         let k = usize::from(side == Side::Back);
         let sent = |turned: bool, side: usize| {
             let way = &seen.ways[depth][usize::from(turned)][side];
@@ -83,7 +83,7 @@ impl Holes {
             // Leaving light is named as what would light the walls from the other side.
             transmitted: sent(false, 1 - k),
             reflected: sent(true, k).into_iter().map(|q| face * solid / PI + q).collect(),
-            absorbed: (1.0 - face) * solid + (1.0 - wall) * landed.iter().sum::<f64>(),
+            absorbed: (1.0 - face) * solid + (1.0 - wall) * incident.iter().sum::<f64>(),
         }
     }
 }
@@ -97,7 +97,7 @@ fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
     sums
 }
 
-impl Specimen for Holes {
+impl OpticalModel for Holes {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         measure_walls(&self.sheet, setting, progress)
     }
@@ -118,9 +118,9 @@ impl Specimen for Holes {
         let weight = emergent.projected_solid_angles();
         let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
         let [t, r] = [share(&fine.transmitted), share(&fine.reflected)];
-        let apart = (t - share(&coarse.transmitted)).abs().max((r - share(&coarse.reflected)).abs());
+        let difference = (t - share(&coarse.transmitted)).abs().max((r - share(&coarse.reflected)).abs());
         let missing = (1.0 - self.sheet.straight(name) - t - r - fine.absorbed).abs();
-        ScatteredLight { transmitted: fine.transmitted, reflected: fine.reflected, error: apart + missing }
+        ScatteredLight { transmitted: fine.transmitted, reflected: fine.reflected, error: difference + missing }
     }
 }
 

@@ -95,8 +95,8 @@ impl Lobe {
         let [high, wide] = sides(to);
         let centre = to.centre().vector().truncate();
         let precision = 0.5 / (self.spread * self.spread);
-        let apart = ((centre.x - x).hypot(centre.y - y) - high.hypot(wide)).max(0.0);
-        if precision * apart * apart > MOST_EXPONENT {
+        let distance = ((centre.x - x).hypot(centre.y - y) - high.hypot(wide)).max(0.0);
+        if precision * distance * distance > MOST_EXPONENT {
             return 0.0;
         }
         let [rows, columns] = [high, wide].map(|side| {

@@ -2,8 +2,8 @@
 
 use super::hole::Perforated;
 use super::holes::Holes;
-use crate::compute::system::family::{Family, NoSpecimen, Polygons};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, Polygons};
+use crate::compute::system::measure::OpticalModel;
 
 impl Family for Perforated {
     fn word(&self) -> &'static str {
@@ -34,7 +34,7 @@ impl Family for Perforated {
         true
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
         Ok(Box::new(Holes::new(*self)))
     }
 }

@@ -13,7 +13,7 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::{gauss_legendre, midpoints};
 use crate::compute::scaling::by_rounds;
-use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, OpticalModel, Quality, ScatteredLight, Setting, Side};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
@@ -48,7 +48,7 @@ impl Spread {
     }
 }
 
-impl Specimen for Sheet {
+impl OpticalModel for Sheet {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let (through, through_error) = self.transmission.on(setting, progress)?;
@@ -65,7 +65,7 @@ impl Specimen for Sheet {
 
     fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
         let quality = self.measure(setting, progress)?.quality();
-        let apart = |spread: &Spread| -> Result<Btdf, Cancelled> {
+        let separate = |spread: &Spread| -> Result<Btdf, Cancelled> {
             let nothing = AngularTransmittance::Constant(0.0);
             let scattered = Spread { regular: nothing, ..spread.clone() };
             let matrix = if scattered.is_dark() {
@@ -78,18 +78,18 @@ impl Specimen for Sheet {
             let regular = (!spread.regular.is_dark()).then(|| spread.regular.clone());
             Ok(Btdf { regular, scattered: matrix })
         };
-        let through = apart(&self.transmission)?;
+        let through = separate(&self.transmission)?;
         let band = Band {
             transmission_front: Some(through.clone()),
             transmission_back: Some(through),
-            reflection_front: Some(apart(&self.reflection[0])?),
-            reflection_back: Some(apart(&self.reflection[1])?),
+            reflection_front: Some(separate(&self.reflection[0])?),
+            reflection_back: Some(separate(&self.reflection[1])?),
         };
         Ok((band, quality))
     }
 
     /// Returns `true`: undeviated and mirrored light keep the through direction.
-    fn keeps_regular_apart(&self) -> bool {
+    fn separates_regular(&self) -> bool {
         true
     }
 

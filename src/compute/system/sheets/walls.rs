@@ -176,8 +176,9 @@ impl Walls {
             let face = self.reflectance[k];
             let came = &arriving[k];
             // Light that falls on every patch in the end, a column per incident cell.
-            let landed = &response * came.walls.transpose();
-            let exitance = Mat::from_fn(n, setting.incident.len(), |j, i| wall * landed[(j, i)] / (PI * self.areas[j]));
+            let incident = &response * came.walls.transpose();
+            let exitance =
+                Mat::from_fn(n, setting.incident.len(), |j, i| wall * incident[(j, i)] / (PI * self.areas[j]));
             let forward = &through[1 - k].walls * &exitance;
             let returned = &back[k].walls * &exitance;
             let mut straight = vec![0.0; setting.incident.len() * weight.len()];
@@ -189,7 +190,7 @@ impl Walls {
                     seen.transmitted[at] = straight[at] + forward[(o, i)];
                     seen.reflected[at] = face * (1.0 - self.open) / PI + returned[(o, i)];
                 }
-                let swallowed: f64 = (0..n).map(|j| (1.0 - wall) * landed[(j, i)]).sum();
+                let swallowed: f64 = (0..n).map(|j| (1.0 - wall) * incident[(j, i)]).sum();
                 seen.absorbed[i] = (1.0 - face) * (1.0 - self.open) + swallowed;
             }
         }

@@ -10,8 +10,8 @@ use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Band};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::family::{Family, NoSpecimen, Polygons};
-use crate::compute::system::measure::{Beam, Measured, Quality, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::family::{Family, OpticalModelError, Polygons};
+use crate::compute::system::measure::{Beam, Measured, OpticalModel, Quality, ScatteredLight, Setting, Side};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Pitch of the yarns as drawn; the description has none. \[m\]
@@ -91,7 +91,7 @@ impl Family for Woven {
         true
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
         Ok(Box::new(Fabric { woven: *self, sheet: self.sheet() }))
     }
 }
@@ -103,7 +103,7 @@ struct Fabric {
     sheet: Sheet,
 }
 
-impl Specimen for Fabric {
+impl OpticalModel for Fabric {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         self.sheet.measure(setting, progress)
     }
@@ -112,7 +112,7 @@ impl Specimen for Fabric {
         self.sheet.examine(setting, progress)
     }
 
-    fn keeps_regular_apart(&self) -> bool {
+    fn separates_regular(&self) -> bool {
         true
     }
 
@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn single_directions_have_the_totals_of_the_model() {
         let fabric = Woven { openness: 0.05, reflectance: [0.7, 0.3], transmittance: 0.1 };
-        let specimen = fabric.specimen("").unwrap();
+        let specimen = fabric.optical_model("").unwrap();
         let cells = front_basis();
         let weight = cells.projected_solid_angles();
         let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();

@@ -20,7 +20,7 @@ pub(super) struct Balance {
     /// Share of the light on a face that scatters to the inside and to the outside.
     pub(super) leaves: [Vec<f64>; 2],
     /// Error of `leaves`: a third of the difference of the two divisions.
-    pub(super) doubt: [Vec<f64>; 2],
+    pub(super) uncertainty: [Vec<f64>; 2],
 }
 
 /// Maximum diffuse reflectance in the balance: white faces that exchange light only with each other would hold it
@@ -58,7 +58,7 @@ impl Balance {
         // A face sends inside what light from inside brings to it, over all directions.
         let exits = [1, 0].map(|side: usize| {
             let mut sum = vec![0.0; n];
-            for (row, weight) in transport.landed[side].iter().zip(hat) {
+            for (row, weight) in transport.incident[side].iter().zip(hat) {
                 sum.iter_mut().zip(row).for_each(|(sum, x)| *sum += 0.5 * weight * x);
             }
             sum
@@ -91,12 +91,12 @@ impl Balance {
         let both = |fine: &[f64], coarse: &[f64], f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
             fine.iter().enumerate().map(|(face, x)| f(*x, coarse[of(face)])).collect()
         };
-        let doubt = |a: f64, b: f64| (a - b) / 3.0;
+        let uncertainty = |a: f64, b: f64| (a - b) / 3.0;
         Self {
             response: Mat::from_fn(n, n, |i, j| better(fine.response[(i, j)], coarse.response[(of(i), of(j))])),
             absorbed: both(&fine.absorbed, &coarse.absorbed, &better),
             leaves: [0, 1].map(|k: usize| both(&fine.leaves[k], &coarse.leaves[k], &better)),
-            doubt: [0, 1].map(|k: usize| both(&fine.leaves[k], &coarse.leaves[k], &doubt)),
+            uncertainty: [0, 1].map(|k: usize| both(&fine.leaves[k], &coarse.leaves[k], &uncertainty)),
         }
     }
 }

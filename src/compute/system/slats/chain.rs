@@ -92,7 +92,7 @@ pub(super) struct Landing {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Trace {
     /// Arrivals at faces, in order.
-    pub(super) landed: Vec<Landing>,
+    pub(super) hits: Vec<Landing>,
     /// Exit of the ray, if it leaves.
     pub(super) exit: Option<Exit>,
     /// Hash of the slats and sides met: rays of a bundle with the same path have the same number.
@@ -100,13 +100,13 @@ pub(super) struct Trace {
 }
 
 /// Weight down to which reflections count in the path's hash.
-const TELLING: f64 = 1e-3;
+const MIN_HASHED_WEIGHT: f64 = 1e-3;
 
 impl SlatSection {
     /// Follows the mirrored part of a ray of weight 1 into `trace`.
     pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
         sequence.next_ray();
-        trace.landed.clear();
+        trace.hits.clear();
         (trace.exit, trace.way) = (None, 0);
         let (mut variance, mut weight) = (0.0, 1.0);
         for _ in 0..MOST {
@@ -121,7 +121,7 @@ impl SlatSection {
             let place = met.map_or(1 + u64::from(ray.direction[0] > 0.0), |(.., landing, copy)| {
                 u64::from((copy + 128).unsigned_abs()) * 4 + 2 * u64::from(landing.right) + 7
             });
-            if weight > TELLING {
+            if weight > MIN_HASHED_WEIGHT {
                 trace.way = trace.way.wrapping_mul(0x0100_0000_01B3).wrapping_add(place);
             }
             match met {
@@ -130,7 +130,7 @@ impl SlatSection {
                     return;
                 }
                 Some((point, met, landing, _)) => {
-                    trace.landed.push(Landing { weight, ..landing });
+                    trace.hits.push(Landing { weight, ..landing });
                     (ray.point, ray.met) = (point, met);
                 }
             }

@@ -39,7 +39,7 @@ pub(super) struct Lobe {
 
 /// Light that mirrors reflect out of the section, for parallel light of one profile angle from one side.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Thrown {
+pub(super) struct MirroredLight {
     /// Transmitted beams.
     pub(super) through: Vec<Lobe>,
     /// Reflected beams.
@@ -54,9 +54,9 @@ pub(super) struct Transport {
     /// Width over all directions that a face sends out, ½∫ t dψ: its length by the rule's count.
     pub(super) length: Vec<f64>,
     /// Width of a parallel beam that reaches every face, `[node][face]`, for light from outside and from inside.
-    pub(super) landed: [Vec<Vec<f64>>; 2],
+    pub(super) incident: [Vec<Vec<f64>>; 2],
     /// Mirrored light that leaves, by node, from outside and from inside.
-    pub(super) thrown: [Vec<Thrown>; 2],
+    pub(super) mirrored: [Vec<MirroredLight>; 2],
     /// Mirrored light that has met mirrors that spread light, if there are any.
     pub(super) rough: Option<Rough>,
 }
@@ -75,7 +75,7 @@ pub(super) struct Second {
     /// Light from face to face, symmetric.
     pub(super) exchange: Exchange,
     /// Width of parallel light on faces, `[node][face]`, from outside and from inside.
-    pub(super) landed: [Vec<Vec<f64>>; 2],
+    pub(super) incident: [Vec<Vec<f64>>; 2],
 }
 
 /// Light of one variance that rough mirrors reflect out of the section, between nodes: ∫∫ over both nodes' hats of the
@@ -96,14 +96,14 @@ pub(super) struct Rough {
     /// Light by level of variance, one entry per level of `along`.
     pub(super) levels: Vec<VarianceLevel>,
     /// Deficit of the sums over all light, by node, from outside and from inside. In pitches.
-    pub(super) doubt: [Vec<f64>; 2],
+    pub(super) uncertainty: [Vec<f64>; 2],
 }
 
 impl Rough {
     /// Returns the flows of a level, by the nodes of the through directions: incident, emergent.
     pub(super) fn flows(&self, level: usize, side: Side, through: bool) -> Vec<f64> {
         let level = &self.levels[level];
-        let n = self.doubt[0].len();
+        let n = self.uncertainty[0].len();
         match (through, side) {
             (true, Side::Front) => level.through.clone(),
             (true, Side::Back) => (0..n * n).map(|at| level.through[at % n * n + at / n]).collect(),

@@ -42,7 +42,7 @@ fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
 
 /// Returns the widths of light on the faces for every cell: faces × cells, divided by the cells' projected solid
 /// angles. `turned`: by the opposite profile angle, as for reflected light.
-fn landed(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: bool) -> Mat<f64> {
+fn incident_widths(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: bool) -> Mat<f64> {
     let faces = rows[0].len();
     let mut matrix = Mat::zeros(faces, cells.len());
     for (index, cell) in basis.cells().enumerate() {
@@ -84,9 +84,10 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         let section = SlatSection::new(array, parts);
         let transport = Transport::new(&section, grid, setting.seed, progress)?;
         let balance = Balance::new(&section, &transport, &hat);
-        let from = [0, 1].map(|side: usize| landed(&incident, setting.incident, &transport.landed[side], false));
-        let doubt = from.iter().flat_map(|from| doubts(&balance, from)).fold(0.0, f64::max);
-        if doubt <= 0.1 * setting.error || parts >= PARTS[1] {
+        let from =
+            [0, 1].map(|side: usize| incident_widths(&incident, setting.incident, &transport.incident[side], false));
+        let uncertainty = from.iter().flat_map(|from| uncertainties(&balance, from)).fold(0.0, f64::max);
+        if uncertainty <= 0.1 * setting.error || parts >= PARTS[1] {
             break (transport, balance, from);
         }
         parts *= 2;
@@ -97,13 +98,13 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
     }
 
     let scattered = |side: Side| {
-        let (from, own) = (&from[index(side)], &transport.landed[index(side)]);
-        let other = &transport.landed[1 - index(side)];
+        let (from, own) = (&from[index(side)], &transport.incident[index(side)]);
+        let other = &transport.incident[1 - index(side)];
         let mut sent = Mat::zeros(from.nrows(), from.ncols());
         // q = h M g/π, h and g in widths over the projected solid angles of their cells.
         matmul(&mut sent, Accum::Replace, &balance.response, from, std::f64::consts::FRAC_1_PI, Par::Seq);
         let block = |rows: &[Vec<f64>], turned| {
-            let to = landed(&emergent, setting.emergent, rows, turned);
+            let to = incident_widths(&emergent, setting.emergent, rows, turned);
             let mut q = zeros(to.ncols() * sent.ncols());
             let sum = MatMut::from_column_major_slice_mut(&mut q, to.ncols(), sent.ncols());
             matmul(sum, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
@@ -112,13 +113,13 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
             q
         };
         let (transmitted, reflected): (Vec<f64>, Vec<f64>) = rayon::join(|| block(other, false), || block(own, true));
-        OneSide { transmitted, reflected, absorbed: absorbed(&balance, from), error: doubts(&balance, from) }
+        OneSide { transmitted, reflected, absorbed: absorbed(&balance, from), error: uncertainties(&balance, from) }
     };
     let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
     let mut measured = Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back };
     progress.advance(STAGE, 3, 4);
     add_direct(array, setting, &mut measured);
-    if transport.thrown.iter().flatten().any(|thrown| !(thrown.through.is_empty() && thrown.back.is_empty())) {
+    if transport.mirrored.iter().flatten().any(|mirrored| !(mirrored.through.is_empty() && mirrored.back.is_empty())) {
         add_mirrored(setting, grid, &incident, &transport, &mut measured);
     }
     if let Some(rough) = &transport.rough {
@@ -143,10 +144,12 @@ fn absorbed(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
 }
 
 /// Returns the error of every cell from the difference of the two divisions into strips.
-fn doubts(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
+fn uncertainties(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     let of = |cell: usize| {
-        let one = |doubt: &[f64]| from.col_as_slice(cell).iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs();
-        one(&balance.doubt[0]).max(one(&balance.doubt[1]))
+        let one = |uncertainty: &[f64]| {
+            from.col_as_slice(cell).iter().zip(uncertainty).map(|(g, d)| g * d).sum::<f64>().abs()
+        };
+        one(&balance.uncertainty[0]).max(one(&balance.uncertainty[1]))
     };
     (0..from.ncols()).map(of).collect()
 }
@@ -196,9 +199,9 @@ fn add_mirrored(
     let m = weight.len();
     for side in Side::BOTH {
         for through in [true, false] {
-            let nodes: Vec<Vec<(usize, f64)>> = transport.thrown[index(side)]
+            let nodes: Vec<Vec<(usize, f64)>> = transport.mirrored[index(side)]
                 .iter()
-                .map(|thrown| on_nodes(if through { &thrown.through } else { &thrown.back }, grid))
+                .map(|mirrored| on_nodes(if through { &mirrored.through } else { &mirrored.back }, grid))
                 .collect();
             let seen = measured.seen_mut(side);
             let values = if through { &mut seen.transmitted } else { &mut seen.reflected };

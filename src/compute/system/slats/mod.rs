@@ -31,19 +31,19 @@ mod direct;
 
 mod flows;
 mod measure;
+mod model;
 mod outline;
 mod profile;
 mod profile_shares;
 mod profile_weights;
 mod reciprocal;
 mod rough;
-mod specimen;
 mod sweep;
 mod transport;
 mod venetian;
 
 pub use array::{SlatArray, SlatError, Surface};
+pub use model::SlatModel;
 pub use profile::{SlatProfile, arc};
 pub use profile_shares::ProfileShares;
-pub use specimen::SlatSpecimen;
 pub use venetian::Venetian;

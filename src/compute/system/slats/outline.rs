@@ -270,7 +270,7 @@ impl SlatSection {
         let mut runs: Vec<std::ops::Range<usize>> = vec![];
         for (k, strip) in self.strips.iter().enumerate() {
             match runs.last_mut() {
-                Some(run) if self.goes_on(&self.strips[k - 1], strip) => run.end = k + 1,
+                Some(run) if self.continues(&self.strips[k - 1], strip) => run.end = k + 1,
                 _ => runs.push(k..k + 1),
             }
         }
@@ -278,7 +278,7 @@ impl SlatSection {
     }
 
     /// Whether a strip continues the line or the arc of the one before.
-    fn goes_on(&self, before: &Strip, strip: &Strip) -> bool {
+    fn continues(&self, before: &Strip, strip: &Strip) -> bool {
         // Both halves of a strip, and strips cut at crossings, have faces of their own: what counts is their finish.
         let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
         let bent = |strip: &Strip| strip.normals[0] != strip.normals[1];

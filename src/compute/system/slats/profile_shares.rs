@@ -48,9 +48,9 @@ impl SlatArray {
         let direct = Direct::without_knots(self);
         let one = |&psi: &f64| {
             let node = beam(&section, psi, side, seed);
-            let (landed, thrown) = (&node.landed[index(side)], &node.thrown[index(side)]);
+            let (incident, mirrored_light) = (&node.incident[index(side)], &node.mirrored[index(side)]);
             let cosine = psi.cos();
-            let sum = |weights: &[f64]| weights.iter().zip(landed).map(|(a, b)| a * b).sum::<f64>() / cosine;
+            let sum = |weights: &[f64]| weights.iter().zip(incident).map(|(a, b)| a * b).sum::<f64>() / cosine;
             // Faces leave to the inside first, then to the outside.
             let [inside, outside] = [sum(&balance.leaves[0]), sum(&balance.leaves[1])];
             let (on, back) = if side == Side::Front { (inside, outside) } else { (outside, inside) };
@@ -58,8 +58,8 @@ impl SlatArray {
             let share = direct.share(psi);
             ProfileShares {
                 direct: share,
-                transmitted: share + on + mirrored(&thrown.through),
-                reflected: back + mirrored(&thrown.back),
+                transmitted: share + on + mirrored(&mirrored_light.through),
+                reflected: back + mirrored(&mirrored_light.back),
                 absorbed: sum(&balance.absorbed),
             }
         };

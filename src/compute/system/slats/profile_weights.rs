@@ -100,11 +100,11 @@ impl Piece {
             return vec![];
         }
         let mut list = vec![];
-        let apart = (b.phi - a.phi + PI).rem_euclid(2.0 * PI) - PI;
+        let separation = (b.phi - a.phi + PI).rem_euclid(2.0 * PI) - PI;
         // A sector of more than half a turn may be met from both sides.
         for turn in [-2.0 * PI, 0.0, 2.0 * PI] {
-            let low = (-0.5 * a.width).max(apart + turn - 0.5 * b.width);
-            let high = (0.5 * a.width).min(apart + turn + 0.5 * b.width);
+            let low = (-0.5 * a.width).max(separation + turn - 0.5 * b.width);
+            let high = (0.5 * a.width).min(separation + turn + 0.5 * b.width);
             if high - low > 1e-12 {
                 list.extend(Self::split(theta, a.phi + 0.5 * (low + high), high - low));
             }

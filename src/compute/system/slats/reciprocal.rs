@@ -5,7 +5,7 @@
 //! all sums are right again, corrects that. The deficit of the sums before is stated as error.
 
 use super::along::Along;
-use super::flows::{Rough, Second, Thrown, Transport, VarianceLevel};
+use super::flows::{MirroredLight, Rough, Second, Transport, VarianceLevel};
 use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use crate::compute::scaling::by_rounds;
@@ -22,7 +22,7 @@ struct Sums {
 }
 
 impl Sums {
-    fn new(grid: ProfileGrid, thrown: &[Vec<Thrown>; 2]) -> Self {
+    fn new(grid: ProfileGrid, mirrored: &[Vec<MirroredLight>; 2]) -> Self {
         let n = grid.len();
         let none = || vec![[0.0; 2]; n * n];
         let mut sums = Self { through: none(), back: [none(), none()] };
@@ -30,11 +30,11 @@ impl Sums {
             cell[0] += flux;
             cell[1] += flux * variance;
         };
-        for (side, nodes) in thrown.iter().enumerate() {
-            for (node, thrown) in nodes.iter().enumerate() {
+        for (side, nodes) in mirrored.iter().enumerate() {
+            for (node, mirrored) in nodes.iter().enumerate() {
                 // Each of both ends gives half.
                 let scale = 0.25 * grid.hat(node);
-                for (lobes, through) in [(&thrown.through, true), (&thrown.back, false)] {
+                for (lobes, through) in [(&mirrored.through, true), (&mirrored.back, false)] {
                     for lobe in lobes.iter().filter(|lobe| lobe.variance > 0.0) {
                         let (below, above) = grid.place(0.5 * (lobe.psi[0] + lobe.psi[1]));
                         for (other, share) in [(below, 1.0 - above), (below + 1, above)] {
@@ -71,7 +71,7 @@ fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64])
         for side in [0, 1] {
             let (line, own) = (&sums.back[side][i * n..(i + 1) * n], side * n..(side + 1) * n);
             out[side * n + i] += line.iter().zip(&nodes[own]).map(|([flux, _], d)| flux * d).sum::<f64>();
-            for (face, width) in second.landed[side][i].iter().enumerate() {
+            for (face, width) in second.incident[side][i].iter().enumerate() {
                 let flux = 0.5 * hat * width;
                 out[side * n + i] += flux * kept[face] * faces[face];
                 out[2 * n + face] += flux * nodes[side * n + i];
@@ -90,25 +90,25 @@ pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transpor
     let hat: Vec<f64> = (0..n).map(|node| grid.hat(node)).collect();
     let mirror: Vec<f64> = section.faces.iter().map(|face| face.surface.mirror).collect();
     let kept: Vec<f64> = mirror.iter().map(|m| 1.0 - m).collect();
-    let sums = Sums::new(grid, &direct.thrown);
+    let sums = Sums::new(grid, &direct.mirrored);
 
     // The first light that mirrors reflect is known; lobes of ideal mirrors are not changed.
-    let ideal = |thrown: &Thrown| -> f64 {
-        let all = thrown.through.iter().chain(&thrown.back);
+    let ideal = |mirrored: &MirroredLight| -> f64 {
+        let all = mirrored.through.iter().chain(&mirrored.back);
         all.filter(|lobe| lobe.variance <= 0.0).map(|lobe| lobe.width).sum()
     };
-    let thrown_on = |landed: &[f64]| landed.iter().zip(&mirror).map(|(x, m)| x * m).sum::<f64>();
+    let reflected = |incident: &[f64]| incident.iter().zip(&mirror).map(|(x, m)| x * m).sum::<f64>();
     let of_node = |side: usize, node: usize| {
-        0.5 * hat[node] * (thrown_on(&direct.landed[side][node]) - ideal(&direct.thrown[side][node])).max(0.0)
+        0.5 * hat[node] * (reflected(&direct.incident[side][node]) - ideal(&direct.mirrored[side][node])).max(0.0)
     };
     let of_nodes = (0..2 * n).map(|k| Some(of_node(k / n, k % n)));
     // Faces that send nothing need no sums: nothing is followed from them.
     let of_faces = direct.exchange.values.chunks(mirror.len()).zip(&section.faces);
-    let of_faces = of_faces.map(|(line, face)| (face.surface.diffuse > 0.0).then(|| thrown_on(line)));
+    let of_faces = of_faces.map(|(line, face)| (face.surface.diffuse > 0.0).then(|| reflected(line)));
     let wanted: Vec<Option<f64>> = of_nodes.chain(of_faces).collect();
     let rows = |scales: &[f64]| rows(&sums, second, &hat, &kept, scales);
     let found = rows(&vec![1.0; wanted.len()]);
-    let doubt = [0, 1].map(|side: usize| {
+    let uncertainty = [0, 1].map(|side: usize| {
         let pairs = wanted[side * n..].iter().zip(&found[side * n..]);
         pairs.zip(&hat).map(|((wanted, found), hat)| 2.0 * (wanted.unwrap_or_default() - found).abs() / hat).collect()
     });
@@ -117,7 +117,7 @@ pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transpor
     let (front, back) = nodes.split_at(n);
 
     for side in [0, 1] {
-        for (line, d) in second.landed[side].iter_mut().zip(&nodes[side * n..]) {
+        for (line, d) in second.incident[side].iter_mut().zip(&nodes[side * n..]) {
             line.iter_mut().zip(face_scales).for_each(|(x, face)| *x *= d * face);
         }
     }
@@ -128,7 +128,7 @@ pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transpor
     let smallest = section.faces.iter().filter(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0);
     let along = Along::new(smallest.map(|face| face.surface.spread.powi(2)).fold(f64::INFINITY, f64::min));
     let levels = divided(&sums, [front, back], &hat, &along);
-    Rough { along, levels, doubt }
+    Rough { along, levels, uncertainty }
 }
 
 /// Returns the scaled sums as densities, divided among levels of variance.

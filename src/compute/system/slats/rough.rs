@@ -102,8 +102,8 @@ pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough,
     for side in Side::BOTH {
         for (i, error) in measured.seen_mut(side).error.iter_mut().enumerate() {
             // Nodes are drawn independently.
-            let doubt = &rough.doubt[super::flows::index(side)];
-            let square = |f: &Footing| (f.parts.iter().sum::<f64>() * doubt[f.node]).powi(2);
+            let uncertainty = &rough.uncertainty[super::flows::index(side)];
+            let square = |f: &Footing| (f.parts.iter().sum::<f64>() * uncertainty[f.node]).powi(2);
             *error += incident[i].iter().map(square).sum::<f64>().sqrt() / solid[0][i];
         }
     }

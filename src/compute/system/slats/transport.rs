@@ -2,7 +2,7 @@
 
 use super::arc::Point;
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
-use super::flows::{Exchange, Lobe, Second, Thrown, Transport, index};
+use super::flows::{Exchange, Lobe, MirroredLight, Second, Transport, index};
 use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use super::reciprocal::settle;
@@ -24,11 +24,11 @@ struct Chunk {
 /// Transport of parallel light of one profile angle from either side.
 pub(super) struct Node {
     /// Width that reaches every face without mirrors.
-    pub(super) landed: [Vec<f64>; 2],
+    pub(super) incident: [Vec<f64>; 2],
     /// Width that reaches every face by way of mirrors.
     pub(super) second: [Vec<f64>; 2],
     /// Light that mirrors reflect out of the section.
-    pub(super) thrown: [Thrown; 2],
+    pub(super) mirrored: [MirroredLight; 2],
 }
 
 /// Computes the transport of parallel light of one profile angle \[rad\] from a side: the width on every face and the
@@ -38,8 +38,8 @@ pub(super) fn beam(section: &SlatSection, psi: f64, side: Side, seed: u64) -> No
     let mut none = Chunk { exchange: [Exchange::new(0), Exchange::new(0)], length: vec![], nodes: vec![] };
     let tracer = Tracer { only: Some(side), ..Tracer::new(section, psi, 0.0) };
     let mut node = tracer.node(&mut none, Sequence::new(seed, 0));
-    for (landed, second) in node.landed.iter_mut().zip(&node.second) {
-        landed.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
+    for (incident, second) in node.incident.iter_mut().zip(&node.second) {
+        incident.iter_mut().zip(second).for_each(|(sum, x)| *sum += x);
     }
     node
 }
@@ -72,10 +72,10 @@ impl Into<'_> {
     /// Adds the mirrored part of a width of a bundle, by rays at its ends and between that take the same path.
     fn add(&mut self, section: &SlatSection, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
         let [low, middle, high] = traces;
-        for (k, landing) in middle.landed.iter().enumerate() {
+        for (k, landing) in middle.hits.iter().enumerate() {
             let amount = width * landing.weight;
             let same = |other: &Landing| other.facet == landing.facet && other.right == landing.right;
-            match (low.landed.get(k), high.landed.get(k)) {
+            match (low.hits.get(k), high.hits.get(k)) {
                 (Some(a), Some(b)) if same(a) && same(b) => {
                     section.divide(landing, a.share, b.share, |face, part| {
                         self.land(arrival, face, amount * part, weight);
@@ -114,8 +114,8 @@ impl Into<'_> {
         let psi = exits.map(|exit| (sign * exit.direction[1]).clamp(-1.0, 1.0).asin());
         let exit = exits[0];
         let outwards = exit.direction[0] > 0.0;
-        let thrown = &mut self.node.thrown[index(arrival.side)];
-        let list = if outwards == front { &mut thrown.back } else { &mut thrown.through };
+        let mirrored = &mut self.node.mirrored[index(arrival.side)];
+        let list = if outwards == front { &mut mirrored.back } else { &mut mirrored.through };
         list.push(Lobe { psi, width: width * exit.weight, variance: exit.variance });
     }
 }
@@ -149,11 +149,11 @@ impl Transport {
         let mut all = Self {
             exchange: Exchange::new(size),
             length: vec![0.0; size],
-            landed: [vec![], vec![]],
-            thrown: [vec![], vec![]],
+            incident: [vec![], vec![]],
+            mirrored: [vec![], vec![]],
             rough: None,
         };
-        let mut second = Second { exchange: Exchange::new(size), landed: [vec![], vec![]] };
+        let mut second = Second { exchange: Exchange::new(size), incident: [vec![], vec![]] };
         let chunk = |chunk: &[usize]| {
             let exchange = [Exchange::new(size), Exchange::new(size)];
             let mut part = Chunk { exchange, length: vec![0.0; size], nodes: vec![] };
@@ -172,12 +172,12 @@ impl Transport {
             second.exchange.add_all(&part.exchange[1]);
             all.length.iter_mut().zip(&part.length).for_each(|(sum, x)| *sum += x);
             for node in part.nodes {
-                for (side, (landed, more)) in node.landed.into_iter().zip(node.second).enumerate() {
-                    all.landed[side].push(landed);
-                    second.landed[side].push(more);
+                for (side, (incident, more)) in node.incident.into_iter().zip(node.second).enumerate() {
+                    all.incident[side].push(incident);
+                    second.incident[side].push(more);
                 }
-                for (side, thrown) in node.thrown.into_iter().enumerate() {
-                    all.thrown[side].push(thrown);
+                for (side, mirrored) in node.mirrored.into_iter().enumerate() {
+                    all.mirrored[side].push(mirrored);
                 }
             }
         };
@@ -206,7 +206,7 @@ impl Transport {
             all.rough = Some(settle(section, grid, &all, &mut second));
         }
         all.exchange.add_all(&second.exchange);
-        for (rows, more) in all.landed.iter_mut().zip(&second.landed) {
+        for (rows, more) in all.incident.iter_mut().zip(&second.incident) {
             for (row, more) in rows.iter_mut().zip(more) {
                 row.iter_mut().zip(more).for_each(|(sum, x)| *sum += x);
             }
@@ -222,8 +222,11 @@ impl<'a> Tracer<'a> {
 
     fn node(&self, part: &mut Chunk, mut sequence: Sequence) -> Node {
         let none = || vec![0.0; self.section.faces.len()];
-        let mut node =
-            Node { landed: [none(), none()], second: [none(), none()], thrown: [Thrown::default(), Thrown::default()] };
+        let mut node = Node {
+            incident: [none(), none()],
+            second: [none(), none()],
+            mirrored: [MirroredLight::default(), MirroredLight::default()],
+        };
         sweep(self.section, self.direction, |bundle| {
             let backwards = self.direction.map(|x| -x);
             for (from, to, direction, side) in
@@ -238,7 +241,7 @@ impl<'a> Tracer<'a> {
                 let Some(to) = to else { continue };
                 match from {
                     Some(from) => part.exchange[0].add(from.face, to.face, self.weight * bundle.width),
-                    None => node.landed[index(side)][to.face] += bundle.width,
+                    None => node.incident[index(side)][to.face] += bundle.width,
                 }
                 let arrival = Arrival { from, to, direction, side };
                 let mut into = Into { exchange: &mut part.exchange, node: &mut node };

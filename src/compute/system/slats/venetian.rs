@@ -1,10 +1,10 @@
 //! Venetian blinds and louvres as described: slats that rotate, one state per angle.
 
 use super::array::{SlatArray, Surface};
+use super::model::SlatModel;
 use super::profile::SlatProfile;
-use super::specimen::SlatSpecimen;
-use crate::compute::system::family::{Family, NoSpecimen, Polygons, state_key};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, Polygons, state_key};
+use crate::compute::system::measure::OpticalModel;
 
 /// Horizontal slats, periodic upwards; they rotate about the middle of their chord.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,9 +64,9 @@ impl Family for Venetian {
         outlines
     }
 
-    fn specimen(&self, state: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        let slats = self.slats(state).ok_or_else(|| NoSpecimen(format!("no state \"{state}\"")))?;
-        Ok(Box::new(SlatSpecimen::new(slats.map_err(NoSpecimen::because)?)))
+    fn optical_model(&self, state: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
+        let slats = self.slats(state).ok_or_else(|| OpticalModelError(format!("no state \"{state}\"")))?;
+        Ok(Box::new(SlatModel::new(slats.map_err(OpticalModelError::because)?)))
     }
 }
 

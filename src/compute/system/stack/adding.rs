@@ -13,13 +13,13 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
 use crate::compute::system::measure::{
-    Beam, Measured, OneSide, ScatteredLight, Setting, Side, Specimen, Structure, zeros,
+    Beam, Measured, OneSide, OpticalModel, ScatteredLight, Setting, Side, Structure, zeros,
 };
 use std::f64::consts::PI;
 
 /// Optical model of layers from outside to inside.
 pub struct Stack {
-    layers: Vec<Box<dyn Specimen>>,
+    layers: Vec<Box<dyn OpticalModel>>,
     /// Cache for single directions.
     singles: Singles,
 }
@@ -28,7 +28,7 @@ pub struct Stack {
 /// a second.
 const MOST_PARTS: usize = 3;
 
-impl Specimen for Stack {
+impl OpticalModel for Stack {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         if let [only] = self.layers.as_slice() {
             return only.measure(setting, progress);
@@ -129,7 +129,7 @@ impl Specimen for Stack {
 
 impl Stack {
     /// Creates a stack of at least one layer, outermost first.
-    pub fn new(layers: Vec<Box<dyn Specimen>>) -> Self {
+    pub fn new(layers: Vec<Box<dyn OpticalModel>>) -> Self {
         Self { layers, singles: Singles::default() }
     }
 

@@ -4,7 +4,7 @@ use crate::compute::basis::{Resampling, RingBasis, sub_directions};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, Component, matrix_on};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::measure::{Beam, Measured, ScatteredLight, Setting, Side, Specimen};
+use crate::compute::system::measure::{Beam, Measured, OpticalModel, ScatteredLight, Setting, Side};
 
 /// Optical model of the data of a file: means over the cells asked for; for single directions the values of the data
 /// there, without interpolation between their incident cells.
@@ -22,7 +22,7 @@ const fn components(side: Side) -> [Component; 3] {
     }
 }
 
-impl Specimen for DataLayer {
+impl OpticalModel for DataLayer {
     /// Computes the means over cells. A missing transmission is derived from the other side by reciprocity; a missing
     /// reflection counts as 0, and all light that does not pass as absorbed.
     fn measure(&self, setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Measured, Cancelled> {

@@ -5,7 +5,7 @@ use super::passage::Place;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Silent;
 use crate::compute::system::measure::beams::mirror_images;
-use crate::compute::system::measure::{Measured, Setting, Side, Specimen, front_basis};
+use crate::compute::system::measure::{Measured, OpticalModel, Setting, Side, front_basis};
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use rayon::prelude::*;
@@ -60,7 +60,7 @@ impl Sources {
 
 impl Flows {
     /// Computes the matrices of every layer once.
-    pub fn new(layers: &[Box<dyn Specimen>]) -> Self {
+    pub fn new(layers: &[Box<dyn OpticalModel>]) -> Self {
         let cells = front_basis();
         let weight = cells.projected_solid_angles();
         let turn = mirror_images(&cells, |phi| phi + PI).expect("Klems cells can be turned by 180°");
@@ -68,7 +68,7 @@ impl Flows {
         let measured: Vec<Measured> =
             layers.iter().map(|layer| layer.measure(&setting, &Silent).expect("never withdrawn")).collect();
         let error = measured.iter().map(|layer| layer.quality().error).fold(0.0, f64::max);
-        let one_way = |layer: &dyn Specimen, measured: &Measured, side: Side| {
+        let one_way = |layer: &dyn OpticalModel, measured: &Measured, side: Side| {
             let seen = measured.seen(side);
             let flux = |q: &[f64]| -> Vec<f64> { q.iter().zip(weight.iter().cycle()).map(|(q, w)| q * w).collect() };
             let through = flux(&seen.transmitted);
@@ -189,7 +189,7 @@ mod tests {
     use crate::compute::system::stack::DataLayer;
 
     /// Grey holes whose walls rise inwards between two diffusers: nothing is alike upside down or from the other side.
-    fn layers() -> Vec<Box<dyn Specimen>> {
+    fn layers() -> Vec<Box<dyn OpticalModel>> {
         let holes = Perforated {
             hole: Hole::Rhombus { width: 0.052, height: 0.018 },
             area: 0.0008,
@@ -197,8 +197,8 @@ mod tests {
             rise: 0.006,
             reflectance: [0.6, 0.3, 0.5],
         };
-        let sheet = |t, r| -> Box<dyn Specimen> { Box::new(DataLayer(diffuser::lambertian(t, r))) };
-        vec![sheet(0.4, 0.5), holes.specimen("").unwrap(), sheet(0.3, 0.6)]
+        let sheet = |t, r| -> Box<dyn OpticalModel> { Box::new(DataLayer(diffuser::lambertian(t, r))) };
+        vec![sheet(0.4, 0.5), holes.optical_model("").unwrap(), sheet(0.3, 0.6)]
     }
 
     /// Light of one cell in every place in turn.
@@ -244,9 +244,9 @@ mod tests {
 
     #[test]
     fn what_nothing_absorbs_leaves() {
-        let white: Vec<Box<dyn Specimen>> = [(0.3, 0.7), (0.6, 0.4), (0.1, 0.9)]
+        let white: Vec<Box<dyn OpticalModel>> = [(0.3, 0.7), (0.6, 0.4), (0.1, 0.9)]
             .into_iter()
-            .map(|(t, r)| -> Box<dyn Specimen> { Box::new(DataLayer(diffuser::lambertian(t, r))) })
+            .map(|(t, r)| -> Box<dyn OpticalModel> { Box::new(DataLayer(diffuser::lambertian(t, r))) })
             .collect();
         let flows = Flows::new(&white);
         for sources in sources(&flows) {

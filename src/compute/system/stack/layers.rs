@@ -1,7 +1,7 @@
 //! Stacks as described: layers by name, from outside to inside. Only a library can find the layers.
 
-use crate::compute::system::family::{Family, NoSpecimen, Polygons};
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::family::{Family, OpticalModelError, Polygons};
+use crate::compute::system::measure::OpticalModel;
 
 /// Layer of a stack.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +42,7 @@ impl Family for Vec<Layer> {
         vec![]
     }
 
-    fn specimen(&self, _: &str) -> Result<Box<dyn Specimen>, NoSpecimen> {
-        Err(NoSpecimen::because("its layers are to be found first"))
+    fn optical_model(&self, _: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError> {
+        Err(OpticalModelError::because("its layers are to be found first"))
     }
 }

@@ -6,7 +6,7 @@
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::{middle, pieces};
 use crate::compute::system::measure::merged::{SAME, merged, place};
-use crate::compute::system::measure::{Beam, Side, Specimen};
+use crate::compute::system::measure::{Beam, OpticalModel, Side};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -58,7 +58,7 @@ pub(super) fn half_turn(name: Dir<Facade>) -> Dir<Facade> {
 
 /// Follows light of a through direction from a side through the layers, outside first; layers may use a direction at
 /// most `within` \[rad\] from the one asked for.
-pub(super) fn follow(layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
+pub(super) fn follow(layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
     let n = layers.len();
     let enough = ENOUGH[usize::from(within > 0.0)];
     let mut passage = Passage::default();

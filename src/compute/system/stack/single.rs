@@ -9,7 +9,7 @@ use crate::compute::basis::{AzimuthMap, Resampling, RingBasis};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::middle;
 use crate::compute::system::measure::kept::{Kept, Once};
-use crate::compute::system::measure::{Beam, ScatteredLight, Side, Specimen, front_basis};
+use crate::compute::system::measure::{Beam, OpticalModel, ScatteredLight, Side, front_basis};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -42,14 +42,14 @@ impl Emergent {
 
 impl Singles {
     /// Returns the beams that leave the layers, each of which may use a direction at most `within` \[rad\] away.
-    pub fn beams(&self, layers: &[Box<dyn Specimen>], name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+    pub fn beams(&self, layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
         follow(layers, name, side, within).leaving
     }
 
     /// Computes the scattered light on emergent cells.
     pub fn scattered(
         &self,
-        layers: &[Box<dyn Specimen>],
+        layers: &[Box<dyn OpticalModel>],
         name: Dir<Facade>,
         side: Side,
         cells: &RingBasis,

@@ -8,35 +8,35 @@ use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
 use crate::compute::system::panes::{Panes, coated, glazing};
 use crate::compute::system::sheets::diffuser;
-use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
+use crate::compute::system::slats::{SlatArray, SlatModel, SlatProfile, Surface};
 
 const CLEAR: glazing::Pane = glazing::Pane { index: 1.52, thickness: 0.004, absorption: 10.0 };
 
 /// A layer known by its data alone.
-fn as_data(specimen: &dyn Specimen) -> Box<dyn Specimen> {
+fn as_data(specimen: &dyn OpticalModel) -> Box<dyn OpticalModel> {
     let cells = front_basis();
     let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
     Box::new(DataLayer(specimen.examine(&setting, &Silent).unwrap().0))
 }
 
-fn pane() -> Box<dyn Specimen> {
+fn pane() -> Box<dyn OpticalModel> {
     as_data(&Panes::equal(coated::Layer::Clear(CLEAR), 1))
 }
 
-fn blind(tilt: f64) -> Box<dyn Specimen> {
+fn blind(tilt: f64) -> Box<dyn OpticalModel> {
     let sides = [0.8, 0.3].map(Surface::matt);
     let flat = SlatProfile::Flat { width: 0.08 };
-    as_data(&SlatSpecimen::new(SlatArray::new(flat, 0.0, 0.072, tilt.to_radians(), sides).unwrap()))
+    as_data(&SlatModel::new(SlatArray::new(flat, 0.0, 0.072, tilt.to_radians(), sides).unwrap()))
 }
 
-fn measure(layers: Vec<Box<dyn Specimen>>, error: f64) -> Measured {
+fn measure(layers: Vec<Box<dyn OpticalModel>>, error: f64) -> Measured {
     let cells = front_basis();
     Stack::new(layers).measure(&Setting { incident: &cells, emergent: &cells, error, seed: 1 }, &Silent).unwrap()
 }
 
 #[test]
 fn lambertian_layers_follow_the_geometric_series() {
-    let sheet = |t, r| Box::new(DataLayer(diffuser::lambertian(t, r))) as Box<dyn Specimen>;
+    let sheet = |t, r| Box::new(DataLayer(diffuser::lambertian(t, r))) as Box<dyn OpticalModel>;
     let made = measure(vec![sheet(0.5, 0.3), sheet(0.4, 0.5)], 0.01);
     let tau = made.shares(&made.front.transmitted);
     let rho = made.shares(&made.back.reflected);
@@ -80,9 +80,9 @@ fn order_and_up_and_down_matter() {
         transmission_back: Some(Btdf::ideal_transparent(0.0)),
         reflection_front: Some(Btdf::ideal_transparent(1.0)),
         reflection_back: Some(Btdf::ideal_transparent(1.0)),
-    })) as Box<dyn Specimen>;
+    })) as Box<dyn OpticalModel>;
     let open = SlatArray::new(SlatProfile::Flat { width: 0.02 }, 0.0, 0.1, 0.0, [Surface::matt(0.0); 2]).unwrap();
-    let made = measure(vec![as_data(&SlatSpecimen::new(open)), mirror], 0.05);
+    let made = measure(vec![as_data(&SlatModel::new(open)), mirror], 0.05);
     let cells = front_basis();
     let above = cells.index(Dir::from_theta_phi(0.7, PI / 2.0)).unwrap();
     let below = cells.index(Dir::from_theta_phi(0.7, -PI / 2.0)).unwrap();

@@ -7,22 +7,22 @@ use crate::compute::system::Family;
 use crate::compute::system::laser_cut::{CutPanel, LaserCutPanel};
 use crate::compute::system::measure::beams::SharpBeams;
 use crate::compute::system::measure::directions::at_directions;
-use crate::compute::system::measure::{Beam, Setting, Side, Specimen, front_basis};
+use crate::compute::system::measure::{Beam, OpticalModel, Setting, Side, front_basis};
 use crate::compute::system::panes::Panes;
 use crate::compute::system::panes::coated::Layer;
 use crate::compute::system::panes::glazing::{Pane, stack};
 use crate::compute::system::sheets::{Hole, Perforated, diffuser};
-use crate::compute::system::slats::{SlatArray, SlatProfile, SlatSpecimen, Surface};
+use crate::compute::system::slats::{SlatArray, SlatModel, SlatProfile, Surface};
 use crate::compute::system::stack::{DataLayer, Stack};
 
 const CLEAR: Pane = Pane { index: 1.52, thickness: 0.004, absorption: 0.0 };
 const GREY: Pane = Pane { index: 1.52, thickness: 0.004, absorption: 30.0 };
 
-fn pane(pane: Pane) -> Box<dyn Specimen> {
+fn pane(pane: Pane) -> Box<dyn OpticalModel> {
     Box::new(Panes::equal(Layer::Clear(pane), 1))
 }
 
-fn panel() -> Box<dyn Specimen> {
+fn panel() -> Box<dyn OpticalModel> {
     let sheet = Pane { index: 1.49, thickness: 0.006, absorption: 0.0 };
     Box::new(SharpBeams(CutPanel { panel: LaserCutPanel { sheet, spacing: 0.005 }, cut_loss: 0.0 }))
 }
@@ -36,7 +36,7 @@ const STRANDS: Perforated = Perforated {
     reflectance: [0.0; 3],
 };
 
-fn lambertian(t: f64, r: f64) -> Box<dyn Specimen> {
+fn lambertian(t: f64, r: f64) -> Box<dyn OpticalModel> {
     Box::new(DataLayer(diffuser::lambertian(t, r)))
 }
 
@@ -55,7 +55,7 @@ fn flux(cells: &RingBasis, q: &[f64]) -> f64 {
 #[test]
 fn a_pane_and_black_holes_are_a_product() {
     for outside in [true, false] {
-        let holes = STRANDS.specimen("").unwrap();
+        let holes = STRANDS.optical_model("").unwrap();
         let made = Stack::new(if outside { vec![pane(GREY), holes] } else { vec![holes, pane(GREY)] });
         for name in names() {
             let glass = stack(&[GREY], name.theta());
@@ -133,7 +133,7 @@ fn nothing_is_lost_where_nothing_absorbs() {
 #[test]
 fn beams_go_back_the_way_they_came() {
     // Light of a to b from outside is light of b to a from inside; a half turn for what is thrown back.
-    let made = Stack::new(vec![panel(), STRANDS.specimen("").unwrap(), pane(GREY), panel()]);
+    let made = Stack::new(vec![panel(), STRANDS.optical_model("").unwrap(), pane(GREY), panel()]);
     let turned = |name: Dir<Facade>| super::super::passage::half_turn(name);
     for name in names().skip(1) {
         for side in Side::BOTH {
@@ -164,8 +164,8 @@ fn the_mean_of_single_directions_is_what_is_measured() {
     // Upside down and outside in are told apart by the strands, which let rising light in.
     let strands = Perforated { reflectance: [0.5, 0.3, 0.0], ..STRANDS };
     for layers in [
-        vec![panel(), strands.specimen("").unwrap()],
-        vec![strands.specimen("").unwrap(), pane(GREY), lambertian(0.3, 0.5)],
+        vec![panel(), strands.optical_model("").unwrap()],
+        vec![strands.optical_model("").unwrap(), pane(GREY), lambertian(0.3, 0.5)],
     ] {
         let made = Stack::new(layers);
         let measured = made.measure(&setting, &Silent).unwrap();
@@ -195,7 +195,7 @@ fn a_pane_before_a_blind_has_the_measured_totals() {
         let sides = [0.8, 0.3].map(Surface::matt);
         let profile = SlatProfile::Flat { width: 0.08 };
         let array = SlatArray::new(profile, 0.0, 0.072, 40_f64.to_radians(), sides).unwrap();
-        Box::new(SlatSpecimen::new(array)) as Box<dyn Specimen>
+        Box::new(SlatModel::new(array)) as Box<dyn OpticalModel>
     };
     let setting = Setting { incident: &cells, emergent: &cells, error: 0.05, seed: 1 };
     for layers in [vec![pane(GREY), blind()], vec![blind(), pane(GREY)]] {

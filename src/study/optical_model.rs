@@ -7,7 +7,7 @@ use super::scene_file::SystemKeys;
 use super::system::{Need, System};
 use crate::compute::btdf::{BandName, SolarSource};
 use crate::compute::system::SystemKind;
-use crate::compute::system::measure::Specimen;
+use crate::compute::system::measure::OpticalModel;
 use crate::compute::system::measure::upright::Upright;
 use crate::compute::system::panes::Panes;
 use crate::compute::system::panes::coated::Layer as Pane;
@@ -22,23 +22,23 @@ const MOST_LAYERS: usize = 40;
 /// not contain.
 enum LayerRun {
     Panes(Vec<Pane>),
-    Other(Box<dyn Specimen>),
+    Other(Box<dyn OpticalModel>),
 }
 
 impl LayerRun {
-    fn into_specimen(self) -> Box<dyn Specimen> {
+    fn into_model(self) -> Box<dyn OpticalModel> {
         match self {
             Self::Panes(layers) => Box::new(Panes { layers }),
-            Self::Other(specimen) => specimen,
+            Self::Other(model) => model,
         }
     }
 
     /// Rotates the layer by a quarter turn about the normal, which does not affect panes.
     fn turn(&mut self) {
         if let Self::Other(_) = self
-            && let Self::Other(specimen) = std::mem::replace(self, Self::Panes(Vec::new()))
+            && let Self::Other(model) = std::mem::replace(self, Self::Panes(Vec::new()))
         {
-            *self = Self::Other(Box::new(Upright(specimen)));
+            *self = Self::Other(Box::new(Upright(model)));
         }
     }
 }
@@ -72,21 +72,21 @@ impl Described {
     }
 
     /// Creates the optical model of one state.
-    pub fn specimen(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn Specimen>, StudyError> {
-        self.specimen_in(BandName::Visible, state, library)
+    pub fn optical_model(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn OpticalModel>, StudyError> {
+        self.optical_model_in(BandName::Visible, state, library)
     }
 
     /// Creates the optical model of one state in a spectral band. Visible properties replace missing solar ones, see
     /// [`Self::materials`].
-    pub fn specimen_in(
+    pub fn optical_model_in(
         &self,
         band: BandName,
         state: &str,
         library: &dyn LayerLibrary,
-    ) -> Result<Box<dyn Specimen>, StudyError> {
+    ) -> Result<Box<dyn OpticalModel>, StudyError> {
         let mut layers = Vec::new();
         self.layers_into(&mut layers, (band, state), library, 0)?;
-        let mut ready: Vec<Box<dyn Specimen>> = layers.into_iter().map(LayerRun::into_specimen).collect();
+        let mut ready: Vec<Box<dyn OpticalModel>> = layers.into_iter().map(LayerRun::into_model).collect();
         Ok(match ready.len() {
             1 => ready.pop().expect("counted"),
             _ => Box::new(Stack::new(ready)),
@@ -104,7 +104,7 @@ impl Described {
     ) -> Result<(), StudyError> {
         let system = &self.file.in_band(band);
         let SystemKind::Stack(layers) = &system.kind else {
-            let made = system.specimen(state).map_err(|error| StudyError::key("state", error.to_string()))?;
+            let made = system.optical_model(state).map_err(|error| StudyError::key("state", error.to_string()))?;
             match (&system.kind, list.last_mut()) {
                 (SystemKind::Pane(pane), Some(LayerRun::Panes(before))) => before.extend(pane.layers()),
                 (SystemKind::Pane(pane), _) => list.push(LayerRun::Panes(pane.layers())),
@@ -199,6 +199,6 @@ impl Described {
 }
 
 fn not_too_deep(depth: usize) -> Result<(), StudyError> {
-    let told = || StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}"));
-    (depth < MOST_NESTED).then_some(()).ok_or_else(told)
+    let too_deep = || StudyError::key("stack.layers", format!("stacks within stacks, more than {MOST_NESTED}"));
+    (depth < MOST_NESTED).then_some(()).ok_or_else(too_deep)
 }

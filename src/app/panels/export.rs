@@ -1,7 +1,7 @@
 //! The export sheet: content, format, preview and target of an export.
 
 use crate::app::command::Command;
-use crate::app::hand_on::{Choices, MOST_FILES, Preview, ReportKind, What};
+use crate::app::export_choices::{Choices, MOST_FILES, Preview, ReportKind, What};
 use crate::app::jobs::Lane;
 use crate::app::state::PathUse;
 use crate::app::theme;
@@ -11,7 +11,7 @@ use crate::report::size::Unit;
 use crate::report::tender::spoken;
 use crate::report::{Size, TileKind};
 use crate::texts::words::MONTHS;
-use crate::texts::{Text, hand_on as texts, stages};
+use crate::texts::{Text, export as texts, stages};
 use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, TextureOptions, Ui, vec2};
 
 /// Height of the fields of longer texts. \[rows\]
@@ -19,7 +19,7 @@ const ROWS: usize = 5;
 
 /// Draws the sheet.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
-    let before = app.state.settings.hand_on.clone();
+    let before = app.state.settings.export.clone();
     let mut choices = before.clone();
     let name = ui.label(texts::WHAT);
     let combo = ComboBox::from_id_salt("what").width(ui.available_width().min(240.0));
@@ -38,7 +38,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     ui.separator();
     preview(ui, app);
     if choices != before {
-        commands.push(Command::HandOn(Box::new(choices)));
+        commands.push(Command::ExportChoices(Box::new(choices)));
     }
 }
 
@@ -201,11 +201,11 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let path = typed_path(&text);
     let ready = !text.trim().is_empty();
     if state.replace.as_ref() == Some(&path) {
-        let words = if state.settings.hand_on.what == What::Series { texts::THESE_EXIST } else { texts::THIS_EXISTS };
+        let words = if state.settings.export.what == What::Series { texts::THESE_EXIST } else { texts::THIS_EXISTS };
         ui.colored_label(theme::palette(ui).warning, words.get());
         ui.horizontal(|ui| {
             if ui.button(texts::REPLACE).on_hover_text(texts::REPLACE_TIP).clicked() {
-                commands.push(Command::Write(PathUse::HandOn, path.clone()));
+                commands.push(Command::Write(PathUse::Export, path.clone()));
             }
             if ui.button(texts::OTHER_NAME).on_hover_text(texts::OTHER_NAME_TIP).clicked() {
                 commands.push(Command::KeepFile);
@@ -232,10 +232,10 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         let entered = field.has_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let write = ui.add_enabled(ready, Button::new(texts::WRITE.get())).on_hover_text(texts::WRITE_TIP);
         if ready && (write.clicked() || entered) {
-            commands.push(Command::WriteNew(PathUse::HandOn, path));
+            commands.push(Command::WriteNew(PathUse::Export, path));
         }
         if ui.button(texts::BROWSE).on_hover_text(texts::BROWSE_TIP).clicked() {
-            commands.push(Command::BrowseHandOn);
+            commands.push(Command::BrowseExport);
         }
     });
 }
@@ -250,7 +250,7 @@ fn bytes(count: usize) -> String {
 }
 
 fn preview(ui: &mut Ui, app: &App) {
-    let hand_on = &app.state.hand_on;
+    let export = &app.state.export;
     let busy = app.jobs.busy(Lane::Preview);
     ui.horizontal(|ui| {
         ui.strong(texts::PREVIEW.get());
@@ -258,7 +258,7 @@ fn preview(ui: &mut Ui, app: &App) {
             ui.spinner();
         }
     });
-    match &hand_on.shown {
+    match &export.shown {
         None if busy => {}
         None => {
             ui.weak(texts::NOT_YET.get());
@@ -266,16 +266,16 @@ fn preview(ui: &mut Ui, app: &App) {
         Some(Err(error)) => {
             ui.add(Label::new(RichText::new(error).color(theme::palette(ui).error)).wrap());
         }
-        Some(Ok(Preview::Picture([width, height], pixels, said))) => {
-            ui.weak(said);
+        Some(Ok(Preview::Picture([width, height], pixels, note))) => {
+            ui.weak(note);
             let id = ui.scope_id().with("picture");
             let known: Option<(u64, egui::TextureHandle)> = ui.data(|data| data.get_temp(id));
-            let texture = match known.filter(|(revision, _)| *revision == hand_on.revision) {
+            let texture = match known.filter(|(revision, _)| *revision == export.revision) {
                 Some((_, texture)) => texture,
                 None => {
                     let image = egui::ColorImage::from_rgb([*width, *height], pixels);
                     let texture = ui.ctx().load_texture("preview", image, TextureOptions::LINEAR);
-                    ui.data_mut(|data| data.insert_temp(id, (hand_on.revision, texture.clone())));
+                    ui.data_mut(|data| data.insert_temp(id, (export.revision, texture.clone())));
                     texture
                 }
             };

@@ -36,7 +36,7 @@ impl Beams for ClearSection {
 
 impl ClearSection {
     /// Creates the optical model of the section for the virtual goniophotometer.
-    pub const fn specimen(self) -> SharpBeams<Self> {
+    pub const fn optical_model(self) -> SharpBeams<Self> {
         SharpBeams(self)
     }
 }

@@ -13,25 +13,25 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// States that are currently being computed.
 #[derive(Default)]
-pub struct AtWork {
+pub struct StatesInProgress {
     states: Mutex<HashSet<StateKey>>,
     fewer: Condvar,
 }
 
 /// Guard that removes its state from the set when it is dropped, however the computation ends.
 struct Turn<'a> {
-    at_work: &'a AtWork,
+    in_progress: &'a StatesInProgress,
     state: &'a StateKey,
 }
 
 impl Drop for Turn<'_> {
     fn drop(&mut self) {
-        self.at_work.states.lock().unwrap_or_else(PoisonError::into_inner).remove(self.state);
-        self.at_work.fewer.notify_all();
+        self.in_progress.states.lock().unwrap_or_else(PoisonError::into_inner).remove(self.state);
+        self.in_progress.fewer.notify_all();
     }
 }
 
-impl AtWork {
+impl StatesInProgress {
     /// Computes a state unless it is there already. Waits if another thread is computing it; if that thread gives up,
     /// takes over.
     ///
@@ -60,7 +60,7 @@ impl AtWork {
                 states = self.fewer.wait_timeout(states, LOOK).unwrap_or_else(PoisonError::into_inner).0;
             }
         }
-        let _turn = Turn { at_work: self, state };
+        let _turn = Turn { in_progress: self, state };
         // It may have come between the look and the turn.
         if is_there()? { Ok(()) } else { compute() }
     }
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn many_who_ask_make_one_computation() {
-        let (at_work, there, count) = (AtWork::default(), AtomicBool::new(false), AtomicUsize::new(0));
+        let (at_work, there, count) = (StatesInProgress::default(), AtomicBool::new(false), AtomicUsize::new(0));
         std::thread::scope(|scope| {
             for _ in 0..6 {
                 scope.spawn(|| {
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn who_waits_takes_over_from_who_gives_up() {
-        let (at_work, there) = (AtWork::default(), AtomicBool::new(false));
+        let (at_work, there) = (StatesInProgress::default(), AtomicBool::new(false));
         let (begun, begins) = std::sync::mpsc::channel();
         std::thread::scope(|scope| {
             scope.spawn(|| {
@@ -127,7 +127,7 @@ mod tests {
                 true
             }
         }
-        let at_work = AtWork::default();
+        let at_work = StatesInProgress::default();
         let inside = || {
             let error = at_work.once(&state(), &Withdrawn, || Ok(false), || Ok(())).unwrap_err();
             assert!(matches!(error, AppError::Study(StudyError::Cancelled(_))), "{error}");

@@ -20,7 +20,7 @@ use crate::compute::estimate::{Cancelled, Progress, Silent};
 use crate::compute::sequence::recurrence;
 use crate::compute::system::measure::kept::{Kept, Once};
 use crate::compute::system::measure::{
-    Beam, Measured, ProfileLight, ScatteredLight, Setting, Side, Specimen, Structure,
+    Beam, Measured, OpticalModel, ProfileLight, ScatteredLight, Setting, Side, Structure,
 };
 use glam::DVec3;
 use std::collections::HashMap;
@@ -28,21 +28,21 @@ use std::f64::consts::{FRAC_1_PI, PI};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Optical model of slats, with cached solutions.
-pub struct SlatSpecimen {
+pub struct SlatModel {
     array: SlatArray,
     direct: Direct,
     /// Section for beams where mirrors are curved; `section` is the one for scattered light, and for beams otherwise.
     mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
     solved: Once<Solved>,
-    known: Mutex<HashMap<Place, Arc<Vec<Thrown>>>>,
+    known: Mutex<HashMap<Place, Arc<Vec<MirrorBeam>>>>,
 }
 
 /// Key of a cached result: side, number of the profile angle, and spacing of the lattice.
 type Place = (Side, i64, u64);
 
 /// Mirrored beam or fan, by its profile angles.
-struct Thrown {
+struct MirrorBeam {
     psi: [f64; 2],
     share: f64,
     transmitted: bool,
@@ -67,7 +67,7 @@ const SAME: f64 = 1e-9;
 /// Number of directions along the slats over which a ray of a rough mirror is spread.
 const ALONG: usize = 24;
 
-impl SlatSpecimen {
+impl SlatModel {
     /// Creates the optical model of an array.
     pub fn new(array: SlatArray) -> Self {
         let direct = Direct::without_knots(&array);
@@ -132,13 +132,13 @@ fn name_of(x: f64, psi: f64) -> Dir<Facade> {
     Dir::from_unit(DVec3::new(x, across * psi.sin(), across * psi.cos()))
 }
 
-impl Specimen for SlatSpecimen {
+impl OpticalModel for SlatModel {
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         self.array.measure(setting, progress)
     }
 
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        self.beams_by(name, |psi| Arc::new(self.thrown(psi, side)))
+        self.beams_by(name, |psi| Arc::new(self.mirror_beams(psi, side)))
     }
 
     /// Returns beams of mirrors from a lattice of profile angles at most 2 `within` apart.
@@ -148,16 +148,16 @@ impl Specimen for SlatSpecimen {
             let key = (side, place as i64, within.to_bits());
             // Cached results are complete even if another thread has failed while it held the lock.
             let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(thrown) = known().get(&key) {
-                return Arc::clone(thrown);
+            if let Some(beams) = known().get(&key) {
+                return Arc::clone(beams);
             }
-            let thrown = Arc::new(self.thrown(place * 2.0 * within, side));
+            let beams = Arc::new(self.mirror_beams(place * 2.0 * within, side));
             let mut known = known();
             if known.len() >= MOST_KNOWN {
                 known.clear();
             }
-            known.insert(key, Arc::clone(&thrown));
-            thrown
+            known.insert(key, Arc::clone(&beams));
+            beams
         })
     }
 
@@ -186,8 +186,8 @@ impl Specimen for SlatSpecimen {
         let sent = self.sent(&node, psi, side);
         Some(ProfileLight {
             upright: false,
-            q: self.luminance(&self.solved().transport.landed[1 - index(side)], &sent),
-            error: self.doubt(&node, psi, side),
+            q: self.luminance(&self.solved().transport.incident[1 - index(side)], &sent),
+            error: self.uncertainty(&node, psi, side),
         })
     }
 
@@ -200,7 +200,7 @@ impl Specimen for SlatSpecimen {
     }
 }
 
-impl SlatSpecimen {
+impl SlatModel {
     /// Computes the scattered light; `back`: reflected light as well.
     fn scattered_light(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let (x, psi) = section_angles(name);
@@ -212,35 +212,35 @@ impl SlatSpecimen {
         let node = beam(self.section(), psi, side, SEED);
         let mut light = if matt { self.matt(&node, psi, side, emergent, back) } else { ScatteredLight::default() };
         if rough {
-            let thrown = &node.thrown[index(side)];
-            add_rough(&mut light.transmitted, &thrown.through, [x, psi], emergent);
+            let mirrored = &node.mirrored[index(side)];
+            add_rough(&mut light.transmitted, &mirrored.through, [x, psi], emergent);
             if back {
-                add_rough(&mut light.reflected, &thrown.back, [x, psi], emergent);
+                add_rough(&mut light.reflected, &mirrored.back, [x, psi], emergent);
             }
         }
         light
     }
 
     /// Returns the beams that mirrors make of parallel light of a profile angle from a side, equal ones merged.
-    fn thrown(&self, psi: f64, side: Side) -> Vec<Thrown> {
+    fn mirror_beams(&self, psi: f64, side: Side) -> Vec<MirrorBeam> {
         let node = beam(self.mirrors(), psi, side, SEED);
-        let thrown = &node.thrown[index(side)];
-        let mut all: Vec<Thrown> = Vec::new();
-        for (lobes, transmitted) in [(&thrown.through, true), (&thrown.back, false)] {
+        let mirrored = &node.mirrored[index(side)];
+        let mut all: Vec<MirrorBeam> = Vec::new();
+        for (lobes, transmitted) in [(&mirrored.through, true), (&mirrored.back, false)] {
             let from = all.len();
             for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
                 let share = lobe.width / psi.cos();
-                let alike = |other: &&mut Thrown| other.psi.iter().zip(lobe.psi).all(|(a, b)| (a - b).abs() < SAME);
+                let alike = |other: &&mut MirrorBeam| other.psi.iter().zip(lobe.psi).all(|(a, b)| (a - b).abs() < SAME);
                 match all[from..].iter_mut().find(alike) {
                     Some(known) => known.share += share,
-                    None => all.push(Thrown { psi: lobe.psi, share, transmitted }),
+                    None => all.push(MirrorBeam { psi: lobe.psi, share, transmitted }),
                 }
             }
         }
         all
     }
 
-    fn beams_by(&self, name: Dir<Facade>, thrown: impl FnOnce(f64) -> Arc<Vec<Thrown>>) -> Vec<Beam> {
+    fn beams_by(&self, name: Dir<Facade>, mirror_beams: impl FnOnce(f64) -> Arc<Vec<MirrorBeam>>) -> Vec<Beam> {
         let (x, psi) = section_angles(name);
         let mut beams = Vec::new();
         let open = self.direct.share(psi);
@@ -250,39 +250,40 @@ impl SlatSpecimen {
         if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
             return beams;
         }
-        let named = |one: &Thrown| Beam {
+        let named = |one: &MirrorBeam| Beam {
             names: one.psi.map(|psi| name_of(x, psi)),
             share: one.share,
             transmitted: one.transmitted,
         };
-        beams.extend(thrown(psi).iter().map(named));
+        beams.extend(mirror_beams(psi).iter().map(named));
         beams
     }
 
     /// Returns the light that faces send out per illuminance, for parallel light on them: M g/π as over cells.
     fn sent(&self, node: &Node, psi: f64, side: Side) -> Vec<f64> {
-        let landed = &node.landed[index(side)];
+        let incident = &node.incident[index(side)];
         let response = &self.solved().balance.response;
         let scale = FRAC_1_PI / psi.cos();
-        let mut sent = vec![0.0; landed.len()];
-        for (j, landed) in landed.iter().enumerate().filter(|(_, landed)| **landed != 0.0) {
+        let mut sent = vec![0.0; incident.len()];
+        for (j, incident) in incident.iter().enumerate().filter(|(_, incident)| **incident != 0.0) {
             // Columns lie in one piece.
-            sent.iter_mut().zip(response.col(j).iter()).for_each(|(sum, value)| *sum += scale * landed * value);
+            sent.iter_mut().zip(response.col(j).iter()).for_each(|(sum, value)| *sum += scale * incident * value);
         }
         sent
     }
 
     /// Returns the error of the shares that leave by diffuse reflection.
-    fn doubt(&self, node: &Node, psi: f64, side: Side) -> f64 {
-        let landed = &node.landed[index(side)];
-        let one = |doubt: &[f64]| landed.iter().zip(doubt).map(|(g, d)| g * d).sum::<f64>().abs() / psi.cos();
-        let [inside, outside] = &self.solved().balance.doubt;
+    fn uncertainty(&self, node: &Node, psi: f64, side: Side) -> f64 {
+        let incident = &node.incident[index(side)];
+        let one =
+            |uncertainty: &[f64]| incident.iter().zip(uncertainty).map(|(g, d)| g * d).sum::<f64>().abs() / psi.cos();
+        let [inside, outside] = &self.solved().balance.uncertainty;
         one(inside).max(one(outside))
     }
 
     /// Returns the luminance at the nodes of the profile angle, from the width of parallel light of each that reaches
     /// the faces.
-    fn luminance(&self, landed: &[Vec<f64>], sent: &[f64]) -> Vec<f64> {
+    fn luminance(&self, incident: &[Vec<f64>], sent: &[f64]) -> Vec<f64> {
         let at = |(node, row): (usize, &Vec<f64>)| {
             // Along the slats the pitch is seen foreshortened; at ±90° nothing of it is seen.
             let cosine = ProfileGrid::new(STEP).psi(node).cos();
@@ -290,7 +291,7 @@ impl SlatSpecimen {
             // The extrapolation to endless strips may fall below 0 where nothing arrives.
             if cosine > 1e-9 { (width / cosine).max(0.0) } else { 0.0 }
         };
-        landed.iter().enumerate().map(at).collect()
+        incident.iter().enumerate().map(at).collect()
     }
 
     /// Computes the light that matt faces scatter, by cells; `back`: reflected light as well.
@@ -309,11 +310,11 @@ impl SlatSpecimen {
             };
             emergent.projected_solid_angles().into_iter().enumerate().map(of).collect()
         };
-        let landed = &self.solved().transport.landed;
+        let incident = &self.solved().transport.incident;
         ScatteredLight {
-            transmitted: by_cell(&landed[1 - index(side)], false),
-            reflected: if back { by_cell(&landed[index(side)], true) } else { vec![] },
-            error: self.doubt(node, psi, side),
+            transmitted: by_cell(&incident[1 - index(side)], false),
+            reflected: if back { by_cell(&incident[index(side)], true) } else { vec![] },
+            error: self.uncertainty(node, psi, side),
         }
     }
 }
@@ -357,7 +358,7 @@ mod tests {
     }
 
     /// Transmitted and thrown back, of one direction, beams and all.
-    fn shares(specimen: &SlatSpecimen, name: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
+    fn shares(specimen: &SlatModel, name: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
         let mut sums = [0.0; 2];
         specimen.beams(name, side).iter().for_each(|beam| sums[usize::from(!beam.transmitted)] += beam.share);
         let light = specimen.scattered(name, side, cells);
@@ -374,7 +375,7 @@ mod tests {
         let cells = RingBasis::even(3_f64.to_radians());
         for faces in [[Surface::matt(0.7); 2], [Surface::mirror(0.8), Surface::matt(0.3)], [rough, Surface::matt(0.3)]]
         {
-            let specimen = SlatSpecimen::new(array(0.006, 0.3, faces));
+            let specimen = SlatModel::new(array(0.006, 0.3, faces));
             for (side, theta) in Side::BOTH.into_iter().zip([0.4, 1.1]) {
                 let name = Dir::from_theta_phi(theta, 1.9);
                 let (all, through) =
@@ -388,11 +389,11 @@ mod tests {
     /// What is left out where light comes from one side alone is what the other side's light does.
     #[test]
     fn light_from_one_side_meets_what_it_meets_beside_all_light() {
-        let specimen = SlatSpecimen::new(array(0.006, 0.2, [Surface::mirror(0.8), Surface::matt(0.3)]));
+        let specimen = SlatModel::new(array(0.006, 0.2, [Surface::mirror(0.8), Surface::matt(0.3)]));
         let section = specimen.section();
-        let landed = |psi: f64, side: Side| beam(section, psi, side, SEED).landed[index(side)].clone();
+        let landed = |psi: f64, side: Side| beam(section, psi, side, SEED).incident[index(side)].clone();
         let grid = ProfileGrid::new(STEP);
-        let all = &specimen.solved().transport.landed;
+        let all = &specimen.solved().transport.incident;
         for node in (5..grid.len() - 5).step_by(17) {
             for side in Side::BOTH {
                 let own = landed(grid.psi(node), side);
@@ -416,7 +417,7 @@ mod tests {
             (0.0, 0.2, rough, 0.02),
         ] {
             let array = array(rise, tilt, faces);
-            let specimen = SlatSpecimen::new(array.clone());
+            let specimen = SlatModel::new(array.clone());
             for side in Side::BOTH {
                 let psi = [-0.6, 0.1, 0.45, 0.9];
                 let known = array.profile_shares(side, &psi, 1, &Silent).unwrap();
@@ -433,7 +434,7 @@ mod tests {
 
     #[test]
     fn light_by_profile_angle_is_the_light_on_cells() {
-        let specimen = SlatSpecimen::new(array(0.0, 0.3, [Surface::matt(0.7); 2]));
+        let specimen = SlatModel::new(array(0.0, 0.3, [Surface::matt(0.7); 2]));
         let cells = RingBasis::even(3_f64.to_radians());
         let name = name_of(0.3, 0.6);
         let (on, by) =
@@ -447,7 +448,7 @@ mod tests {
     #[test]
     fn a_flat_mirror_throws_one_beam_as_far_as_the_next_slat_lets_it() {
         // Level mirrors turn ψ into −ψ.
-        let specimen = SlatSpecimen::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
+        let specimen = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
         let psi = 60_f64.to_radians();
         let beams = specimen.beams(name_of(0.2, psi), Side::Front);
         let turned: Vec<&Beam> = beams.iter().filter(|beam| beam.transmitted).collect();

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Room-side reflection of all apertures of a scene.
-pub(crate) struct ThrownBack {
+pub(crate) struct RoomSideReflection {
     sides: Vec<Side>,
     /// Luminances of all reflecting cells by incident illuminance of each cell, after all reflections: (1 − R G)⁻¹ R.
     settled: Mat<f32>,
@@ -51,7 +51,7 @@ pub(super) struct Added<T> {
     pub walls: Vec<T>,
 }
 
-impl ThrownBack {
+impl RoomSideReflection {
     /// Creates the room-side reflection of a scene's apertures; `None` where none reflects. `lambertian`: reflectance
     /// of every aperture for reflection without direction.
     pub fn new(
@@ -128,19 +128,19 @@ impl ThrownBack {
     ) -> Vec<Added<Vec<f64>>> {
         let falling: Vec<_> = self.sides.iter().map(|side| session.falling_in(responses, side, index, basis)).collect();
         let rows: Vec<&Vec<f64>> = falling.iter().flat_map(|rows| rows.iter()).collect();
-        let all = self.thrown(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell] as f32));
+        let all = self.reflected(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell] as f32));
         self.added(|row| (0..basis.len()).map(|cell| f64::from(all[(row, cell)])).collect())
     }
 
     /// Returns the added light for first illuminances of the patches, `first`, sensor by sensor.
     pub fn of(&self, first: &[f64]) -> Vec<Added<f64>> {
         let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(first)).collect();
-        let all = self.thrown(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32));
+        let all = self.reflected(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32));
         self.added(|row| f64::from(all[(row, 0)]))
     }
 
     /// Computes the rows of all sensors from the illuminances of the reflecting cells.
-    fn thrown(&self, incident: &Mat<f32>) -> Mat<f32> {
+    fn reflected(&self, incident: &Mat<f32>) -> Mat<f32> {
         // One thread: the result must not depend on their number.
         faer::set_global_parallelism(faer::Par::Seq);
         &self.seen * (&self.settled * incident)

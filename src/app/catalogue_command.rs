@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 /// Command about the product list.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Shelving {
+pub enum CatalogueCommand {
     /// Show the products as a gallery of pictures, or as a list.
     Gallery,
     /// Select the first product of the list, and give it the keyboard.

@@ -10,7 +10,7 @@ use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 
 /// Illuminance at the sensors per illuminance of a patch lit by beams.
-pub(crate) struct Landed {
+pub(crate) struct BeamResponses {
     sensors: usize,
     /// Start of the columns of each sensor's walls, and the end of the last ones.
     walls: Vec<usize>,
@@ -20,7 +20,7 @@ pub(crate) struct Landed {
 }
 
 /// Light of one or more beams at the sensors.
-pub(crate) struct LandedLight {
+pub(crate) struct ReflectedBeamLight {
     /// Illuminance after two reflections or more, sensor by sensor. \[lx\]
     pub values: Vec<f64>,
     /// Uncertainty of `values` by the position of the beams within the patches. \[lx\]
@@ -32,7 +32,7 @@ pub(crate) struct LandedLight {
     walls: Vec<usize>,
 }
 
-impl LandedLight {
+impl ReflectedBeamLight {
     /// Returns the differences of the two densities at a sensor, wall by wall.
     pub fn walls(&self, sensor: usize) -> impl Iterator<Item = f64> {
         let [from, to] = [sensor, sensor + 1].map(|s| self.walls[s] - self.walls[0]);
@@ -40,7 +40,7 @@ impl LandedLight {
     }
 }
 
-impl Landed {
+impl BeamResponses {
     /// Creates the responses to beams. `gather`: what the sensors receive from the patches of both densities;
     /// `sensors`: their weights.
     pub fn new(radiosity: &Radiosity, gather: &[[Reconstruction; 2]], sensors: &[Response]) -> Self {
@@ -73,10 +73,16 @@ impl Landed {
     }
 
     /// Returns light of no beams.
-    pub fn dark(&self) -> LandedLight {
+    pub fn dark(&self) -> ReflectedBeamLight {
         let (count, walls) = (self.sensors, self.walls.clone());
         let dark = || vec![0.0; count];
-        LandedLight { values: dark(), blur: dark(), seen: dark(), columns: vec![0.0; walls[count] - count], walls }
+        ReflectedBeamLight {
+            values: dark(),
+            blur: dark(),
+            seen: dark(),
+            columns: vec![0.0; walls[count] - count],
+            walls,
+        }
     }
 
     /// Returns the illuminance at the sensors after one reflection, with light taken as uniform over each patch.
@@ -90,7 +96,7 @@ impl Landed {
     }
 
     /// Computes the light at the sensors from illuminances of the patches by beams.
-    pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> LandedLight {
+    pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> ReflectedBeamLight {
         let (count, last) = (self.sensors, self.walls[self.sensors]);
         let rows = |light| self.rows.chunks_exact(last + count).zip(light).filter(|(_, e): &(_, &f64)| **e != 0.0);
         let (mut fine, mut seen) = (vec![0.0; count], vec![0.0; count]);
@@ -106,6 +112,6 @@ impl Landed {
         rows(&radiosity.blurred(direct)).for_each(|(row, &e)| add_scaled(&mut coarse, row, e));
         let blur: Vec<f64> = fine.iter().zip(coarse).map(|(fine, coarse)| (fine - coarse) / 3.0).collect();
         let values = fine.iter().zip(&blur).map(|(e, gap)| e + gap).collect();
-        LandedLight { values, blur, seen, columns, walls: self.walls.clone() }
+        ReflectedBeamLight { values, blur, seen, columns, walls: self.walls.clone() }
     }
 }

@@ -15,7 +15,7 @@ fn spacing(tree: &TensorTree) -> f64 {
 impl Emission {
     /// Adds the uncertainties of the sun's light through a tree: half of the larger change to the neighbour on either
     /// side, along both axes of the façade frame.
-    pub fn doubt_leaves(&mut self, tree: &TensorTree, facing: &Facing<'_>) {
+    pub fn estimate_leaf_uncertainty(&mut self, tree: &TensorTree, facing: &Facing<'_>) {
         let illuminance = self.incident_sun;
         let (Some(sun), Some(light)) = (facing.sun_entering(), self.cells.first_mut()) else { return };
         if illuminance <= 0.0 {
@@ -30,11 +30,11 @@ impl Emission {
                 tree.sun_luminance(Incident(moved), illuminance).1
             });
             let own = &light.sun;
-            let doubt = own.iter().zip(before.iter().zip(&after));
+            let triples = own.iter().zip(before.iter().zip(&after));
             // The larger of both changes, with its sign.
             let change =
                 |(own, (a, b)): (&f64, (&f64, &f64))| if (a - own).abs() > (b - own).abs() { a - own } else { b - own };
-            light.doubts.push(doubt.map(change).map(|change| 0.5 * change).collect());
+            light.uncertainties.push(triples.map(change).map(|change| 0.5 * change).collect());
         }
         self.notes.push(
             "sun: the leaf of the tree that holds it; sun patches cannot be placed better than its directions are wide"
@@ -67,10 +67,10 @@ mod tests {
             let tree = made.tree;
             let whole = Btdf { regular: None, scattered: Some(Scattered::Tree(Box::new(tree.clone()))) };
             let mut emission = Emission::new(&whole, &facing);
-            emission.doubt_leaves(&tree, &facing);
+            emission.estimate_leaf_uncertainty(&tree, &facing);
             let light = &emission.cells[0];
             let most = light.sun.iter().copied().fold(0.0, f64::max);
-            light.doubts.iter().flatten().map(|d| d.abs()).fold(0.0, f64::max) / most
+            light.uncertainties.iter().flatten().map(|d| d.abs()).fold(0.0, f64::max) / most
         };
         assert!(doubt(&Btdf::ideal_diffuse(0.5)) < 0.02);
         assert!(doubt(&Btdf::ideal_transparent(0.8)) > 0.3);

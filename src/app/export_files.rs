@@ -3,7 +3,7 @@
 use super::disk::{create_folder, write_several};
 use super::engine::{Engine, Question};
 use super::error::AppError;
-use super::hand_on::{Choices, MOST_FILES, Moment, Preview, ReportKind, What, moments};
+use super::export_choices::{Choices, MOST_FILES, Moment, Preview, ReportKind, What, moments};
 use crate::catalogue::{Catalogue, NewProduct, Product, StateName};
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
@@ -21,13 +21,13 @@ use crate::report::{Look as PictureLook, Size, TileKind, pdf, picture};
 use crate::study::StudyError;
 use crate::study::inputs::inputs_of;
 use crate::study::luminaire_file::LidFormat;
-use crate::study::luminaire_set::{LuminaireSet, TileFile, Tiles, Wish, tile_name};
+use crate::study::luminaire_set::{LuminaireOptions, LuminaireSet, TileFile, Tiles, tile_name};
 use crate::study::moment;
 use crate::study::rank::{Look as Choosing, Shortlist};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::Wanted;
 use crate::study::year::{Annual, Look};
-use crate::texts::hand_on as texts;
+use crate::texts::export as texts;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -206,9 +206,9 @@ impl Order {
         let format =
             LidFormat::of(path, IesEdition::Lm63_2002).map_err(|error| AppError::from(error).about(path.display()))?;
         let tiles = if tiles { Tiles::Auto } else { Tiles::None };
-        let wish = Wish { format, aim: None, step: None, tiles, without_beam };
+        let options = LuminaireOptions { format, aim: None, step: None, tiles, without_beam };
         let question = Question { scene: scene.clone(), ..self.question.clone() };
-        self.engine.luminaires(&question, &wish, path, progress)
+        self.engine.luminaires(&question, &options, path, progress)
     }
 
     /// Returns the files of a grid of luminaires in a folder of its own, with the index last, so that it never names a
@@ -246,7 +246,7 @@ impl Order {
     /// Returns an error if a file cannot be made or written; then no new file is left.
     pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<(PathBuf, Option<String>), AppError> {
         if !path.to_string_lossy().to_lowercase().ends_with(self.choices.ending()) {
-            return Err(AppError::HandOnEnding(self.choices.ending()).about(path.display()));
+            return Err(AppError::ExportEnding(self.choices.ending()).about(path.display()));
         }
         let mut warning = None;
         let files = match self.choices.what {
@@ -285,19 +285,19 @@ impl Order {
                 let drawing = self.picture(progress)?;
                 let [width, height] = self.choices.size.pixels();
                 let scale = (PREVIEW / drawing.width.max(drawing.height)).min(width / drawing.width);
-                let said = if self.choices.vector {
+                let note = if self.choices.vector {
                     texts::vectors(self.choices.size)
                 } else {
                     texts::pixels(format!("{width:.0}"), format!("{height:.0}"))
                 };
-                shown(&drawing, scale, said)
+                shown(&drawing, scale, note)
             }
             What::Report => {
                 let (_, pages) = self.report(progress)?;
                 let first = pages.first().ok_or(AppError::NoProduct)?;
                 let count = pages.len();
-                let said = if count == 1 { texts::ONE_PAGE.into() } else { texts::page_one_of(count) };
-                shown(first, PREVIEW / first.height, said)
+                let note = if count == 1 { texts::ONE_PAGE.into() } else { texts::page_one_of(count) };
+                shown(first, PREVIEW / first.height, note)
             }
             What::Series => {
                 let moments = self.moments(path)?;
@@ -347,7 +347,7 @@ pub(super) fn index_of(path: &Path) -> PathBuf {
     path.with_extension("index.csv")
 }
 
-fn shown(drawing: &Drawing, scale: f64, said: String) -> Preview {
+fn shown(drawing: &Drawing, scale: f64, note: String) -> Preview {
     let (width, height, pixels) = drawing.to_pixels(scale);
-    Preview::Picture([width, height], pixels, said)
+    Preview::Picture([width, height], pixels, note)
 }

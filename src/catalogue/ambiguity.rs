@@ -2,18 +2,18 @@
 
 use super::numbered::Pattern;
 use super::source_file::SourceFile;
-use crate::texts::take_in as text;
+use crate::texts::import as text;
 
 /// Question about a product made from files.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Doubt {
+pub enum Ambiguity {
     /// Files taken for states of one product because of numbers in their names, and for no other reason.
     NumbersAlone,
     /// File kept separate although its name differs from those of these other files by a number alone.
     PerhapsStates(Vec<String>),
 }
 
-impl Doubt {
+impl Ambiguity {
     /// Returns the question in one sentence.
     pub fn question(&self) -> String {
         match self {
@@ -74,7 +74,7 @@ fn trend(files: &[&SourceFile], family: &[(usize, f64)]) -> Trend {
 }
 
 /// Whether the product names inside the files contain the same angles, and differ by them.
-fn told_inside(files: &[&SourceFile], family: &[(usize, f64)]) -> bool {
+fn names_contain_angles(files: &[&SourceFile], family: &[(usize, f64)]) -> bool {
     let names: Vec<&str> =
         family.iter().map(|(place, _)| files[*place].datasets.first().map_or("", |one| one.name.as_str())).collect();
     let holds = |name: &str, angle: f64| {
@@ -97,7 +97,7 @@ pub(super) fn confirmed(files: &[&SourceFile], family: &[(usize, f64)], skeleton
     // Only what turns has negative numbers.
     let signed = family.iter().any(|(_, angle)| *angle < 0.0);
     let spoken = speaks_of_slats(skeleton) || family.iter().all(|(place, _)| moving(*place));
-    let inside = || spoken || told_inside(files, family);
+    let inside = || spoken || names_contain_angles(files, family);
     marked
         || signed
         || match trend(files, family) {

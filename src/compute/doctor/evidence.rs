@@ -74,7 +74,7 @@ enum Kind {
 type Rearranged = (usize, Option<Turn>, bool);
 
 /// Evidence from the blocks of a band, with caches of sums, rearranged values and differences.
-pub(super) struct Witnesses<'a> {
+pub(super) struct Evidence<'a> {
     pub(super) blocks: &'a Blocks,
     kinds: [Option<Kind>; 4],
     sums: RefCell<BTreeMap<(usize, Option<Factor>), Sums>>,
@@ -85,7 +85,7 @@ pub(super) struct Witnesses<'a> {
 /// Misfits by question, in a fixed order; questions that do not apply are omitted in every reading alike.
 pub(super) type Answers = Vec<(Question, f64)>;
 
-impl<'a> Witnesses<'a> {
+impl<'a> Evidence<'a> {
     /// Creates the evidence of the blocks for which `heard` is `true`.
     pub(super) fn new(blocks: &'a Blocks, heard: impl Fn(Component) -> bool) -> Self {
         // A block of zeros does not count, nor does one measured from a few directions only.
@@ -172,7 +172,7 @@ impl<'a> Witnesses<'a> {
     }
 
     /// Returns the relative difference of two blocks, cached. `reversed`: one of them with the light reversed.
-    pub(super) fn apart(&self, a: Part, b: Part, reversed: bool) -> f64 {
+    pub(super) fn cached_difference(&self, a: Part, b: Part, reversed: bool) -> f64 {
         let (a, b, reversed) = canonical(a, b, reversed);
         if a == b && !reversed {
             return 0.0;
@@ -180,9 +180,9 @@ impl<'a> Witnesses<'a> {
         if let Some(known) = self.compared.borrow().get(&(a, b, reversed)) {
             return *known;
         }
-        let apart = self.difference(a, b, reversed);
-        self.compared.borrow_mut().insert((a, b, reversed), apart);
-        apart
+        let difference = self.difference(a, b, reversed);
+        self.compared.borrow_mut().insert((a, b, reversed), difference);
+        difference
     }
 
     /// Returns the values of a turned block by rows of incident cells, or of emergent ones if `exchanged`. Cached.
@@ -233,7 +233,7 @@ impl<'a> Witnesses<'a> {
     /// Whether two readings give the same functions, to within `nothing`.
     pub(super) fn same(&self, a: &Reading, b: &Reading, nothing: f64) -> bool {
         a.iter().zip(b).all(|(a, b)| match (a, b) {
-            (Some(a), Some(b)) => a == b || self.apart(*a, *b, false) < nothing,
+            (Some(a), Some(b)) => a == b || self.cached_difference(*a, *b, false) < nothing,
             (None, None) => true,
             _ => false,
         })
@@ -245,7 +245,7 @@ impl<'a> Witnesses<'a> {
         let there = |slot: usize| lit[slot].and(reading[slot]);
         let mut list = Vec::new();
         match (there(0), there(1)) {
-            (Some(front), Some(back)) => list.push((Question::Between, self.apart(front, back, true))),
+            (Some(front), Some(back)) => list.push((Question::Between, self.cached_difference(front, back, true))),
             (Some(one), None) | (None, Some(one)) => list.push((Question::Alone, self.own(one))),
             (None, None) => {}
         }
@@ -284,19 +284,19 @@ impl<'a> Witnesses<'a> {
     }
 
     /// Returns the difference between the sums of a function in two bands, each relative to its own mean.
-    pub(super) fn shapes_apart(&self, part: Part, other: &Self, of_other: Part) -> f64 {
+    pub(super) fn shape_difference(&self, part: Part, other: &Self, of_other: Part) -> f64 {
         let (a, b) = (self.sums(part), other.sums(of_other));
-        let apart = |a: &[f64], b: &[f64]| {
+        let difference = |a: &[f64], b: &[f64]| {
             let (mean_a, mean_b) = (self.mean(a.iter().copied()), self.mean(b.iter().copied()));
             self.mean(a.iter().zip(b).map(|(a, b)| (a / mean_a - b / mean_b).abs()))
         };
-        0.5 * (apart(&a.tau, &b.tau) + apart(&a.emitted, &b.emitted))
+        0.5 * (difference(&a.tau, &b.tau) + difference(&a.emitted, &b.emitted))
     }
 
     /// Returns the relative difference between a function and its own reverse.
     fn own(&self, part: Part) -> f64 {
         // Names of light that leaves on the side where it came from are turned by 180°.
-        self.apart(part, Part { turn: after(part.turn, Some(Turn::HalfRound)), ..part }, true)
+        self.cached_difference(part, Part { turn: after(part.turn, Some(Turn::HalfRound)), ..part }, true)
     }
 
     /// Returns the mean under uniform incident light.
@@ -316,9 +316,9 @@ impl<'a> Witnesses<'a> {
 
     /// Returns the root mean square difference between values and their mirror images, above–below and left–right.
     fn one_sided(&self, values: &[f64]) -> f64 {
-        let apart =
+        let asymmetry =
             |turn| self.rms(values.iter().enumerate().map(|(k, value)| value - values[self.blocks.turned(turn, k)]));
-        apart(Turn::UpDown).hypot(apart(Turn::LeftRight))
+        asymmetry(Turn::UpDown).hypot(asymmetry(Turn::LeftRight))
     }
 
     /// Returns the correlation of the preferences of transmission and reflection, above or below; 0 where they oppose

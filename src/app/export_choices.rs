@@ -10,7 +10,7 @@ use crate::study::control::year::CONTROLLED;
 use crate::study::rank::Look as Choosing;
 use crate::study::scene_file::{SceneFile, SystemKeys};
 use crate::study::year::Look;
-use crate::texts::{Language, Text, hand_on as texts};
+use crate::texts::{Language, Text, export as texts};
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
 
@@ -198,7 +198,7 @@ pub enum Preview {
 
 /// State of the export dialog.
 #[derive(Default)]
-pub struct HandOn {
+pub struct ExportState {
     /// Key of the requested preview; `None` if none was requested.
     pub asked: Option<Key>,
     /// Last preview, or the reason why there is none.

@@ -3,31 +3,31 @@
 use rusqlite::{Error, ErrorCode, ffi};
 
 /// Returns a message without SQL: what is wrong, and what to do about it.
-pub(super) fn told(error: &Error) -> String {
-    let said = said(error);
+pub(super) fn user_message(error: &Error) -> String {
+    let message = sqlite_message(error);
     match error.sqlite_error_code() {
         Some(ErrorCode::DiskFull) => "the disk is full; nothing was changed; make room and try again".to_owned(),
         Some(ErrorCode::ReadOnly) => {
             "nothing can be written where it lies, a read-only place or a full disk; it can be read, not changed"
                 .to_owned()
         }
-        Some(ErrorCode::DatabaseCorrupt) => damaged(&said),
-        Some(ErrorCode::NotADatabase) => format!("it is no catalogue, or its beginning is damaged ({said})"),
+        Some(ErrorCode::DatabaseCorrupt) => damaged(&message),
+        Some(ErrorCode::NotADatabase) => format!("it is no catalogue, or its beginning is damaged ({message})"),
         Some(ErrorCode::CannotOpen | ErrorCode::PermissionDenied) => {
-            format!("it cannot be opened ({said}); check path and rights")
+            format!("it cannot be opened ({message}); check path and rights")
         }
         Some(ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked) => {
             "another program has been writing to it for too long; try again".to_owned()
         }
-        Some(ErrorCode::SystemIoFailure) => format!("the disk fails ({said}); nothing was changed"),
+        Some(ErrorCode::SystemIoFailure) => format!("the disk fails ({message}); nothing was changed"),
         _ => match error {
             Error::FromSqlConversionFailure(..) | Error::InvalidColumnType(..) | Error::IntegralValueOutOfRange(..) => {
-                damaged(&said)
+                damaged(&message)
             }
             // A table or column that ought to be there, or ought not.
-            Error::SqlInputError { .. } => misplaced(&said),
-            Error::SqliteFailure(failure, _) if failure.extended_code == ffi::SQLITE_ERROR => misplaced(&said),
-            _ => said,
+            Error::SqlInputError { .. } => misplaced(&message),
+            Error::SqliteFailure(failure, _) if failure.extended_code == ffi::SQLITE_ERROR => misplaced(&message),
+            _ => message,
         },
     }
 }
@@ -35,16 +35,16 @@ pub(super) fn told(error: &Error) -> String {
 /// Remedy named in messages about damage.
 pub(super) const REMEDY: &str = "`cfs catalogue check --repair` mends what can be mended, and tells the rest";
 
-fn misplaced(said: &str) -> String {
-    format!("it is not laid out as a catalogue is ({said}); {REMEDY}")
+fn misplaced(message: &str) -> String {
+    format!("it is not laid out as a catalogue is ({message}); {REMEDY}")
 }
 
-fn damaged(said: &str) -> String {
-    format!("it is damaged ({said}); {REMEDY}")
+fn damaged(message: &str) -> String {
+    format!("it is damaged ({message}); {REMEDY}")
 }
 
 /// Returns SQLite's own message, without the statement.
-pub(super) fn said(error: &Error) -> String {
+pub(super) fn sqlite_message(error: &Error) -> String {
     match error {
         Error::SqlInputError { msg, .. } => msg.clone(),
         Error::SqliteFailure(_, Some(message)) => message.clone(),
@@ -69,7 +69,7 @@ mod tests {
     fn no_sentence_has_sql_in_it() {
         let db = Connection::open_in_memory().unwrap();
         let error = db.execute("SELECT x FROM nowhere", []).unwrap_err();
-        let said = told(&error);
+        let said = user_message(&error);
         assert!(said.contains("no such table") && !said.contains("SELECT") && said.contains(REMEDY), "{said}");
         for (code, words) in [
             (ffi::SQLITE_FULL, "the disk is full"),
@@ -78,7 +78,7 @@ mod tests {
             (ffi::SQLITE_BUSY, "another program"),
         ] {
             let error = Error::SqliteFailure(ffi::Error::new(code), Some("as SQLite says".to_owned()));
-            assert!(told(&error).contains(words), "{}", told(&error));
+            assert!(user_message(&error).contains(words), "{}", user_message(&error));
             assert_eq!(of_place(&error), code == ffi::SQLITE_FULL || code == ffi::SQLITE_READONLY);
         }
     }

@@ -1,10 +1,10 @@
 //! Message of the best explanation, with its repairs.
 
 use super::diagnosis::{Confidence, Diagnosis};
+use super::evidence::Question;
 use super::hypotheses::{Fault, Hypothesis};
 use super::judgement::{ASK, Candidate, SURE, Verdict};
 use super::repair::{BandScope, BlockScope, Repair};
-use super::witnesses::Question;
 
 /// Returns the names of the functions that a hypothesis is about.
 fn subject(hypothesis: &Hypothesis) -> String {
@@ -52,11 +52,11 @@ const fn measured(question: Question) -> &'static str {
 fn evidence(verdict: &Verdict) -> String {
     let mut list: Vec<&(Question, f64, f64)> = verdict.evidence.iter().filter(|(_, then, now)| then > now).collect();
     list.sort_by(|a, b| (b.1 - b.2).total_cmp(&(a.1 - a.2)));
-    let mut told: Vec<Question> = Vec::new();
+    let mut reported: Vec<Question> = Vec::new();
     let mut words = Vec::new();
     for (question, then, now) in list {
-        if words.len() < 2 && !told.contains(question) {
-            told.push(*question);
+        if words.len() < 2 && !reported.contains(question) {
+            reported.push(*question);
             words.push(format!(
                 "{} {:.1} % as it is and {:.1} % put right",
                 measured(*question),
@@ -69,7 +69,7 @@ fn evidence(verdict: &Verdict) -> String {
 }
 
 /// Returns the finding, once for each of its repairs; nothing if the gain is too small.
-pub(super) fn told(verdict: &Verdict) -> Vec<Diagnosis> {
+pub(super) fn diagnoses(verdict: &Verdict) -> Vec<Diagnosis> {
     if !verdict.asks() {
         return Vec::new();
     }

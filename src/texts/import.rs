@@ -58,7 +58,7 @@ texts! {
     const STATE_OF_TIP = "The files that are chosen are states of another product here" | "Die gewählten Dateien sind Stellungen eines anderen Produkts hier";
     const CLICK_A_ROW = "Click a row; Shift for a range, Ctrl or Space for more." | "Zeile anklicken; Umschalt für einen Bereich, Strg oder Leertaste für mehr.";
     fn chosen(rows) = "{rows} chosen" | "{rows} gewählt";
-    const GO_ON = "Go on" | "Fortsetzen";
+    const CONTINUE = "Go on" | "Fortsetzen";
     fn about(what, name) = "{what}: {name}" | "{what}: {name}";
     fn draft_name(first, products) = "{first}: {products}" | "{first}: {products}";
     fn draft_of_many(first, more, products) = "{first} and {more} more: {products}" | "{first} und {more} weitere: {products}";
@@ -73,9 +73,9 @@ texts! {
     const NO_NAME = "(no name)" | "(ohne Namen)";
     fn show_states(name) = "Show the states of {name}" | "Stellungen von {name} zeigen";
     fn fold_states(name) = "Fold the states of {name}" | "Stellungen von {name} einklappen";
-    const APART = "Apart" | "Getrennt";
-    const APART_FILES_TIP = "Every file is a product of its own" | "Jede Datei ist ein eigenes Produkt";
-    const APART_TIP = "It is a product of its own, as proposed" | "Es ist ein eigenes Produkt, wie vorgeschlagen";
+    const SEPARATE = "Apart" | "Getrennt";
+    const SEPARATE_FILES_TIP = "Every file is a product of its own" | "Jede Datei ist ein eigenes Produkt";
+    const SEPARATE_TIP = "It is a product of its own, as proposed" | "Es ist ein eigenes Produkt, wie vorgeschlagen";
     const AS_STATES = "States" | "Stellungen";
     const AS_STATES_TIP = "They are states of one product, as proposed" | "Es sind Stellungen eines Produkts, wie vorgeschlagen";
     const ONE_WITH = "One product" | "Ein Produkt";
@@ -94,7 +94,7 @@ texts! {
     fn of_file(what, file) = "{what} of {file}" | "{what} von {file}";
 
     // Reasons why something cannot be stored.
-    fn tells_nothing(file) = "{file} tells no visible transmission, and cannot be stored" | "{file} enthält keine sichtbare Transmission und lässt sich nicht speichern";
+    fn no_transmission(file) = "{file} tells no visible transmission, and cannot be stored" | "{file} enthält keine sichtbare Transmission und lässt sich nicht speichern";
     const NAME_MISSING = "A name is missing" | "Ein Name fehlt";
     fn no_angle(text) = "“{text}” is no angle; expected a number of degrees" | "„{text}“ ist kein Winkel; erwartet wird eine Zahl in Grad";
     const NAMELESS_STATE = "A state has neither an angle nor a name" | "Eine Stellung hat weder Winkel noch Namen";

@@ -2,8 +2,8 @@
 
 use super::engine::Question;
 use super::error::AppError;
-use super::hand_on::{Choices, Key, What, moments};
-use super::hand_on_files::{Order, in_own_folder, index_of};
+use super::export_choices::{Choices, Key, What, moments};
+use super::export_files::{Order, in_own_folder, index_of};
 use super::jobs::Lane;
 use super::naming::file_name;
 use super::naming::start_path;
@@ -21,7 +21,7 @@ fn key_of(state: &State, results: &Results) -> Key {
     let document = &state.document;
     let bits = |incident: crate::compute::direction::Incident| incident.0.vector().to_array().map(f64::to_bits);
     Key {
-        choices: state.settings.hand_on.clone(),
+        choices: state.settings.export.clone(),
         scene: document.scene.clone(),
         selection: document.selection.clone(),
         incident: state.incident.map(bits),
@@ -39,7 +39,7 @@ fn compared(state: &State) -> (TileKind, usize) {
 
 /// Returns the files that are written for a path.
 pub fn targets(state: &State, path: &Path) -> Vec<PathBuf> {
-    let choices = &state.settings.hand_on;
+    let choices = &state.settings.export;
     let mut list = vec![path.to_owned()];
     if choices.what == What::Luminaire && choices.tiles {
         // How many there will be is not known before; the index and the first stand for all.
@@ -59,29 +59,29 @@ fn tile_of(kind: TileKind) -> Option<Tile> {
 
 impl App {
     /// Opens the dialog with this content.
-    pub(super) fn hand_on(&mut self, what: What, tile: Option<Tile>) {
-        let choices = &mut self.state.settings.hand_on;
+    pub(super) fn open_export(&mut self, what: What, tile: Option<Tile>) {
+        let choices = &mut self.state.settings.export;
         choices.what = what;
         if let Some(kind) = tile.and_then(|tile| TileKind::titled(tile.title)) {
             choices.tile = kind;
         }
-        self.state.sheet = Some(Sheet::HandOn);
-        self.offer_hand_on();
+        self.state.sheet = Some(Sheet::Export);
+        self.propose_export_path();
     }
 
     /// Proposes folder and name.
-    pub(super) fn offer_hand_on(&mut self) {
-        let start = start_path(&self.state, PathUse::HandOn);
+    pub(super) fn propose_export_path(&mut self) {
+        let start = start_path(&self.state, PathUse::Export);
         self.state.path = start.display().to_string();
-        self.state.hand_on.offered = file_name(&self.state, PathUse::HandOn);
+        self.state.export.offered = file_name(&self.state, PathUse::Export);
         self.state.replace = None;
     }
 
     /// Sets other choices. The proposed name follows them; of a name that the user typed only the extension does.
-    pub(super) fn choose_hand_on(&mut self, choices: Choices) {
-        let before = self.state.settings.hand_on.ending();
-        self.state.settings.hand_on = choices;
-        let ending = self.state.settings.hand_on.ending();
+    pub(super) fn set_export_choices(&mut self, choices: Choices) {
+        let before = self.state.settings.export.ending();
+        self.state.settings.export = choices;
+        let ending = self.state.settings.export.ending();
         if self.follow_name() {
             return;
         }
@@ -94,21 +94,21 @@ impl App {
     /// Proposes the name for what the window shows now, unless the user has typed one; returns whether the field holds
     /// the proposed name.
     fn follow_name(&mut self) -> bool {
-        let next = file_name(&self.state, PathUse::HandOn);
+        let next = file_name(&self.state, PathUse::Export);
         let path = PathBuf::from(&self.state.path);
-        let offered = path.file_name().is_some_and(|name| name.to_string_lossy() == self.state.hand_on.offered);
-        if offered && self.state.hand_on.offered != next {
+        let offered = path.file_name().is_some_and(|name| name.to_string_lossy() == self.state.export.offered);
+        if offered && self.state.export.offered != next {
             self.state.path = path.with_file_name(&next).display().to_string();
             self.state.replace = None;
         }
-        self.state.hand_on.offered = next;
+        self.state.export.offered = next;
         offered
     }
 
     /// Asks for folder and name in the desktop's dialog.
-    pub(super) fn browse_hand_on(&mut self) {
+    pub(super) fn browse_export(&mut self) {
         let (dialogs, start) = (self.services.dialogs.clone(), PathBuf::from(&self.state.path));
-        self.start(Lane::Export, move |_| Outcome::Target(PathUse::HandOn, dialogs.save(PathUse::HandOn, &start)));
+        self.start(Lane::Export, move |_| Outcome::Target(PathUse::Export, dialogs.save(PathUse::Export, &start)));
     }
 
     /// Returns the input of an export job; `None` before the catalogue is open and the product is read.
@@ -117,9 +117,9 @@ impl App {
         let selected = &state.document.selection.product;
         let product = state.product.clone().filter(|product| product.key == *selected)?;
         let key = key_of(state, &self.results);
-        let numbers = state.hand_on.numbers.as_ref().filter(|(of, _)| *of == key).map(|(_, text)| text.clone());
+        let numbers = state.export.numbers.as_ref().filter(|(of, _)| *of == key).map(|(_, text)| text.clone());
         Some(Order {
-            choices: state.settings.hand_on.clone(),
+            choices: state.settings.export.clone(),
             question: Question { scene: state.document.scene.clone(), base: state.base(), shelf: state.shelf()? },
             incident: state.incident,
             product: Some(product),
@@ -134,27 +134,27 @@ impl App {
     }
 
     /// Starts writing the export.
-    pub(super) fn write_hand_on(&mut self, path: PathBuf) {
-        self.state.sheet = Some(Sheet::HandOn);
+    pub(super) fn start_export(&mut self, path: PathBuf) {
+        self.state.sheet = Some(Sheet::Export);
         match self.order() {
             Some(order) => {
                 self.writing = true;
                 self.start(Lane::Export, move |progress| match order.write(&path, progress) {
-                    Ok((path, warning)) => Outcome::Written(PathUse::HandOn, Ok(path)).with_warning(warning),
-                    Err(error) => Outcome::Written(PathUse::HandOn, Err(error)),
+                    Ok((path, warning)) => Outcome::Written(PathUse::Export, Ok(path)).with_warning(warning),
+                    Err(error) => Outcome::Written(PathUse::Export, Err(error)),
                 });
             }
-            None => self.tell(&AppError::NoProduct),
+            None => self.report_error(&AppError::NoProduct),
         }
     }
 
     /// Updates the preview while the dialog is open and nothing is being dragged or computed.
     pub(super) fn ask_preview(&mut self) {
-        if self.state.sheet != Some(Sheet::HandOn) {
-            if self.state.hand_on.asked.take().is_some() {
+        if self.state.sheet != Some(Sheet::Export) {
+            if self.state.export.asked.take().is_some() {
                 self.jobs.cancel(Lane::Preview);
-                self.state.hand_on.shown = None;
-                self.state.hand_on.numbers = None;
+                self.state.export.shown = None;
+                self.state.export.numbers = None;
             }
             return;
         }
@@ -162,7 +162,7 @@ impl App {
         let key = key_of(&self.state, &self.results);
         let lanes = [Lane::Catalogue, Lane::Scene, Lane::Product, Lane::Lid, Lane::Room, Lane::Year, Lane::Rank];
         let moving = self.ctx.input(|input| input.pointer.any_down());
-        let known = self.state.hand_on.asked.as_ref() == Some(&key);
+        let known = self.state.export.asked.as_ref() == Some(&key);
         if known || moving || lanes.into_iter().any(|lane| self.jobs.busy(lane)) {
             return;
         }
@@ -175,28 +175,28 @@ impl App {
         };
         if let Some(lacks) = lacks {
             // Its tile has nothing to give, however often it is asked.
-            self.state.hand_on.asked = Some(key);
-            self.state.hand_on.shown = Some(Err(lacks.into()));
+            self.state.export.asked = Some(key);
+            self.state.export.shown = Some(Err(lacks.into()));
             return;
         }
         if order.choices.what == What::Table && order.numbers.is_none() {
             // The next frame's drawing gives them.
             if let Some(tile) = tile_of(order.choices.tile) {
-                self.export.ask_hand_on(tile);
+                self.export.ask_for_dialog(tile);
                 self.bring_up(tile);
                 self.ctx.request_repaint();
             }
             return;
         }
-        self.state.hand_on.asked = Some(key);
+        self.state.export.asked = Some(key);
         let path = PathBuf::from(&self.state.path);
         self.start(Lane::Preview, move |progress| Outcome::Preview(order.preview(&path, progress)));
     }
 
     /// Stores the numbers that a tile gave for the dialog.
     pub(super) fn take_numbers(&mut self) {
-        if let Some(text) = self.export.handed_on() {
-            self.state.hand_on.numbers = Some((key_of(&self.state, &self.results), text));
+        if let Some(text) = self.export.take_dialog_numbers() {
+            self.state.export.numbers = Some((key_of(&self.state, &self.results), text));
         }
     }
 }
