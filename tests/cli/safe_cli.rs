@@ -174,7 +174,7 @@ fn a_list_says_what_was_restored_and_what_it_leaves_out() {
     drop(db);
     let list = cfs(at, &["catalogue", "list"]);
     let warnings = said(&list);
-    assert!(warnings.contains("restored from what the program contains: clear-single."), "{warnings}");
+    assert!(warnings.contains("restored from the data built into the program: clear-single."), "{warnings}");
     assert!(warnings.contains("Not listed, because damaged in the catalogue: mine."), "{warnings}");
     let after = String::from_utf8(list.stdout).unwrap();
     assert_eq!(before.lines().count(), after.lines().count() + 1);

@@ -179,7 +179,7 @@ fn the_layout_is_kept_and_a_broken_one_falls_back_with_a_word() {
     again.state_mut().state.settings.layout = Some("{\"version\":1".to_owned());
     settle(&mut again);
     assert_eq!(in_sight(&again).len(), 6);
-    assert!(again.query_all_by_label_contains("layout of the tiles cannot be read").next().is_some());
+    assert!(again.query_all_by_label_contains("tile layout cannot be read").next().is_some());
 }
 
 #[test]
