@@ -287,7 +287,7 @@ fn wish(args: &LidArgs) -> Result<Wish> {
     let format = LidFormat::of(&args.stream.name(&args.out)?, edition).with_context(|| format!("--out {shown}"))?;
     if !matches!(format, LidFormat::Eulumdat | LidFormat::Ies(_)) {
         if args.tiles != Tiles::None {
-            bail!("--tiles {}: {shown} is no luminaire file (.ldt or .ies)", args.tiles);
+            bail!("--tiles {}: {shown} is not a luminaire file (.ldt or .ies)", args.tiles);
         }
         if !(args.months.is_empty() && args.hours.is_empty() && args.states.is_empty()) {
             bail!("--months, --hours, --states: a series is of luminaire files (.ldt or .ies), not {shown}");

@@ -207,7 +207,7 @@ fn table(lists: &[List]) -> String {
             let _ = writeln!(text, "  left out: {}: {reason}", row.product);
         }
         if ranked.iter().any(|(_, found)| !found.approximate.is_empty()) {
-            let _ = writeln!(text, "  ~ approximate beyond the errors; why is told in the CSV and JSON");
+            let _ = writeln!(text, "  ~ approximate beyond the stated errors; for the reasons see CSV and JSON");
         }
         text.push('\n');
     }

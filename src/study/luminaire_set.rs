@@ -47,7 +47,7 @@ impl std::str::FromStr for Tiles {
                 .and_then(|(columns, rows)| Some(Tiling { columns: count(columns)?, rows: count(rows)? }))
                 .map(Self::Fixed)
                 .ok_or_else(|| {
-                    format!("\"{text}\" is no tiling (auto, none, or columns x rows from 1x1 to {MOST}x{MOST})")
+                    format!("\"{text}\" is not a tiling (auto, none, or columns x rows from 1x1 to {MOST}x{MOST})")
                 }),
         }
     }

@@ -59,7 +59,7 @@ fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> 
             tell("resampled", format!("{name}: a {from}, averaged over the cells of {}.", basis.name()));
         }
         if btdf.regular.is_some() {
-            tell("regular-in-cells", format!("{name}: light that goes straight on now fills its own cell."));
+            tell("regular-in-cells", format!("{name}: regular transmission now fills its own cell."));
         }
         if dataset.derived.contains(&component) {
             tell("derived-written", format!("{name}: derived, written like a block of the source."));

@@ -142,7 +142,7 @@ fn tree_of(
     if btdf.regular.is_some() {
         findings.push(Finding::info(
             "regular-in-cells",
-            format!("{title}: light that goes straight on now fills its own cell of the tree."),
+            format!("{title}: regular transmission now fills its own cell of the tree."),
         ));
     }
     if made.turned > 0.02 {

@@ -275,7 +275,7 @@ fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
         hour(text).ok_or_else(|| {
             StudyError::key(
                 "control.schedule",
-                format!("\"{text}\" is no time of the day: write HH:MM, 00:00 to 24:00"),
+                format!("\"{text}\" is not a time of the day: write HH:MM, 00:00 to 24:00"),
             )
         })
     };

@@ -20,7 +20,7 @@ pub fn why(list: &List, ranked: &[Ranked], rows: &[(&str, &Found)], of: usize) -
     let Some((other, why)) = &own.to_best else { return "the only one".to_owned() };
     let rival = &ranked[*other];
     let apart = surely_above(own.utility, rival.utility) || surely_above(rival.utility, own.utility);
-    let doubt = if apart { "" } else { "not to be told from it, as it comes out " };
+    let doubt = if apart { "" } else { "within the uncertainty, " };
     let name = rows[*other].0;
     let shares = shares(list, rows[of].1, why, Some(rows[*other].1));
     format!("{doubt}{} {name}: {shares}; {mean}", against(why.utility))
