@@ -76,7 +76,7 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
             None => "its slats are not known: direct sun through it is not reported".to_owned(),
         };
         tell!(
-            "aperture {}: {} ({}), {} movements, sun on it for {:.1} h, {direct}",
+            "aperture {}: {} ({}), {} state changes, sun on it for {:.1} h, {direct}",
             one.aperture,
             one.device.name,
             one.keys.mode.word(),

@@ -123,7 +123,7 @@ fn tell(taken: &Taken) -> anyhow::Result<()> {
         );
     }
     for reason in &taken.left_out {
-        tell!("note: left out: {reason}");
+        tell!("note: skipped: {reason}");
     }
     for failure in &taken.failures {
         tell!("warning: not read: {failure}");
@@ -174,7 +174,7 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
     for Stored { imported: product, .. } in catalogue.import_all(list)? {
         writeln!(text, "{}", product.key)?;
         if product.same_content_as == [product.key.as_str()] {
-            tell!("note: {} is there already, the same; left as it is", product.key);
+            tell!("note: {} already exists and is the same; kept", product.key);
         } else if !product.same_content_as.is_empty() {
             tell!("note: the same data are already in {}", product.same_content_as.join(", "));
         }

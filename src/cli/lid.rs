@@ -137,7 +137,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         series.members(&keys, base, index).with_context(|| path.display().to_string())?
     };
     for time in &dark {
-        tell!("note: {time} is left out: the sun is below the horizon");
+        tell!("note: {time} is skipped: the sun is below the horizon");
     }
     let kind = match wish.format {
         LidFormat::Eulumdat => FileKind::Eulumdat,

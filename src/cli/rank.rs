@@ -90,7 +90,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     if let (Some(shape), Some(out)) = (&shape, &args.out)
         && there_already(args, shape, out)?
     {
-        tell!("{}: is there already", files::absolute(out).display());
+        tell!("{}: already exists", files::absolute(out).display());
         return Ok(());
     }
     let progress = TerminalProgress::new();

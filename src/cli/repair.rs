@@ -84,7 +84,7 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
             } else {
                 format!("questions to be answered by name: {questions}; `cfs info` says why they are asked")
             };
-            bail!("{name}: nothing is beyond doubt; {rest}");
+            bail!("{name}: no repair is certain; {rest}");
         }
         let mut mended = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
         // What the description recorded before is kept, and undone repairs cancel out.
@@ -92,7 +92,7 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
         tell!("repaired: {}", words.join(", "));
         if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
-            tell!("asked, not done: {questions}");
+            tell!("not done, to be confirmed: {questions}");
         }
         if let Some(sentence) = mended.transmission().and_then(sun_from_above) {
             tell!("{sentence}");

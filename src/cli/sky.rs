@@ -82,7 +82,7 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
         tell!("note: {note}");
     }
     if facade.behind {
-        tell!("note: boxes and building count for the façade: mean over its apertures; the sky is the open one");
+        tell!("note: boxes and building are included for the façade, mean over its apertures; the sky is unobstructed");
     }
     weather_notes(hour.as_ref());
     let direct = sun.map_or(0.0, |sun| sun.horizontal());
