@@ -231,9 +231,9 @@ fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reach
     }
     if let Some(Apart { flux, direction: d, normal }) = apart {
         list.push(format!(
-            "Without the straight sunbeam of {flux:.4} lm (whole aperture): the host draws the sun through by itself. It \
+            "Without direct sunlight of {flux:.4} lm (whole aperture), which the other program computes. It \
              goes along ({:.6}, {:.6}, {:.6}) in room axes (x right seen from outside, y into the room, z up) and gives \
-             {normal:.1} lx across itself.",
+             {normal:.1} lx on a plane perpendicular to it.",
             d.x, d.y, d.z
         ));
     }
@@ -245,7 +245,7 @@ fn remarks(tiling: Option<Tiling>, apart: Option<&Apart>, reached: Option<&Reach
 fn in_lines(text: &mut Description, apart: Option<&Apart>, reached: Option<&Reached>) {
     if let Some(Apart { flux, direction: d, .. }) = apart {
         let way = format!("{:.4} {:.4} {:.4}", d.x, d.y, d.z);
-        text.manufacturer.push_str(&format!("; straight beam left out: {flux:.1} lm along {way}"));
+        text.manufacturer.push_str(&format!("; direct sun left out: {flux:.1} lm along {way}"));
     }
     if let Some(Reached { sum, rms, .. }) = reached {
         text.laboratory.push_str(&format!("; room: sum {:+.2} %, rms {:.2} %", 100.0 * sum, 100.0 * rms));
