@@ -35,7 +35,7 @@ texts! {
     const PLANE_HEIGHT = "Height of the work plane" | "Höhe der Nutzebene";
     const ACROSS = "Points along width" | "Punkte in der Breite";
     const DEEP = "Points along depth" | "Punkte in der Tiefe";
-    const SENSORS_SUFFIX = " sensors" | " Punkte";
+    const SENSORS_SUFFIX = " points" | " Punkte";
 
     const ON_FACADE = "façade" | "Fassade";
     const ON_ROOF = "roof" | "Dach";

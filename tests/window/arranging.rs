@@ -29,7 +29,8 @@ fn head(harness: &Harness<'_, App>, title: &str) -> Option<Rect> {
 }
 
 fn in_sight(harness: &Harness<'_, App>) -> Vec<&'static str> {
-    TILES.iter().map(|entry| entry.tile.title).filter(|title| head(harness, title).is_some()).collect()
+    let shown = TILES.iter().map(|entry| entry.tile).filter(|tile| head(harness, tile.name.english()).is_some());
+    shown.map(|tile| tile.title).collect()
 }
 
 fn idle() -> Harness<'static, App> {
