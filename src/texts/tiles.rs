@@ -47,7 +47,7 @@ texts! {
     fn regular_tau(tau) = "regular τ {tau}" | "gerichtet τ {tau}";
     const CUT_AXIS = "angle to the normal, undeviated > 0" | "Winkel zur Normalen, unabgelenkt > 0";
     const CUT_IN = "in the plane of incidence" | "in der Einfallsebene";
-    const CUT_ACROSS = "perpendicular to it" | "quer dazu";
+    const CUT_ACROSS = "perpendicular" | "quer dazu";
     const CUT_UPRIGHT = "vertical plane" | "senkrechte Ebene";
     const CUT_LEVEL = "horizontal plane" | "waagrechte Ebene";
     const EMERGENT_CUTS = "Section curves" | "Schnittkurven";

@@ -75,7 +75,7 @@ texts! {
     const UDI_A = "UDI-a, 300–3000 lx" | "UDI-a, 300–3000 lx";
     const UDI_X = "UDI-x, above 3000 lx" | "UDI-x, über 3000 lx";
     const UDI_TIP = "Useful daylight illuminance: share of the occupied hours in this range; the four add up to 100 %. Mardaljevic et al. 2012." | "Nutzbare Tageslichtbeleuchtungsstärke: Anteil der Nutzungsstunden in diesem Bereich; die vier ergeben 100 %. Mardaljevic et al. 2012.";
-    const ANNUAL_MEAN = "Mean illuminance, all hours" | "Mittlere Beleuchtungsstärke, alle Stunden";
+    const ANNUAL_MEAN = "Mean illuminance, all hours" | "Beleuchtungsstärke, alle Stunden";
     const ANNUAL_MEAN_TIP = "Mean illuminance of the calculation points over all hours, nights included." | "Mittlere Beleuchtungsstärke der Berechnungspunkte über alle Stunden, auch nachts.";
     const ASE = "ASE1000,250" | "ASE1000,250";
     const ASE_TIP = "Annual sunlight exposure: share of the calculation points with 1000 lx or more of direct sunlight in more than 250 occupied hours, with shading retracted. IES LM-83-12." | "Jährliche Besonnung: Anteil der Berechnungspunkte mit mindestens 1000 lx direktem Sonnenlicht in mehr als 250 Nutzungsstunden, mit geöffnetem Sonnenschutz. IES LM-83-12.";
@@ -90,9 +90,9 @@ texts! {
     fn by_hour(level, lux, area) = "{level}: time with {lux} lx on {area} %" | "{level}: Zeit mit {lux} lx auf {area} %";
     const BY_HOUR_TIP = "Share of the daylight hours in which this part of the work plane reaches the illuminance. EN 17037:2018+A1:2021, method 2, evaluated hour by hour." | "Anteil der Tageslichtstunden, in denen dieser Teil der Nutzebene die Beleuchtungsstärke erreicht. EN 17037:2018+A1:2021, Verfahren 2, Stunde für Stunde ausgewertet.";
     fn at_least(percent, verdict) = "≥ {percent} %: {verdict}" | "≥ {percent} %: {verdict}";
-    const MEDIAN_DIFFUSE = "Median diffuse horizontal illuminance" | "Median der diffusen Horizontalbeleuchtungsstärke";
+    const MEDIAN_DIFFUSE = "Median diffuse illuminance" | "Median der diffusen Beleuchtungsstärke";
     const MEDIAN_DIFFUSE_TIP = "Median of the diffuse horizontal illuminance outside in the daylight hours. EN 17037." | "Median der diffusen Horizontalbeleuchtungsstärke im Freien in den Tageslichtstunden. EN 17037.";
-    fn dgps_5(eye) = "DGPs exceeded in 5 % of time, observer {eye}" | "DGPs, in 5 % der Zeit überschritten, Beobachter {eye}";
+    fn dgps_5(eye) = "DGPs (5 % of time), observer {eye}" | "DGPs (5 % der Zeit), Beobachter {eye}";
     const DGPS_TIP = "Simplified daylight glare probability exceeded in 5 % of the occupied hours, without hours in which the observer sees the sun. Too low where a system redirects sunlight to the observer. Wienold 2009; classes of EN 17037." | "Vereinfachte Tageslichtblendwahrscheinlichkeit, in 5 % der Nutzungsstunden überschritten, ohne Stunden, in denen der Beobachter die Sonne sieht. Zu niedrig, wo ein System Sonnenlicht zum Beobachter umlenkt. Wienold 2009; Klassen der EN 17037.";
     const CLASS_HIGH = "protection: high" | "Schutz: hoch";
     const CLASS_MEDIUM = "protection: medium" | "Schutz: mittel";
