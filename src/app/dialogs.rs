@@ -84,7 +84,7 @@ impl FileDialogs for NativeDialogs {
                 .add_filter(shell::LUMINAIRE_FILES, &["ldt", "ies"])
                 .add_filter(shell::TABLE_OR_DIAGRAM, &["csv", "svg", "png"]),
             PathUse::ExportTile(tile) => {
-                dialog.set_title(shell::export_titled(tile.title)).add_filter(shell::NUMBERS, &["csv"])
+                dialog.set_title(shell::export_titled(tile.name)).add_filter(shell::NUMBERS, &["csv"])
             }
             PathUse::ExportMeasured => dialog
                 .add_filter(shell::PACKAGE_OF_ALL, &["cfsp"])

@@ -22,7 +22,7 @@ mod tests {
         moment::step(&mut scene, 0, 11 * 60);
         let night = Incidence::shown(None, &scene, Path::new(""));
         assert_eq!(night.source, Source::Normal);
-        assert!(night.texts()[0].contains("θ 0°") && night.texts()[0].contains("sun not before the façade"));
+        assert!(night.texts()[0].contains("θ 0°") && night.texts()[0].contains("sun not in front of the façade"));
         let turned = Dir::from_theta_phi(0.5, std::f64::consts::TAU - 0.002);
         assert_eq!(direction_text(turned), "θ 29°, φ 0°");
         assert!(sun.texts().iter().all(|text| text.contains(&direction_text(sun.direction.0))));

@@ -68,7 +68,7 @@ fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
             IDEALS[0],
             "Open aperture",
             &["reference"],
-            "Nothing in the opening: all light goes straight on. Reference for every comparison.",
+            "Nothing in the aperture: all light passes undeviated. Reference for every comparison.",
             open,
         ),
         ideal(
@@ -76,7 +76,7 @@ fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
             "Ideal diffuser",
             &["reference", "diffusing"],
             "Half of the light leaves with the same luminance in every direction, whatever its incidence; a third is \
-             thrown back the same way.",
+             reflected the same way.",
             lambertian(0.5, 1.0 / 3.0),
         ),
     ]

@@ -66,7 +66,7 @@ pub enum CatalogueError {
     #[error("no folder for the catalogue is known; name a file with CFS_CATALOGUE or --catalogue")]
     NoHome,
     /// Database of another program.
-    #[error("{0} is a database, but no catalogue")]
+    #[error("{0} is a database, but not a catalogue")]
     NotACatalogue(String),
     /// File written by a newer program.
     #[error(
@@ -108,9 +108,7 @@ pub enum CatalogueError {
     #[error("cannot import: {0}")]
     Import(String),
     /// Attempt to remove a built-in product.
-    #[error(
-        "product \"{0}\" is built in and cannot be removed for good; it can be deleted, which takes it out of sight"
-    )]
+    #[error("product \"{0}\" is built in and cannot be removed permanently; it can be deleted, which hides it")]
     BuiltIn(String),
     /// Attempt to change the descriptive texts of a built-in product.
     #[error(
@@ -137,7 +135,7 @@ pub enum CatalogueError {
     #[error("a collection needs a name")]
     NoCollectionName,
     /// Product that is hidden already.
-    #[error("product \"{0}\" is deleted already")]
+    #[error("product \"{0}\" is already deleted")]
     Deleted(String),
     /// Product that is not hidden.
     #[error("product \"{0}\" is not deleted")]

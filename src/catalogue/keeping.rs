@@ -120,7 +120,7 @@ impl Catalogue {
             return Err(CatalogueError::Deleted(key.to_owned()));
         }
         tx.execute("INSERT INTO deleted VALUES (?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'))", [key])?;
-        note(&tx, key, "deleted (out of sight)")?;
+        note(&tx, key, "deleted (hidden)")?;
         tx.commit()?;
         Ok(())
     }

@@ -12,7 +12,7 @@ pub(super) fn user_message(error: &Error) -> String {
                 .to_owned()
         }
         Some(ErrorCode::DatabaseCorrupt) => damaged(&message),
-        Some(ErrorCode::NotADatabase) => format!("it is no catalogue, or its beginning is damaged ({message})"),
+        Some(ErrorCode::NotADatabase) => format!("it is not a catalogue, or its beginning is damaged ({message})"),
         Some(ErrorCode::CannotOpen | ErrorCode::PermissionDenied) => {
             format!("it cannot be opened ({message}); check path and rights")
         }
@@ -33,7 +33,7 @@ pub(super) fn user_message(error: &Error) -> String {
 }
 
 /// Remedy named in messages about damage.
-pub(super) const REMEDY: &str = "`cfs catalogue check --repair` mends what can be mended, and tells the rest";
+pub(super) const REMEDY: &str = "`cfs catalogue check --repair` repairs what can be repaired, and reports the rest";
 
 fn misplaced(message: &str) -> String {
     format!("it is not laid out as a catalogue is ({message}); {REMEDY}")

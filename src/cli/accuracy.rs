@@ -322,11 +322,11 @@ fn table(accuracy: &Accuracy) -> String {
     }
     let Coverage { count, kept, padded, padded_visibly } = accuracy.ordinary_coverage();
     let _ = if count == 0 {
-        writeln!(text, "Ordinary method: this reference tells no errors of it.")
+        writeln!(text, "Default method: this reference gives no errors of it.")
     } else {
         writeln!(
             text,
-            "Ordinary method, {count} stated errors: {:.1} % are at least the error found, {:.1} % more than ten times it \
+            "Default method, {count} stated errors: {:.1} % are at least the error found, {:.1} % more than ten times it \
              ({:.1} % without those below 0.01 % of the illuminance).",
             100.0 * kept,
             100.0 * padded,

@@ -60,7 +60,7 @@ pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
 }
 
 fn table(accuracy: &RankAccuracy) -> String {
-    let mut text = String::from("Ranking, what products are worth (0 to 1): errors against the finest ranking\n");
+    let mut text = String::from("Ranking, scores of products (0 to 1): errors against the finest ranking\n");
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
@@ -72,8 +72,8 @@ fn table(accuracy: &RankAccuracy) -> String {
         "error max",
         "held",
         "> 10×",
-        "told apart",
-        "left open",
+        "separated",
+        "uncertain",
         "reversed"
     );
     for rung in &accuracy.rungs {
@@ -100,7 +100,7 @@ fn table(accuracy: &RankAccuracy) -> String {
     let _ = writeln!(
         text,
         "{ranked} of {all} products ranked in {} list(s). The finest has {} of {} pairs apart by more than twice what it states \
-         of both: these are told apart by the others, left open or reversed. Times of {} thread(s), each in a room of its own; the first computes \
+         of both: these are separated by the others, uncertain or reversed. Times of {} thread(s), each in a room of its own; the first computes \
          data of built-in products where they are missing.",
         accuracy.lists, pairs.distinct, pairs.all, accuracy.threads
     );

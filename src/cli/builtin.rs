@@ -43,7 +43,7 @@ fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> an
         return Ok(0);
     }
     let states = if waiting == 1 { "1 state".to_owned() } else { format!("{waiting} states") };
-    report!("computing {states} of built-in products, once; what is finished stays when this is stopped");
+    report!("computing {states} of built-in products, once; finished ones are kept when this is stopped");
     Ok(complete(catalogue, wanted, &Library::default(), &TerminalProgress::new())?)
 }
 

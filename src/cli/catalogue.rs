@@ -216,8 +216,8 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
     }
     writeln!(
         text,
-        "  up: share of the transmitted skylight that leaves upwards; sun blocked: of a sun 45° high before the façade; view: \
-         light at normal incidence that goes straight on"
+        "  up: share of the transmitted skylight that leaves upwards; sun blocked: 1 − τ at 45° altitude, \
+         perpendicular to the façade; view: regular transmittance at normal incidence"
     )?;
     if !product.control_curve.is_empty() {
         writeln!(text, "  control curve (profile angle → state)")?;

@@ -30,7 +30,7 @@ pub struct CheckArgs {
 
 /// Error of a catalogue with damages. The program exits with status 1, unlike for a catalogue that it cannot read.
 #[derive(Debug, thiserror::Error)]
-#[error("{path}: {count} {}{}", if *.count == 1 { "damage" } else { "damages" }, if *.repair { "; `cfs catalogue check --repair` mends what can be made anew" } else { " that cannot be mended" })]
+#[error("{path}: {count} {}{}", if *.count == 1 { "damage" } else { "damages" }, if *.repair { "; `cfs catalogue check --repair` repairs what can be repaired" } else { " that cannot be repaired" })]
 pub struct Damaged {
     path: String,
     count: usize,
@@ -60,13 +60,13 @@ pub(super) fn check(catalogue: Option<&Path>, args: &CheckArgs) -> anyhow::Resul
 /// Returns in words whether, and from what, a damage can be repaired.
 const fn outlook(damage: &Damage) -> &'static str {
     match &damage.place {
-        Place::Layout => "can be mended",
+        Place::Layout => "can be repaired",
         Place::Pages => "rows that can be read can be saved",
-        Place::Product { builtin: true, .. } => "comes with the program anew",
-        Place::Product { builtin: false, .. } => "cannot be made anew: import it again",
-        Place::Data { builtin: true, .. } => "is computed anew when it is asked for",
+        Place::Product { builtin: true, .. } => "is restored from the program",
+        Place::Product { builtin: false, .. } => "cannot be restored: import it again",
+        Place::Data { builtin: true, .. } => "is computed again when it is needed",
         Place::Data { builtin: false, .. } => {
-            "can be mended while the dataset file that it was read from is there, unchanged; import a package again"
+            "can be repaired while its dataset file is there and unchanged; import a package again"
         }
     }
 }
@@ -83,9 +83,9 @@ fn as_text(path: &Path, health: &Health, result: Option<&RepairResult>) -> Resul
         }
         Some(result) => {
             writeln!(text, "  as it was: {}", files::absolute(&result.copy).display())?;
-            result.repaired.iter().try_for_each(|message| writeln!(text, "  mended: {message}"))?;
+            result.repaired.iter().try_for_each(|message| writeln!(text, "  repaired: {message}"))?;
             result.lost.iter().try_for_each(|message| writeln!(text, "  lost: {message}"))?;
-            writeln!(text, "  now: {} products, {} datasets", result.after.products, result.after.datasets)?;
+            writeln!(text, "  now: {} products, {} datasets", result.after.products, mended.after.datasets)?;
         }
     }
     for (key, at) in &result.map_or(health, |result| &result.after).restored {

@@ -203,8 +203,8 @@ fn to_json(rows: &[Row], names: &[String]) -> Json {
             Verdict::Alone => ("alone", &[][..]),
         };
         json!({
-            "figure": row.figure.key, "name": row.figure.name.english(), "unit": row.figure.unit,
-            "better_is": row.figure.sense.words().english(), "values": row.values.iter().map(value).collect::<Vec<_>>(),
+            "figure": row.figure.key, "name": row.figure.json_name(), "unit": row.figure.unit,
+            "better_is": row.figure.sense.key(), "values": row.values.iter().map(value).collect::<Vec<_>>(),
             "verdict": verdict, "better": better,
         })
     };

@@ -73,10 +73,10 @@ pub fn run(args: &ControlArgs, library: &Library) -> anyhow::Result<()> {
     for (one, sum) in list.iter().zip(&sums) {
         let direct = match sum.direct_hours {
             Some(hours) => format!("direct sun through it for {hours:.1} h"),
-            None => "its slats are not known: whether direct sun passes is not told".to_owned(),
+            None => "its slats are not known: direct sun through it is not reported".to_owned(),
         };
         report!(
-            "aperture {}: {} ({}), {} movements, sun on it for {:.1} h, {direct}",
+            "aperture {}: {} ({}), {} state changes, sun on it for {:.1} h, {direct}",
             one.aperture,
             one.device.name,
             one.keys.mode.word(),

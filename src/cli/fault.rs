@@ -30,7 +30,7 @@ pub fn guarded(reports: Option<&Path>, work: impl FnOnce() -> anyhow::Result<()>
 fn left(fault: &Fault, reports: Option<&Path>) -> String {
     if let Some(report) = &fault.report {
         return format!(
-            "what was open is kept for the next start, and a report that can be sent is in {}",
+            "the session is kept for the next start, and a report that can be sent is in {}",
             report.display()
         );
     }
@@ -40,8 +40,8 @@ fn left(fault: &Fault, reports: Option<&Path>) -> String {
     let report = Report { doing: &doing, open: &inputs(), ..Report::default() };
     match reports.map(|folder| fault::write(folder, fault, &report)) {
         Some(Ok(path)) => format!("a report that can be sent is in {}", path.display()),
-        Some(Err(error)) => format!("no report on it could be written: {error}"),
-        None => "no report on it is written, since the system names no folder for a user's data".to_owned(),
+        Some(Err(error)) => format!("the report could not be written: {error}"),
+        None => "no report is written, since the system names no folder for user data".to_owned(),
     }
 }
 
@@ -62,5 +62,5 @@ fn inputs() -> Vec<(String, String)> {
 
 fn sentence(fault: &Fault, left: String) -> String {
     let place = if fault.place.is_empty() { String::new() } else { format!(" at {}", fault.place) };
-    format!("a fault of the program stopped it{place} ({}); {left}", fault.message)
+    format!("internal error{place}: {}; {left}", fault.message)
 }

@@ -123,7 +123,7 @@ fn report_files(taken: &Taken) -> anyhow::Result<()> {
         );
     }
     for reason in &taken.left_out {
-        report!("note: left out: {reason}");
+        report!("note: skipped: {reason}");
     }
     for failure in &taken.failures {
         report!("warning: not read: {failure}");
@@ -174,7 +174,7 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
     for Stored { imported: product, .. } in catalogue.import_all(list)? {
         writeln!(text, "{}", product.key)?;
         if product.same_content_as == [product.key.as_str()] {
-            report!("note: {} is there already, the same; left as it is", product.key);
+            report!("note: {} already exists and is the same; kept", product.key);
         } else if !product.same_content_as.is_empty() {
             report!("note: the same data are already in {}", product.same_content_as.join(", "));
         }

@@ -277,7 +277,7 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     line("Thickness", &dataset.thickness.map(|t| format!("{:.3} mm", 1000.0 * t)).unwrap_or_default());
     line("Device", &dataset.thermal.device);
     let thermal = dataset.thermal.known().map(|(key, value)| format!("{} {value}{}", key.word(), unit(key)));
-    line("Also told", &thermal.collect::<Vec<_>>().join(", "));
+    line("Thermal data", &thermal.collect::<Vec<_>>().join(", "));
     let components = dataset.visible.components().into_iter().map(|component| {
         let derived = if dataset.derived.contains(&component) { " (derived)" } else { "" };
         format!("{}{derived}", component.key().replace('_', " "))
@@ -285,7 +285,7 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     line("Visible", &components.collect::<Vec<_>>().join(", "));
     line("Solar", &solar(dataset));
     // Other datasets have beams as their cells or their regular part state them.
-    let beams = dataset.described.as_ref().map(|_| "by direction, computed anew from the description");
+    let beams = dataset.described.as_ref().map(|_| "by direction, computed again from the description");
     line("Beams", beams.unwrap_or_default());
     if let Some(transmission) = dataset.transmission() {
         line("τ normal", &format!("{:.5}", transmission.tau_normal()));

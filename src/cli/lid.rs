@@ -137,7 +137,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
         series.members(&keys, base, index).with_context(|| path.display().to_string())?
     };
     for time in &dark {
-        report!("note: {time} is left out: the sun is below the horizon");
+        report!("note: {time} is skipped: the sun is below the horizon");
     }
     let kind = match options.format {
         LidFormat::Eulumdat => FileKind::Eulumdat,
@@ -287,7 +287,7 @@ fn luminaire_options(args: &LidArgs) -> Result<LuminaireOptions> {
     let format = LidFormat::of(&args.stream.name(&args.out)?, edition).with_context(|| format!("--out {shown}"))?;
     if !matches!(format, LidFormat::Eulumdat | LidFormat::Ies(_)) {
         if args.tiles != Tiles::None {
-            bail!("--tiles {}: {shown} is no luminaire file (.ldt or .ies)", args.tiles);
+            bail!("--tiles {}: {shown} is not a luminaire file (.ldt or .ies)", args.tiles);
         }
         if !(args.months.is_empty() && args.hours.is_empty() && args.states.is_empty()) {
             bail!("--months, --hours, --states: a series is of luminaire files (.ldt or .ies), not {shown}");

@@ -48,12 +48,16 @@ pub(super) fn report(without_beam: bool, set: &LuminaireSet, member: &Member) {
         100.0 * (set.scaled_by - 1.0)
     );
     if let Some(tiling) = set.tiling {
-        report!("{} × {} tiles, a file each", tiling.columns, tiling.rows);
+        report!("{} × {} luminaires, one file each", tiling.columns, tiling.rows);
     }
     if let Some(beam) = set.separate_beam {
-        report!("left to the host: the straight sunbeam, {:.1} lm, {:.1} lx across itself", beam.flux, beam.normal);
+        report!(
+            "left to the other program: direct sunlight, {:.1} lm, {:.1} lx on a plane perpendicular to it",
+            beam.flux,
+            beam.normal
+        );
     } else if without_beam {
-        report!("--without-beam: there is no straight sunbeam to leave out");
+        report!("--without-beam: there is no direct sunlight to leave out");
     }
     if let Some(reached) = set.reached {
         let missed = if reached.holds() { "" } else { " More than 1 %: this light is too sharp for point luminaires." };

@@ -111,7 +111,7 @@ fn aperture_text(text: &mut String, one: &LuminaireAperture, name: &str) {
         let way = format!("({:.4}, {:.4}, {:.4})", d.x, d.y, d.z);
         line(
             "Left to the host",
-            &format!("straight sunbeam of {separate:.1} lm along {way}, {:.1} lx across it", row.normal),
+            &format!("direct sunlight of {separate:.1} lm along {way}, {:.1} lx perpendicular to it", row.normal),
         );
     }
 }

@@ -90,7 +90,7 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     if let (Some(shape), Some(out)) = (&shape, &args.out)
         && there_already(args, shape, out)?
     {
-        report!("{}: is there already", files::absolute(out).display());
+        report!("{}: already exists", files::absolute(out).display());
         return Ok(());
     }
     let progress = TerminalProgress::new();
@@ -207,7 +207,7 @@ fn table(lists: &[List]) -> String {
             let _ = writeln!(text, "  left out: {}: {reason}", row.product);
         }
         if ranked.iter().any(|(_, found)| !found.approximate.is_empty()) {
-            let _ = writeln!(text, "  ~ approximate beyond the errors; why is told in the CSV and JSON");
+            let _ = writeln!(text, "  ~ approximate beyond the stated errors; for the reasons see CSV and JSON");
         }
         text.push('\n');
     }

@@ -90,7 +90,7 @@ fn read(path: &Path) -> anyhow::Result<Piece> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let header = reader.headers().map_err(wrong)?.clone();
     let shape = header.iter().next_back().and_then(Shape::read).ok_or_else(|| {
-        anyhow!("{}: is no piece of a ranking; expected a file of `cfs rank --shard n/N`", path.display())
+        anyhow!("{}: is not a piece of a ranking; expected a file of `cfs rank --shard n/N`", path.display())
     })?;
     let rows: Vec<StringRecord> = reader.records().collect::<Result<_, _>>().map_err(wrong)?;
     if rows.len() != shape.rows {

@@ -84,7 +84,7 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
             } else {
                 format!("questions to be answered by name: {questions}; `cfs info` says why they are asked")
             };
-            bail!("{name}: nothing is beyond doubt; {rest}");
+            bail!("{name}: no repair is certain; {rest}");
         }
         let mut repaired = repaired_all(dataset, &repairs).map_err(|error| anyhow!("{name}: {error}"))?;
         // What the description recorded before is kept, and undone repairs cancel out.
@@ -92,7 +92,7 @@ pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
         let words: Vec<String> = repairs.iter().map(Repair::to_string).collect();
         report!("repaired: {}", words.join(", "));
         if args.repair.iter().any(|word| word == "auto") && !questions.is_empty() {
-            report!("asked, not done: {questions}");
+            report!("not done, to be confirmed: {questions}");
         }
         if let Some(sentence) = repaired.transmission().and_then(sun_from_above) {
             report!("{sentence}");

@@ -87,7 +87,7 @@ fn notes(scene: &Scene, result: &RoomResult) {
         if let Some(distance) = aperture.homogeneity_distance().filter(|_| count > 0) {
             report!(
                 "note: {count} of {} sensors lie nearer than {distance:.3} m to aperture {}, where they would see the \
-                 slats or cuts of {} one by one; the data hold its mean alone",
+                 slats or cuts of {} one by one; the data contain only its mean",
                 scene.sensors.len(),
                 number + 1,
                 aperture.system.label
@@ -98,8 +98,8 @@ fn notes(scene: &Scene, result: &RoomResult) {
         let data_share = result.data_share();
         if *source == BeamSource::Cells && data_share > UNPLACED {
             report!(
-                "note: sun patches cannot be placed with the data of aperture {} ({}): {reason}; {:.0} % of the light at \
-                 the sensors is left open by the data",
+                "note: sun patches cannot be placed with the data of aperture {} ({}): {reason}; the \
+                 uncertainty from the data is {:.0} % of the light at the sensors",
                 number + 1,
                 aperture.system.label,
                 100.0 * data_share

@@ -82,7 +82,9 @@ pub fn run(args: &SkyArgs) -> anyhow::Result<()> {
         report!("note: {note}");
     }
     if facade.behind {
-        report!("note: boxes and building count for the façade: mean over its apertures; the sky is the open one");
+        report!(
+            "note: boxes and building are included for the façade, mean over its apertures; the sky is unobstructed"
+        );
     }
     weather_notes(hour.as_ref());
     let direct = sun.map_or(0.0, |sun| sun.horizontal());

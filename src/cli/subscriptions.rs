@@ -52,7 +52,7 @@ fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
         report!("warning: {problem}");
     }
     if report.taken + report.gone > 0 {
-        report!("note: {} products came or changed, {} went", report.taken, report.gone);
+        report!("note: {} products added or changed, {} removed", report.taken, report.gone);
     }
     Ok(())
 }
@@ -69,7 +69,7 @@ pub(super) fn subscribe(catalogue: &mut Catalogue, args: &SubscribeArgs) -> anyh
 pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> anyhow::Result<()> {
     let folder = folder_of(&args.folder).unwrap_or_else(|_| args.folder.display().to_string());
     let gone = catalogue.unsubscribe(&folder)?;
-    report!("note: {gone} products went");
+    report!("note: {gone} products removed");
     Ok(())
 }
 

@@ -154,12 +154,12 @@ impl StreamFormat {
             (Some(extension), true) => Ok(PathBuf::from(format!("stream.{}", extension.trim_start_matches('.')))),
             (Some(_), false) => {
                 bail!(
-                    "{}: --format is for standard output and pipes; the name of a file tells its format",
+                    "{}: --format is for standard output and pipes; the name of a file sets its format",
                     path.display()
                 )
             }
             (None, true) if path.extension().is_none() => {
-                bail!("{}: no extension that tells the format; expected --format, as in --format xml", path.display())
+                bail!("{}: no extension that sets the format; expected --format, as in --format xml", path.display())
             }
             (None, _) => Ok(path.to_owned()),
         }

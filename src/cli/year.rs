@@ -101,7 +101,7 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
         None => year(&file, base, library, &session, &*wanted, &progress).map_err(located)?,
         Some(mut kept) => {
             if kept.count() > 0 {
-                report!("{}: goes on behind {} hours", files::absolute(kept.path()).display(), kept.count());
+                report!("{}: resumes after {} hours", files::absolute(kept.path()).display(), kept.count());
             }
             let year = match year_kept(&file, base, library, &session, &*wanted, &mut kept, &progress) {
                 Ok(year) => year,

@@ -192,13 +192,13 @@ impl HourMap {
     }
 
     /// Returns a CSV table of month, day and hour at which each cell begins, and its value or its state's name; empty
-    /// for cells without one.
-    pub fn csv(&self) -> String {
+    /// for cells without one. `column`: head of the values, without unit.
+    pub fn csv(&self, column: &str) -> String {
         let unit = match &self.colours {
             Colours::Scale(_, unit) if !unit.is_empty() => format!(" ({unit})"),
             _ => String::new(),
         };
-        let mut out = format!("month,day,start,{}\n", csv_cell(&format!("{}{unit}", self.name)));
+        let mut out = format!("month,day,start,{}\n", csv_cell(&format!("{column}{unit}")));
         for cell in 0..self.values.len() {
             let (month, day, start) = self.date(cell);
             let value = match (&self.colours, self.values[cell]) {
@@ -297,7 +297,7 @@ mod tests {
         map.draw(&mut drawing, frame, map.cell(6, 21, 720), &Inks::LIGHT);
         // Twelve months of 24 rows, and what stands round them.
         assert!((12 * 24..12 * 24 + 300).contains(&drawing.shapes.len()), "{}", drawing.shapes.len());
-        let csv = map.csv();
+        let csv = map.csv("light");
         assert!(csv.starts_with("month,day,start,light (lx)\n1,1,00:00,100\n1,1,01:00,101\n"));
         assert_eq!(csv.lines().count(), 1 + list.len());
     }

@@ -24,7 +24,7 @@ pub enum CurveError {
         line: usize,
     },
     /// Field that is not a number.
-    #[error("line {line}: \"{found}\" is no number of degrees")]
+    #[error("line {line}: \"{found}\" is not a number of degrees")]
     Number {
         /// Line number, from 1.
         line: usize,

@@ -292,7 +292,7 @@ impl<'a> StoredPlanes<'a> {
             let Some(c) = turn.c_deg.iter_mut().find(|c| same_angle(**c, *listed)) else {
                 return Err(at_line(
                     line,
-                    format!("a plane at C {listed}°, which is no image of a plane with intensities"),
+                    format!("a plane at C {listed}°, which is not an image of a plane with intensities"),
                     format!("planes that are images of each other about {about}, as Isym {} says", self.symmetry),
                 ));
             };

@@ -216,7 +216,7 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
             }
             if state.dataset.len() != 64 || !state.dataset.bytes().all(|b| b.is_ascii_hexdigit()) {
                 let text: String = state.dataset.chars().take(80).collect();
-                return Err(PackageError::Content(format!("\"{text}\" is no dataset hash")));
+                return Err(PackageError::Content(format!("\"{text}\" is not a dataset hash")));
             }
             let blob = entry(&mut zip, &format!("datasets/{}.bin", state.dataset), MOST_DATASET.min(left))?;
             left -= blob.len() as u64;

@@ -21,7 +21,7 @@ pub enum ScanError {
     #[error(transparent)]
     TooLong(#[from] TooLong),
     /// Field that is not a luminance.
-    #[error("line {line}: \"{found}\" is no luminance (expected a number from 0 to {most:e} cd/m²)", most = limits::LUMINANCE)]
+    #[error("line {line}: \"{found}\" is not a luminance (expected a number from 0 to {most:e} cd/m²)", most = limits::LUMINANCE)]
     Number {
         /// Line number, from 1.
         line: usize,

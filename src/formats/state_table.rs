@@ -88,7 +88,7 @@ pub fn read_states(bytes: &[u8]) -> Result<Vec<StateRow>, StateTableError> {
         let wrong = |message: String| StateTableError::Row { line, message };
         let field = record.get(time_at).unwrap_or_default();
         let time: DateTime = field.parse().map_err(|_| {
-            wrong(format!("\"{}\" is no time; expected YYYY-MM-DDTHH:MM, local standard time", excerpt(field)))
+            wrong(format!("\"{}\" is not a time; expected YYYY-MM-DDTHH:MM, local standard time", excerpt(field)))
         })?;
         let time = of_year(time);
         if rows.last().is_some_and(|last| last.of_year >= time) {
@@ -133,7 +133,7 @@ mod tests {
             ("", "line 1"),
             ("time;value\n2005-01-01T00:30;0\n", "line 1"),
             ("time,state\n", "0 rows"),
-            ("time,state\nnoon,0\n", "line 2: \"noon\" is no time"),
+            ("time,state\nnoon,0\n", "line 2: \"noon\" is not a time"),
             ("time,state\n2005-01-01T00:30,0\n2005-01-01T01:30,\n", "line 3: no state"),
             ("time,state\n2005-01-01T00:30,0\n2005-01-01T01:30\n", "line 3: no state"),
             ("time,state\n2005-01-02T00:30,0\n2006-01-01T01:30,0\n", "line 3: 2006-01-01T01:30 does not come after"),

@@ -48,25 +48,25 @@ pub const fn beam_words(source: BeamSource) -> Text {
     }
 }
 
-/// Returns the label of a stage of a computation, from its stable name; other names unchanged.
+/// Returns the label of a stage of a computation, from its stable key; other names unchanged.
 pub fn stage_words(name: &str) -> String {
-    const STAGES: [Text; 16] = [
-        texts::STAGE_SUN,
-        texts::STAGE_GROUND,
-        texts::STAGE_CELLS,
-        texts::STAGE_DESCRIPTION,
-        texts::STAGE_SEEN_THROUGH,
-        texts::STAGE_SKY_AT_SENSORS,
-        texts::STAGE_OTHER_STATES,
-        texts::STAGE_NEAR_FIELD,
-        texts::STAGE_INTERREFLECTION,
-        texts::STAGE_BACK_REFLECTION,
-        texts::STAGE_EMISSION,
-        texts::STAGE_INTERPOLATION,
-        texts::STAGE_DIRECT,
-        texts::STAGE_RECEPTIONS,
-        texts::STAGE_ROOM_FACTORS,
-        texts::STAGE_UNSEEN_CELLS,
+    const STAGES: [(&str, Text); 16] = [
+        ("sun", texts::STAGE_SUN),
+        ("ground", texts::STAGE_GROUND),
+        ("cells", texts::STAGE_CELLS),
+        ("description", texts::STAGE_DESCRIPTION),
+        ("seen through", texts::STAGE_SEEN_THROUGH),
+        ("sky at sensors", texts::STAGE_SKY_AT_SENSORS),
+        ("other states", texts::STAGE_OTHER_STATES),
+        ("near field", texts::STAGE_NEAR_FIELD),
+        ("interreflection", texts::STAGE_INTERREFLECTION),
+        ("back reflection", texts::STAGE_BACK_REFLECTION),
+        ("emission", texts::STAGE_EMISSION),
+        ("interpolation", texts::STAGE_INTERPOLATION),
+        ("direct", texts::STAGE_DIRECT),
+        ("receptions", texts::STAGE_RECEPTIONS),
+        ("room factors", texts::STAGE_ROOM_FACTORS),
+        ("unseen cells", texts::STAGE_UNSEEN_CELLS),
     ];
-    STAGES.into_iter().find(|text| text.english() == name).map_or_else(|| name.to_owned(), String::from)
+    STAGES.into_iter().find(|(key, _)| *key == name).map_or_else(|| name.to_owned(), |(_, text)| text.into())
 }

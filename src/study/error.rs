@@ -45,7 +45,7 @@ pub enum StudyError {
     Patches(TooManyPatches),
     /// Lengths or values that are too far apart for the arithmetic.
     #[error(
-        "the light at {0} comes out as no number: lengths or values of the scene lie too far apart to be computed with"
+        "the light at {0} is not a finite number: lengths or values of the scene differ by too many orders of magnitude"
     )]
     NoNumber(String),
     /// The computation was cancelled.

@@ -163,7 +163,7 @@ impl LayerLibrary for Library {
         if let Some(sum) = datasets.iter().map(passed).find(|sum| *sum > OTHER_UNIT) {
             return Err(error(format!(
                 "its transmission lets {sum:.4} times the diffuse light through that comes; expected at most 1: numbers in \
-                 percent are mended by `cfs repair`"
+                 percent are repaired by `cfs repair`"
             )));
         }
         let systems: Vec<Arc<System>> = datasets

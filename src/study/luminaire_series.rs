@@ -111,11 +111,11 @@ impl Series {
         let (mut times, mut dark) = (Vec::new(), Vec::new());
         for (month, day) in days {
             if !(1..=12).contains(&month) {
-                return Err(StudyError::key("months", format!("{month} is no month (1 to 12)")));
+                return Err(StudyError::key("months", format!("{month} is not a month (1 to 12)")));
             }
             for &hour in &hours {
                 if !(0.0..24.0).contains(&hour) {
-                    return Err(StudyError::key("hours", format!("{hour} is no hour of a day (0 up to 24)")));
+                    return Err(StudyError::key("hours", format!("{hour} is not an hour of a day (0 up to 24)")));
                 }
                 let minutes = (60.0 * hour).round().min(1439.0) as u32;
                 let text = format!("{:04}-{month:02}-{day:02}T{:02}:{:02}", time.year(), minutes / 60, minutes % 60);

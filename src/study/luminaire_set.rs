@@ -47,7 +47,7 @@ impl std::str::FromStr for Tiles {
                 .and_then(|(columns, rows)| Some(Tiling { columns: count(columns)?, rows: count(rows)? }))
                 .map(Self::Fixed)
                 .ok_or_else(|| {
-                    format!("\"{text}\" is no tiling (auto, none, or columns x rows from 1x1 to {MOST}x{MOST})")
+                    format!("\"{text}\" is not a tiling (auto, none, or columns x rows from 1x1 to {MOST}x{MOST})")
                 }),
         }
     }
@@ -232,9 +232,9 @@ fn remarks(tiling: Option<Tiling>, separate_beam: Option<&SeparateBeam>, reached
     }
     if let Some(SeparateBeam { flux, direction: d, normal }) = separate_beam {
         list.push(format!(
-            "Without the straight sunbeam of {flux:.4} lm (whole aperture): the host draws the sun through by itself. It \
+            "Without direct sunlight of {flux:.4} lm (whole aperture), which the other program computes. It \
              goes along ({:.6}, {:.6}, {:.6}) in room axes (x right seen from outside, y into the room, z up) and gives \
-             {normal:.1} lx across itself.",
+             {normal:.1} lx on a plane perpendicular to it.",
             d.x, d.y, d.z
         ));
     }
@@ -246,7 +246,7 @@ fn remarks(tiling: Option<Tiling>, separate_beam: Option<&SeparateBeam>, reached
 fn in_lines(text: &mut Description, separate_beam: Option<&SeparateBeam>, reached: Option<&Reached>) {
     if let Some(SeparateBeam { flux, direction: d, .. }) = separate_beam {
         let way = format!("{:.4} {:.4} {:.4}", d.x, d.y, d.z);
-        text.manufacturer.push_str(&format!("; straight beam left out: {flux:.1} lm along {way}"));
+        text.manufacturer.push_str(&format!("; direct sun left out: {flux:.1} lm along {way}"));
     }
     if let Some(Reached { sum, rms, .. }) = reached {
         text.laboratory.push_str(&format!("; room: sum {:+.2} %, rms {:.2} %", 100.0 * sum, 100.0 * rms));

@@ -61,7 +61,7 @@ pub fn near_field(key: NearFieldKey, samples: Option<usize>) -> Result<NearField
         NearFieldKey::SolidAngle if samples.is_some() => {
             return Err(StudyError::key(
                 "compute.near_field_samples",
-                "the solid-angle form has no samples; leave the key out, or set compute.near_field to another method",
+                "the solid-angle method has no samples; remove the key, or set compute.near_field to another method",
             ));
         }
         NearFieldKey::SolidAngle => NearField::SolidAngle,

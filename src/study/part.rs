@@ -66,7 +66,7 @@ impl Part {
             }
             return Ok(part);
         }
-        Err(std::io::Error::other("something takes away what is being written"))
+        Err(std::io::Error::other("the file that is being written is removed again and again"))
     }
 
     /// Returns the open file.

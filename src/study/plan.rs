@@ -60,21 +60,21 @@ impl Plan {
             cells,
             match (cells, described) {
                 (true, false) => "a system scatters by its dataset's cells",
-                (true, true) => "a system scatters by its dataset's cells, as far as its description does not tell",
-                (false, true) => "what a system scatters is told by its description",
+                (true, true) => "a system scatters by its dataset's cells, where it has no description",
+                (false, true) => "scattering is computed from the description",
                 (false, false) => "no system has scattering data",
             },
         );
         if described {
-            plan.add("description", true, "a description tells what becomes of light, direction by direction");
+            plan.add("description", true, "the description gives the light direction by direction");
         }
         plan.add(
             "seen through",
             regular,
             match (regular, described) {
-                (true, _) => "a system lets light straight on",
-                (false, true) => "what goes straight on is told by the description",
-                (false, false) => "no system lets light straight on",
+                (true, _) => "a system has regular transmission",
+                (false, true) => "regular transmission is computed from the description",
+                (false, false) => "no system has regular transmission",
             },
         );
         // A transmittance that varies with the angle needs the integral under any sky.
@@ -85,9 +85,9 @@ impl Plan {
             "sky at sensors",
             regular && !even,
             match (regular, even) {
-                (false, _) => "no dataset lets light straight on",
+                (false, _) => "no dataset has regular transmission",
                 (true, true) => "above the horizon the luminance is the same everywhere: closed form",
-                (true, false) => "the luminance of the sky seen straight through varies",
+                (true, false) => "the luminance of the sky seen through the aperture varies",
             },
         );
         let controlled: Vec<String> = scene.apertures.iter().filter_map(|a| a.controlled.clone()).collect();

@@ -63,7 +63,7 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
         for ((from, size), limit) in keys.origin.into_iter().zip(keys.size).zip(limits) {
             // Written so that NaN fails too.
             if !(size > 0.0 && size.is_finite()) {
-                return Err(StudyError::key(name("size"), format!("{size} m is no length above 0")));
+                return Err(StudyError::key(name("size"), format!("{size} m is not a length above 0")));
             }
             if size < limits::OPENING {
                 let least = limits::OPENING;

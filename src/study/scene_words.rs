@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn large_errors_are_written_loudly() {
         let words = |error: f64| error_words([Estimate::new(100.0, error)].into_iter());
-        assert_eq!(words(0.6), "error ≤ 0.60 % of each value");
-        assert_eq!(words(270.0), "UNCERTAIN: error up to 270 % of a value");
+        assert_eq!(words(0.6), "uncertainty ≤ 0.60 % of each value");
+        assert_eq!(words(270.0), "UNCERTAIN: up to ± 270 % of a value");
     }
 }

@@ -212,7 +212,7 @@ impl Session {
         plan.spend("direct", clock.elapsed());
         if splits.is_empty() && scene.near_field == NearField::SolidAngle {
             let reason = match (kept, reused) {
-                (false, _) => "sensor by sensor: those of so many are not kept",
+                (false, _) => "sensor by sensor: too many to keep",
                 (true, true) => "reused: sensors, apertures and cells are the same",
                 (true, false) => "not there yet",
             };
@@ -427,7 +427,7 @@ fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
         (None, BeamSource::None) => "no sun, or no system that keeps its light together".to_owned(),
         (None, BeamSource::Described) => "a regular transmittance".to_owned(),
         (None, _) if interpolation == Interpolation::Patch => {
-            "the data are taken at their word: constant on their cells".to_owned()
+            "the data are used as given: constant on their cells".to_owned()
         }
         (None, _) => "the data's own cells".to_owned(),
     }

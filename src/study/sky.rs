@@ -123,7 +123,7 @@ fn cie_distribution(sky: &SkyKeys, sun: Option<Dir<World>>) -> Result<Distributi
     }
     // The other types do not depend on the direction.
     let sun = sun.unwrap_or(Dir::from_unit(glam::DVec3::Z));
-    Distribution::cie(sky_type, sun).ok_or_else(|| wrong("sky.type", format!("{sky_type} is no type: give {RIGHT}")))
+    Distribution::cie(sky_type, sun).ok_or_else(|| wrong("sky.type", format!("{sky_type} is not a type: give {RIGHT}")))
 }
 
 fn measured(sky: &SkyKeys, base_dir: &Path) -> Result<Outside, SkyKeyError> {

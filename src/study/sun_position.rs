@@ -12,7 +12,7 @@ use solar_positioning::{Horizon, Location, SolarEvents, SolarPositions, delta_t}
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SunPositionError {
     /// The text is not a date and time.
-    #[error("\"{0}\" is no local standard time: write YYYY-MM-DDTHH:MM, optionally with :SS, without a zone")]
+    #[error("\"{0}\" is not a local standard time: write YYYY-MM-DDTHH:MM, optionally with :SS, without a zone")]
     Time(String),
     /// The day is not in the calendar.
     #[error("there is no {year}-{month:02}-{day:02}")]

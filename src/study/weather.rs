@@ -178,7 +178,7 @@ pub fn load(name: &Path, base: &Path) -> Result<Weather, StudyError> {
     if let Some(key) = name.to_str().and_then(|name| name.strip_prefix(BUILTIN)) {
         let year = YEARS.iter().find(|year| year.key == key).ok_or_else(|| {
             let keys: Vec<String> = YEARS.iter().map(|year| format!("{BUILTIN}{}", year.key)).collect();
-            wrong(format!("no such year comes with the program; expected {}", keys.join(", ")))
+            wrong(format!("not a built-in year; expected {}", keys.join(", ")))
         })?;
         return weather::read(key, year.table.as_bytes()).map_err(|error| wrong(error.to_string()));
     }

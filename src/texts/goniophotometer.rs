@@ -1,9 +1,9 @@
 //! Texts of the goniophotometer's sheet.
 
 texts! {
-    const OFFER = "Compute gives transmission and reflection from both sides, with balance, reciprocity and error; then it can be added to the catalogue." | "„Rechnen“ ergibt Transmission und Reflexion von beiden Seiten, mit Bilanz, Reziprozität und Unsicherheit; danach kann das System in den Katalog.";
+    const OFFER = "Compute gives transmission and reflection of both sides, with energy balance, reciprocity and uncertainty; then the system can be added to the catalogue." | "„Berechnen“ ergibt Transmission und Reflexion beider Seiten, mit Energiebilanz, Reziprozität und Unsicherheit; danach lässt sich das System zum Katalog hinzufügen.";
     const OPEN = "Open…" | "Öffnen…";
-    const OPEN_TIP = "Read a .system.toml (Ctrl+O), or drop it on the window" | "Eine .system.toml lesen (Strg+O), oder auf das Fenster ziehen";
+    const OPEN_TIP = "Reads a .system.toml file (Ctrl+O); it can also be dropped on the window" | "Liest eine .system.toml (Strg+O); sie lässt sich auch auf das Fenster ziehen";
     const OR_START_FROM = "or start from" | "oder beginnen mit";
     const GEOMETRY = "Geometry and material" | "Geometrie und Material";
     fn and_states(count) = ", {count} states" | ", {count} Stellungen";
@@ -14,41 +14,41 @@ texts! {
     const NEXT_STATE = "Next state" | "Nächste Stellung";
     const INCIDENT = "Incident" | "Einfall";
     const EMERGENT = "Emergent" | "Austritt";
-    const ERROR_AT_MOST = "Error of τ, ρ at most" | "Unsicherheit von τ, ρ höchstens";
-    const ERROR_TIP = "Absolute, of every incidence; the effort follows it" | "Absolut, für jeden Einfall; der Aufwand folgt daraus";
+    const ERROR_AT_MOST = "Uncertainty of τ, ρ at most" | "Unsicherheit von τ, ρ höchstens";
+    const ERROR_TIP = "Absolute uncertainty for every incident direction; sets the effort" | "Absolute Unsicherheit für jede Einfallsrichtung; bestimmt den Aufwand";
     const STOP = "Stop" | "Anhalten";
-    const STOP_TIP = "Finished states are kept; Compute goes on after them" | "Fertige Stellungen bleiben; „Rechnen“ geht danach weiter";
+    const STOP_TIP = "Stops and keeps finished states, so that Compute can resume" | "Hält an und behält fertige Stellungen, sodass „Berechnen“ fortsetzen kann";
     fn state_of(number, count) = "state {number} of {count}" | "Stellung {number} von {count}";
-    const COMPUTE = "Compute" | "Rechnen";
+    const COMPUTE = "Compute" | "Berechnen";
     const DESCRIBE_FIRST = "Describe a system first" | "Zuerst ein System beschreiben";
-    const COMPUTE_TIP = "All states, both sides, transmission and reflection" | "Alle Stellungen, beide Seiten, Transmission und Reflexion";
-    fn stopped_after(count) = "stopped after {count} states; goes on after them" | "nach {count} Stellungen angehalten; geht danach weiter";
-    fn changed_since(name) = "\"{name}\" as it was computed; the text or the cells have changed since." | "„{name}“, wie gerechnet; Text oder Zellen haben sich seitdem geändert.";
-    const ADD = "Add to catalogue" | "In den Katalog";
+    const COMPUTE_TIP = "Computes transmission and reflection of all states from both sides" | "Berechnet Transmission und Reflexion aller Stellungen von beiden Seiten";
+    fn stopped_after(count) = "stopped after {count} states; Compute resumes" | "nach {count} Stellungen angehalten; „Berechnen“ setzt fort";
+    fn changed_since(name) = "\"{name}\" as computed; description or basis have changed since." | "„{name}“, wie berechnet; Beschreibung oder Basis haben sich seitdem geändert.";
+    const ADD = "Add to catalogue" | "Zum Katalog";
     const WHEN_FINISHED = "When all states are finished" | "Wenn alle Stellungen fertig sind";
-    const ADD_TIP = "All states as one product; Ctrl+Z takes it out again" | "Alle Stellungen als ein Produkt; Strg+Z nimmt es wieder heraus";
-    const EXPORT = "Export…" | "Ausgeben…";
+    const ADD_TIP = "Stores all states as one product; Ctrl+Z removes it" | "Speichert alle Stellungen als ein Produkt; Strg+Z entfernt es";
+    const EXPORT = "Export…" | "Exportieren…";
     const STATE = "State" | "Stellung";
     const STATE_TIP = "Key of the state" | "Schlüssel der Stellung";
     const TAU_NORMAL = "τ normal" | "τ senkrecht";
-    const TAU_NORMAL_TIP = "Transmittance at normal incidence, all light that passes" | "Transmissionsgrad bei senkrechtem Einfall, alles durchgelassene Licht";
+    const TAU_NORMAL_TIP = "Transmittance at normal incidence, scattered and unscattered light" | "Transmissionsgrad bei senkrechtem Einfall, gestreutes und ungestreutes Licht";
     const BALANCE = "τ+ρ+α−1" | "τ+ρ+α−1";
-    const BALANCE_TIP = "Energy balance, at the worst incidence" | "Energiebilanz, beim ungünstigsten Einfall";
+    const BALANCE_TIP = "Deviation of the energy balance, largest of all incident directions" | "Abweichung der Energiebilanz, größte aller Einfallsrichtungen";
     const RECIPROCITY = "Reciprocity" | "Reziprozität";
-    const RECIPROCITY_TIP = "Flux that reciprocity would place elsewhere, a share of all" | "Lichtstrom, der nach der Reziprozität anderswo wäre, als Anteil am ganzen";
-    const ERROR = "Error" | "Unsicherheit";
-    const ERRORS_TIP = "Estimated error of τ and ρ, at the worst incidence" | "Geschätzte Unsicherheit von τ und ρ, beim ungünstigsten Einfall";
+    const RECIPROCITY_TIP = "Share of the flux that contradicts reciprocity" | "Anteil des Lichtstroms, der der Reziprozität widerspricht";
+    const ERROR = "Uncertainty" | "Unsicherheit";
+    const ERRORS_TIP = "Estimated uncertainty of τ and ρ, largest of all incident directions" | "Geschätzte Unsicherheit von τ und ρ, größte aller Einfallsrichtungen";
     const TIME = "Time" | "Zeit";
     const TIME_TIP = "Wall-clock time" | "Verstrichene Zeit";
     const DESCRIBE_FIRST_HOW = "Describe a system first: an example, a file, or a text" | "Zuerst ein System beschreiben: ein Beispiel, eine Datei oder ein Text";
-    const COMPUTE_FIRST = "Compute the system first" | "Zuerst das System rechnen";
+    const COMPUTE_FIRST = "Compute the system first" | "Zuerst das System berechnen";
 
     const KLEMS = "Klems 145" | "Klems 145";
     const TREGENZA = "Tregenza 145" | "Tregenza 145";
-    fn cells(degrees) = "{degrees}° cells" | "Zellen von {degrees}°";
+    fn cells(degrees) = "{degrees}° patches" | "Felder von {degrees}°";
 
     const VENETIAN = "Venetian" | "Jalousie";
-    const LOUVRES = "Louvres upright" | "Senkrechtlamellen";
+    const LOUVRES = "Vertical louvres" | "Senkrechtlamellen";
     const LASER_CUT = "Laser-cut panel" | "Lasergeschnittene Platte";
     const PRISMATIC = "Prismatic" | "Prismen";
     const REDIRECTING = "Redirecting glass" | "Lenkglas";

@@ -5,8 +5,8 @@ texts! {
     const APERTURES = "apertures" | "Öffnungen";
     const CHECKS = "checks" | "Prüfungen";
     const COEFFICIENTS = "coefficients" | "Koeffizienten";
-    const COMPUTING = "computing" | "rechnen";
-    const CONTROL = "control" | "Regelung";
+    const COMPUTING = "computing" | "Berechnung";
+    const CONTROL = "control" | "Steuerung";
     const DAYS = "days" | "Tage";
     const DIRECT_LIGHT = "direct light" | "direktes Licht";
     const DIRECT = "direct" | "direkt";
@@ -28,7 +28,7 @@ texts! {
     const SURFACES = "surfaces" | "Flächen";
     const TILES = "tiles" | "Kacheln";
     const WEATHER = "weather" | "Wetter";
-    const WAITING = "waiting for the product's data" | "auf Produktdaten warten";
+    const WAITING = "waiting for the product's data" | "Warten auf Produktdaten";
 }
 
 /// Returns the text for a stage in the current language; an unknown stage unchanged.

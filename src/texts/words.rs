@@ -17,7 +17,7 @@ texts! {
     fn moment(day, month, clock) = "{day} {month} {clock}" | "{day}. {month} {clock} Uhr";
     const ON_THE_HORIZON = "on the horizon" | "am Horizont";
     fn below_the_horizon(angle) = "{angle} below the horizon" | "{angle} unter dem Horizont";
-    fn high(angle) = "{angle} high" | "{angle} hoch";
+    fn high(angle) = "at {angle} altitude" | "in {angle} Höhe";
     const NORTH = "north" | "Nord";
     const NORTH_EAST = "north-east" | "Nordost";
     const EAST = "east" | "Ost";
@@ -32,7 +32,7 @@ texts! {
     const S = "S" | "S";
     const W = "W" | "W";
     fn coordinates(latitude, ns, longitude, ew) = "{latitude}°{ns} {longitude}°{ew}" | "{latitude}°{ns} {longitude}°{ew}";
-    fn sun_by_angles(height, bearing) = "sun {height} at {bearing}°" | "Sonne {height} bei {bearing}°";
+    fn sun_by_angles(height, bearing) = "sun {height}, azimuth {bearing}°" | "Sonne {height}, Azimut {bearing}°";
     const NO_SUN = "no sun" | "keine Sonne";
 
     // Skies.
@@ -44,58 +44,58 @@ texts! {
     const UNIFORM_SKY = "uniform sky" | "gleichförmiger Himmel";
     const PEREZ_SKY = "Perez sky" | "Perez-Himmel";
     const MEASURED_SKY = "measured sky" | "gemessener Himmel";
-    const WEATHER_SKY = "weather file" | "Wetterdatei";
-    const LIST_CIE = "CIE general sky" | "CIE-Himmel";
-    const LIST_UNIFORM = "Uniform" | "Gleichförmig";
-    const LIST_PEREZ = "Perez all-weather" | "Perez (alle Wetter)";
-    const LIST_SCAN = "Measured (file)" | "Gemessen (Datei)";
-    const LIST_WEATHER = "Hour of a weather file" | "Stunde einer Wetterdatei";
+    const WEATHER_SKY = "weather hour" | "Wetterstunde";
+    const LIST_CIE = "CIE general sky" | "Allgemeiner CIE-Himmel";
+    const LIST_UNIFORM = "Uniform sky" | "Gleichförmiger Himmel";
+    const LIST_PEREZ = "Perez all-weather sky" | "Perez-Himmel";
+    const LIST_SCAN = "Measured sky (scan)" | "Gemessener Himmel (Scan)";
+    const LIST_WEATHER = "Weather hour" | "Wetterstunde";
 
     // How exact.
-    const NO_ERROR_STATED = "no error stated" | "keine Unsicherheit angegeben";
-    const ERROR_TINY = "error < 0.01 % of each value" | "Unsicherheit < 0,01 % jedes Werts";
-    fn error_large(percent) = "UNCERTAIN: error up to {percent} % of a value" | "UNSICHER: Unsicherheit bis {percent} % eines Werts";
-    fn error_at_most(percent) = "error ≤ {percent} % of each value" | "Unsicherheit ≤ {percent} % jedes Werts";
+    const NO_ERROR_STATED = "no uncertainty stated" | "keine Unsicherheit angegeben";
+    const ERROR_TINY = "uncertainty < 0.01 % of each value" | "Unsicherheit < 0,01 % jedes Werts";
+    fn error_large(percent) = "UNCERTAIN: up to ± {percent} % of a value" | "UNSICHER: bis ± {percent} % eines Werts";
+    fn error_at_most(percent) = "uncertainty ≤ {percent} % of each value" | "Unsicherheit ≤ {percent} % jedes Werts";
 
     // The direction of incidence.
     const THE_SUN = "sun" | "Sonne";
     const CHOSEN_DIRECTION = "chosen direction" | "gewählte Richtung";
-    const PERPENDICULAR = "perpendicular light" | "senkrechtes Licht";
+    const PERPENDICULAR = "normal incidence" | "senkrechter Einfall";
     fn with_profile(angles, profile) = "{angles}, profile angle {profile}" | "{angles}, Profilwinkel {profile}";
     fn incidence(name, angles) = "{name} at {angles}" | "{name} bei {angles}";
-    const SUN_BEHIND = " (sun not before the façade)" | " (Sonne nicht vor der Fassade)";
+    const SUN_BEHIND = " (sun not in front of the façade)" | " (Sonne nicht vor der Fassade)";
 
     // Rules of control.
-    const BY_HAND = "By hand" | "Von Hand";
-    const BY_HAND_DOES = "fixed by hand" | "von Hand gestellt";
-    const BY_HAND_ORDER = "by hand" | "von Hand";
-    const BY_HAND_TIP = "The state stays where [ and ] put it" | "Die Stellung bleibt, wie [ und ] sie wählen";
+    const BY_HAND = "Manual" | "Manuell";
+    const BY_HAND_DOES = "fixed manually" | "manuell gestellt";
+    const BY_HAND_ORDER = "manual" | "manuell";
+    const BY_HAND_TIP = "Keeps the state that is set by hand, e.g. with [ and ]" | "Behält die von Hand gewählte Stellung, z. B. mit [ und ]";
     const CURVE = "Curve" | "Kurve";
-    const CURVE_DOES = "follows the curve" | "folgt der Kurve";
-    const CURVE_ORDER = "follow the curve" | "der Kurve folgen";
-    const CURVE_TIP = "The state that a curve asks for at the sun's profile angle: the product's, or one edited in the tile" | "Die Stellung, die eine Kurve beim Profilwinkel der Sonne verlangt: die des Produkts oder eine in der Kachel bearbeitete";
+    const CURVE_DOES = "follows the control curve" | "folgt der Steuerkurve";
+    const CURVE_ORDER = "follow the control curve" | "der Steuerkurve folgen";
+    const CURVE_TIP = "Sets the state that a control curve gives for the sun's profile angle: the curve of the product, or one edited in the tile" | "Stellt die Stellung ein, die eine Steuerkurve für den Profilwinkel der Sonne vorgibt: die des Produkts oder eine in der Kachel bearbeitete";
     const CUT_OFF = "Cut-off" | "Cut-off";
-    const CUT_OFF_DOES = "keeps the sun just out (cut-off)" | "hält die Sonne gerade ab (Cut-off)";
-    const CUT_OFF_ORDER = "keep the sun just out (cut-off)" | "Sonne gerade abhalten (Cut-off)";
-    const CUT_OFF_TIP = "The most open state that lets no direct sun through, the whole disc counted" | "Die offenste Stellung, die keine direkte Sonne durchlässt, die ganze Sonnenscheibe gerechnet";
+    const CUT_OFF_DOES = "just blocks direct sun (cut-off)" | "hält direkte Sonne gerade ab (Cut-off)";
+    const CUT_OFF_ORDER = "just block direct sun (cut-off)" | "direkte Sonne gerade abhalten (Cut-off)";
+    const CUT_OFF_TIP = "Sets the most open state that just blocks direct sun, for the whole solar disc" | "Stellt die offenste Stellung ein, die direktes Sonnenlicht gerade abhält, für die ganze Sonnenscheibe";
     const DIN_5034 = "DIN 5034" | "DIN 5034";
     const DIN_5034_DOES = "closed in sun (DIN 5034)" | "bei Sonne geschlossen (DIN 5034)";
-    const DIN_5034_TIP = "The most closed state while the sun is on the façade, else the most open" | "Die geschlossenste Stellung, solange die Sonne auf die Fassade scheint, sonst die offenste";
+    const DIN_5034_TIP = "Sets the most closed state while the sun is on the façade, otherwise the most open" | "Stellt die geschlossenste Stellung ein, solange die Sonne auf die Fassade scheint, sonst die offenste";
     const RETRO = "Retro-reflect" | "Rückreflexion";
-    const RETRO_DOES = "throws the sun back" | "wirft die Sonne zurück";
-    const RETRO_ORDER = "throw the sun back" | "Sonne zurückwerfen";
-    const RETRO_TIP = "Mirror slats stand across the beam: 90° − ψ, for the lower part of a window" | "Spiegellamellen stehen quer zum Strahl: 90° − ψ, für den unteren Teil eines Fensters";
+    const RETRO_DOES = "reflects the sun back" | "reflektiert die Sonne zurück";
+    const RETRO_ORDER = "reflect the sun back" | "Sonne zurückreflektieren";
+    const RETRO_TIP = "Sets mirror slats perpendicular to the sun, 90° − ψ; for the lower part of a façade" | "Stellt Spiegellamellen senkrecht zur Sonne, 90° − ψ; für den unteren Teil einer Fassade";
     const REDIRECT = "Redirect" | "Umlenken";
     const REDIRECT_DOES = "redirects the sun" | "lenkt die Sonne um";
     const REDIRECT_ORDER = "redirect the sun" | "Sonne umlenken";
-    const REDIRECT_TIP = "Mirror slats send the sun to the ceiling: half of (elevation − ψ), for the upper part of a window" | "Spiegellamellen lenken die Sonne an die Decke: die Hälfte von (Höhenwinkel − ψ), für den oberen Teil eines Fensters";
-    const USER = "User" | "Nutzer";
-    const USER_DOES = "by the user's clock" | "nach der Uhr des Nutzers";
-    const USER_TIP = "A state by hours of the day; the hours are set in the scene file" | "Eine Stellung nach Tagesstunden; die Stunden stehen in der Szenendatei";
+    const REDIRECT_TIP = "Sets mirror slats to redirect the sun to the ceiling, half of (elevation − ψ); for the upper part of a façade" | "Stellt Spiegellamellen so, dass sie die Sonne an die Decke lenken, Hälfte von (Höhenwinkel − ψ); für den oberen Teil einer Fassade";
+    const USER = "Schedule" | "Zeitplan";
+    const USER_DOES = "follows a schedule" | "folgt einem Zeitplan";
+    const USER_TIP = "Sets a state by the time of day; the hours are in the scene file" | "Stellt eine Stellung nach der Tageszeit ein; die Stunden stehen in der Szenendatei";
     const TABLE = "Table" | "Tabelle";
-    const TABLE_DOES = "by a table" | "nach einer Tabelle";
-    const TABLE_TIP = "States given from elsewhere, row by row in time; the file is named in the scene file" | "Stellungen von anderswo, Zeile für Zeile in der Zeit; die Datei steht in der Szenendatei";
-    const SLAT_ANGLE = "slat angle / °" | "Lamelle / °";
+    const TABLE_DOES = "follows a table" | "folgt einer Tabelle";
+    const TABLE_TIP = "Reads external states, one row per time step; the file is named in the scene file" | "Liest externe Stellungen, eine Zeile je Zeitschritt; die Datei ist in der Szenendatei genannt";
+    const SLAT_ANGLE = "slat angle / °" | "Lamellenwinkel / °";
     const STATE_ANGLE = "state / °" | "Stellung / °";
     const STATE = "state" | "Stellung";
 
@@ -119,73 +119,73 @@ texts! {
     const HEIGHT = "height" | "Höhe";
 
     // Stages of a computation, and sources of sharp beams.
-    const STAGE_SUN = "sun" | "Sonne";
+    const STAGE_SUN = "direct sun" | "direkte Sonne";
     const STAGE_GROUND = "ground" | "Boden";
-    const STAGE_CELLS = "cells" | "Zellen";
+    const STAGE_CELLS = "patch-averaged data" | "über Felder gemittelte Daten";
     const STAGE_DESCRIPTION = "description" | "Beschreibung";
-    const STAGE_SEEN_THROUGH = "seen through" | "Durchsicht";
-    const STAGE_SKY_AT_SENSORS = "sky at sensors" | "Himmel an den Messpunkten";
+    const STAGE_SEEN_THROUGH = "view through apertures" | "Durchsicht";
+    const STAGE_SKY_AT_SENSORS = "sky at points" | "Himmel an den Punkten";
     const STAGE_OTHER_STATES = "other states" | "andere Stellungen";
     const STAGE_NEAR_FIELD = "near field" | "Nahfeld";
     const STAGE_INTERREFLECTION = "interreflection" | "Interreflexion";
-    const STAGE_BACK_REFLECTION = "back reflection" | "Rückreflexion der Öffnung";
+    const STAGE_BACK_REFLECTION = "back reflection" | "raumseitige Reflexion";
     const STAGE_EMISSION = "emission" | "Abstrahlung";
     const STAGE_INTERPOLATION = "interpolation" | "Interpolation";
     const STAGE_DIRECT = "direct" | "direkt";
-    const STAGE_RECEPTIONS = "receptions" | "Empfang der Messpunkte";
+    const STAGE_RECEPTIONS = "light at points" | "Licht an den Punkten";
     const STAGE_ROOM_FACTORS = "room factors" | "Raumfaktoren";
-    const STAGE_UNSEEN_CELLS = "unseen cells" | "ungesehene Zellen";
-    const BEAM_NONE = "none" | "keiner";
-    const BEAM_DESCRIBED = "described" | "beschrieben";
-    const BEAM_EXTRACTED = "extracted" | "herausgelöst";
-    const BEAM_CELLS = "cells" | "auf Zellen";
+    const STAGE_UNSEEN_CELLS = "unseen patches" | "ungesehene Felder";
+    const BEAM_NONE = "none" | "keines";
+    const BEAM_DESCRIBED = "from description" | "aus Beschreibung";
+    const BEAM_EXTRACTED = "extracted" | "extrahiert";
+    const BEAM_CELLS = "patch-averaged" | "über Felder gemittelt";
 
     // Candidates.
-    const IDEAL_TRANSPARENT = "ideal transparent" | "ideal durchsichtig";
-    const IDEAL_DIFFUSE = "ideal diffuse" | "ideal streuend";
+    const IDEAL_TRANSPARENT = "ideal clear" | "ideal klar";
+    const IDEAL_DIFFUSE = "ideal diffuser" | "ideal diffus streuend";
     const AS_IN_SCENE = "as in the scene" | "wie in der Szene";
 
     // A year of control.
-    const YEAR_NEEDS_DATE = "No year of control: the sun is given by angles. Choose “By date and time” in the scene." | "Kein Jahr der Regelung: Die Sonne ist durch Winkel gegeben. In der Szene „Nach Datum und Zeit“ wählen.";
-    fn no_year(problem) = "No year of control: {problem}" | "Kein Jahr der Regelung: {problem}";
+    const YEAR_NEEDS_DATE = "No control over the year: the sun is given by angles. Select “By date and time” in the scene." | "Keine Steuerung übers Jahr: Die Sonne ist durch Winkel gegeben. In der Szene „Nach Datum und Zeit“ wählen.";
+    fn no_year(problem) = "No control over the year: {problem}" | "Keine Steuerung übers Jahr: {problem}";
 
     // Obstructions.
-    fn boxes_below_ground(count, height) = "{count} of the boxes outside: not above the ground at {height} m (site.ground_height), so not there" | "{count} der Körper draußen: nicht über dem Boden auf {height} m (site.ground_height), also nicht da";
-    fn boxes_left_out(count) = "{count} of the boxes outside: left out, too low and too far away to matter" | "{count} der Körper draußen: weggelassen, zu niedrig und zu fern, um etwas zu ändern";
-    const BUILDING_UNNAMED = "no [building] named: of the building only the boxes shade the ground" | "kein [building] benannt: Vom Gebäude beschatten nur die Körper den Boden";
-    fn past_outside(number) = "aperture {number}: every sensor looks straight through and past what stands outside" | "Öffnung {number}: Jeder Messpunkt blickt gerade hindurch und an dem vorbei, was draußen steht";
-    fn outside_alike(number, change) = "aperture {number}: not split, its points see the outside alike (light changes by {change} %)" | "Öffnung {number}: nicht geteilt, ihre Punkte sehen dasselbe Außen (das Licht ändert sich um {change} %)";
-    fn outside_one_part(number, change) = "aperture {number}: split into one part, each with its own outside; over a part light still changes, smoothly, by up to {change} %" | "Öffnung {number}: ein Teil mit eigenem Außen; über den Teil ändert sich das Licht noch stetig, um bis zu {change} %";
-    fn outside_parts(number, parts, change) = "aperture {number}: split into {parts} parts, each with its own outside; over a part light still changes, smoothly, by up to {change} %" | "Öffnung {number}: in {parts} Teile mit je eigenem Außen geteilt; über einen Teil ändert sich das Licht noch stetig, um bis zu {change} %";
-    fn sun_on_all(number) = "aperture {number}: the sun reaches all of it" | "Öffnung {number}: Die Sonne erreicht sie ganz";
-    fn sun_on_none(number) = "aperture {number}: wholly in the shade of what stands outside" | "Öffnung {number}: ganz im Schatten dessen, was draußen steht";
-    fn sun_on_part(number, share) = "aperture {number}: the sun reaches {share} % of it, cut along the edges of the shadows" | "Öffnung {number}: Die Sonne erreicht {share} % von ihr, an den Schattenkanten scharf geschnitten";
+    fn boxes_below_ground(count, height) = "obstructions below the ground at {height} m (site.ground_height), without effect: {count}" | "Verbauungen unter dem Boden in {height} m (site.ground_height), ohne Wirkung: {count}";
+    fn boxes_left_out(count) = "obstructions too low and too distant to matter, skipped: {count}" | "Verbauungen, zu niedrig und zu fern für eine Wirkung, ausgelassen: {count}";
+    const BUILDING_UNNAMED = "no [building] specified: of the building only the obstruction boxes shade the ground" | "kein [building] angegeben: Vom Gebäude beschatten nur die Quader den Boden";
+    fn past_outside(number) = "aperture {number}: all calculation points see the sky through it past the obstructions" | "Öffnung {number}: Alle Berechnungspunkte sehen durch sie an den Verbauungen vorbei";
+    fn outside_alike(number, change) = "aperture {number}: not subdivided, its points see the same obstructions (light changes by {change} %)" | "Öffnung {number}: nicht unterteilt, ihre Punkte sehen dieselben Verbauungen (das Licht ändert sich um {change} %)";
+    fn outside_one_part(number, change) = "aperture {number}: subdivided into one part with its own view of the obstructions; within it light changes smoothly by up to {change} %" | "Öffnung {number}: ein Teil mit eigener Sicht auf die Verbauungen; in ihm ändert sich das Licht stetig um bis zu {change} %";
+    fn outside_parts(number, parts, change) = "aperture {number}: subdivided into {parts} parts, each with its own view of the obstructions; within a part light changes smoothly by up to {change} %" | "Öffnung {number}: in {parts} Teile mit je eigener Sicht auf die Verbauungen unterteilt; in einem Teil ändert sich das Licht stetig um bis zu {change} %";
+    fn sun_on_all(number) = "aperture {number}: fully sunlit" | "Öffnung {number}: ganz besonnt";
+    fn sun_on_none(number) = "aperture {number}: fully shaded by obstructions" | "Öffnung {number}: ganz von Verbauungen beschattet";
+    fn sun_on_part(number, share) = "aperture {number}: {share} % sunlit, with sharp shadow edges" | "Öffnung {number}: zu {share} % besonnt, mit scharfen Schattenkanten";
 
     // Leaving out.
-    fn left_out(label, count, means) = "{label}: each of {count} incident directions left out and foretold from those around it, flux misplaced in the mean: {means}." | "{label}: Jede von {count} Einfallsrichtungen wurde weggelassen und aus ihren Nachbarn vorhergesagt; im Mittel fehlgeleiteter Lichtstrom: {means}.";
+    fn left_out(label, count, means) = "{label}: each of {count} incident directions omitted and predicted from its neighbours; flux misplaced on average: {means}." | "{label}: Jede von {count} Einfallsrichtungen wurde ausgelassen und aus ihren Nachbarn vorhergesagt; im Mittel fehlgeleiteter Lichtstrom: {means}.";
     fn better_scheme(scheme, count, gain, theta, phi, own, responses) = " {scheme} would be better than responses at {count}, at most by {gain} (θ {theta}°, φ {phi}°: {own} against {responses})." | " {scheme} wäre besser als responses an {count} Richtungen, höchstens um {gain} (θ {theta}°, φ {phi}°: {own} gegen {responses}).";
-    fn stated_for_sun(share) = " Stated for the sun at the data's own spacing: {share}." | " Angegeben für die Sonne beim Abstand der Daten selbst: {share}.";
+    fn stated_for_sun(share) = " Stated for the sun at the spacing of the data: {share}." | " Angegeben für die Sonne beim Abstand der Daten: {share}.";
 
     // Accuracy.
     const DIRECT = "direct" | "direkt";
     const TOTAL = "total" | "gesamt";
     const WITH_INTERREFLECTION = "with interreflection" | "mit Interreflexion";
-    const AXIS_STATED = "stated error" | "angegebene Unsicherheit";
-    const AXIS_TIME = "time a new sky" | "Zeit je neuem Himmel";
+    const AXIS_STATED = "stated uncertainty" | "angegebene Unsicherheit";
+    const AXIS_TIME = "time per new sky" | "Zeit je neuem Himmel";
     fn rms(error) = "{error} (RMS)" | "{error} (RMS)";
     const KIND_FINEST = "numerical error against this method's finest run" | "numerischer Fehler gegen den feinsten Lauf dieses Verfahrens";
     fn kind_given(name) = "true error against {name}" | "wahrer Fehler gegen {name}";
-    const AXIS_FINEST = "error to finest run" | "Fehler zum feinsten Lauf";
+    const AXIS_FINEST = "error to finest run" | "Abweichung vom feinsten Lauf";
     const AXIS_TRUE = "true error" | "wahrer Fehler";
-    const AXIS_REFERENCE = "error to reference" | "Fehler zur Referenz";
-    fn finest_direct(target, stated, rms, max) = "Reference of the direct illuminance: the ordinary method's finest run, error target {target}, states {stated}; from the second finest it lies {rms} RMS, {max} at most. What the method or the data leave out is not seen so." | "Referenz der direkten Beleuchtungsstärke: der feinste Lauf des üblichen Verfahrens, Fehlerziel {target}, gibt {stated} an; vom zweitfeinsten weicht er {rms} RMS ab, höchstens {max}. Was Verfahren oder Daten auslassen, ist so nicht zu sehen.";
-    fn finest_total(target, stated, rms, max) = "Reference of the total illuminance: the ordinary method's finest run, error target {target}, states {stated}; from the second finest it lies {rms} RMS, {max} at most. What the method or the data leave out is not seen so." | "Referenz der gesamten Beleuchtungsstärke: der feinste Lauf des üblichen Verfahrens, Fehlerziel {target}, gibt {stated} an; vom zweitfeinsten weicht er {rms} RMS ab, höchstens {max}. Was Verfahren oder Daten auslassen, ist so nicht zu sehen.";
-    fn given_direct(name, stated) = "Reference of the direct illuminance: {name}, by its own statement good to {stated} or better." | "Referenz der direkten Beleuchtungsstärke: {name}, nach eigener Angabe auf {stated} oder besser genau.";
-    fn given_total(name, stated) = "Reference of the total illuminance: {name}, by its own statement good to {stated} or better." | "Referenz der gesamten Beleuchtungsstärke: {name}, nach eigener Angabe auf {stated} oder besser genau.";
-    fn undetermined_finest(open, stated, difference) = "no error told: the finest run hardly refines this one (it states {open}, this one {stated}, they differ by {difference})" | "kein Fehler angegeben: Der feinste Lauf verfeinert diesen kaum (er gibt {open} an, dieser {stated}, sie weichen um {difference} voneinander ab)";
-    fn undetermined_given(name, open, stated, difference) = "no error told: {name} is itself open by {open}, this run states {stated}, they differ by {difference}" | "kein Fehler angegeben: {name} ist selbst um {open} offen, dieser Lauf gibt {stated} an, sie weichen um {difference} voneinander ab";
-    fn effort_enough(data, own) = "more effort does not help: the data leave ± {data} open, the computation ± {own}" | "mehr Aufwand hilft nicht: Die Daten lassen ± {data} offen, die Rechnung ± {own}";
-    fn effort_enough_from(setting, data, own) = "more effort than {setting} does not help: the data leave ± {data} open, the computation ± {own}" | "mehr Aufwand als {setting} hilft nicht: Die Daten lassen ± {data} offen, die Rechnung ± {own}";
+    const AXIS_REFERENCE = "error to reference" | "Abweichung vom Bezug";
+    fn finest_direct(target, stated, rms, max) = "Reference of the direct illuminance: finest run of the default method, error target {target}, states {stated}; the second finest differs from it by {rms} RMS, {max} at most. This does not show what the method or the data neglect." | "Bezug der direkten Beleuchtungsstärke: der feinste Lauf des Vorgabeverfahrens, Zielwert der Unsicherheit {target}, gibt {stated} an; der zweitfeinste weicht um {rms} RMS ab, höchstens {max}. Was Verfahren oder Daten vernachlässigen, zeigt sich so nicht.";
+    fn finest_total(target, stated, rms, max) = "Reference of the total illuminance: finest run of the default method, error target {target}, states {stated}; the second finest differs from it by {rms} RMS, {max} at most. This does not show what the method or the data neglect." | "Bezug der gesamten Beleuchtungsstärke: der feinste Lauf des Vorgabeverfahrens, Zielwert der Unsicherheit {target}, gibt {stated} an; der zweitfeinste weicht um {rms} RMS ab, höchstens {max}. Was Verfahren oder Daten vernachlässigen, zeigt sich so nicht.";
+    fn given_direct(name, stated) = "Reference of the direct illuminance: {name}, with a stated uncertainty of {stated} or better." | "Bezug der direkten Beleuchtungsstärke: {name}, mit einer angegebenen Unsicherheit von {stated} oder besser.";
+    fn given_total(name, stated) = "Reference of the total illuminance: {name}, with a stated uncertainty of {stated} or better." | "Bezug der gesamten Beleuchtungsstärke: {name}, mit einer angegebenen Unsicherheit von {stated} oder besser.";
+    fn undetermined_finest(open, stated, difference) = "no error reported: the finest run hardly refines this one (it states {open}, this one {stated}, they differ by {difference})" | "keine Abweichung angegeben: Der feinste Lauf verfeinert diesen kaum (er gibt {open} an, dieser {stated}, sie weichen um {difference} voneinander ab)";
+    fn undetermined_given(name, open, stated, difference) = "no error reported: {name} itself is uncertain by {open}, this run states {stated}, they differ by {difference}" | "keine Abweichung angegeben: {name} ist selbst um {open} unsicher, dieser Lauf gibt {stated} an, sie weichen um {difference} voneinander ab";
+    fn effort_enough(data, own) = "more effort does not help: uncertainty of the data ± {data}, of the computation ± {own}" | "mehr Aufwand hilft nicht: Unsicherheit der Daten ± {data}, der Rechnung ± {own}";
+    fn effort_enough_from(setting, data, own) = "more effort than {setting} does not help: uncertainty of the data ± {data}, of the computation ± {own}" | "mehr Aufwand als {setting} hilft nicht: Unsicherheit der Daten ± {data}, der Rechnung ± {own}";
 }
 
 use super::Text;

@@ -308,7 +308,7 @@ fn other_files_are_not_mended_into_catalogues() {
     assert!(check_file(&folder.path().join("none.sqlite")).is_err());
     std::fs::write(&path, "text ".repeat(1000)).unwrap();
     let told = check_file(&path).unwrap_err().to_string();
-    assert!(told.contains("no catalogue"), "{told}");
+    assert!(told.contains("not a catalogue"), "{told}");
 }
 
 #[test]

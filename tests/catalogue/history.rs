@@ -39,7 +39,7 @@ fn everything_that_happens_to_a_product_is_written_down_with_its_time() {
         [
             "state 0: “0” became “open”; state 45: “45” became “shut”; state 45: 45° became 40°",
             "restored",
-            "deleted (out of sight)",
+            "deleted (hidden)",
             "name “Blind” became “Louvre”; kind “” became “louvre”",
             "added",
         ]

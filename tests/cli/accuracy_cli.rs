@@ -45,7 +45,7 @@ fn errors_against_a_file_are_true_ones() {
     let (folder, lines) = prepared();
     let output = against(folder.path(), &lines, &["--csv", "ladder.csv", "--plot", "a.svg"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    for word in ["true error against given.csv", "true RMS", "by its own statement good to"] {
+    for word in ["true error against given.csv", "true RMS", "with a stated uncertainty of"] {
         assert!(text(&output.stdout).contains(word), "{word}: {}", text(&output.stdout));
     }
     assert!(!text(&output.stdout).contains("finest run"), "{}", text(&output.stdout));
@@ -74,7 +74,7 @@ fn errors_against_a_file_are_true_ones() {
     let rung = &value["series"][0]["rungs"][4];
     // The file is too uncertain to tell what is stated at this effort, and says so.
     assert!(
-        rung["error_rms"].is_null() && rung["remark"].as_str().unwrap().contains("given.csv is itself open"),
+        rung["error_rms"].is_null() && rung["remark"].as_str().unwrap().contains("given.csv itself is uncertain"),
         "{rung}"
     );
 }

@@ -48,7 +48,7 @@ fn a_fault_in_a_command_is_one_sentence_with_a_report_and_a_status_of_its_own() 
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!((output.status.code(), said.lines().count()), (Some(101), 1), "{said}");
     let [report] = &*reports(&folder.path().join("reports")) else { panic!("one report: {said}") };
-    for part in ["cfs: a fault of the program", "fault_cli.rs:", "sensor 41", &report.display().to_string()] {
+    for part in ["cfs: internal error at ", "fault_cli.rs:", "sensor 41", &report.display().to_string()] {
         assert!(said.contains(part), "{part} is not in {said}");
     }
     let text = std::fs::read_to_string(report).unwrap();
@@ -63,7 +63,7 @@ fn a_fault_whose_report_cannot_be_written_is_told_all_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let taken = folder.path().join("taken");
     std::fs::write(&taken, "").unwrap();
-    for (place, words) in [(Some(&*taken), "no report on it could be written"), (None, "no report on it is written")] {
+    for (place, words) in [(Some(&*taken), "the report could not be written"), (None, "no report is written")] {
         let error = guarded(place, || panic!("eleven")).unwrap_err();
         let said = error.to_string();
         assert!(said.contains("eleven") && said.contains(words), "{said}");

@@ -57,7 +57,7 @@ fn products_are_renamed_deleted_and_restored_by_key() {
     let deleted = stdout(&run(&["catalogue", "restore"]));
     assert!(deleted.contains("first-name") && deleted.contains("Second name"), "{deleted}");
     // All or none.
-    refused(&run(&["catalogue", "delete", "open-aperture", "first-name"]), &["first-name", "deleted already"]);
+    refused(&run(&["catalogue", "delete", "open-aperture", "first-name"]), &["first-name", "already deleted"]);
     assert!(stdout(&run(&["catalogue", "list"])).contains("open-aperture"));
     stdout(&run(&["catalogue", "restore", "first-name"]));
     assert!(stdout(&run(&["catalogue", "list"])).contains("first-name"));

@@ -218,7 +218,7 @@ fn merges_that_cannot_be(folder: &Path) {
     let error = merge(&["part-3-0.csv", "part-2-1.csv"]);
     assert!(error.contains("one of 3; expected pieces of one division"), "{error}");
     let error = merge(&["part-3-0.csv", "one.csv"]);
-    assert!(error.contains("one.csv: is no piece of a ranking"), "{error}");
+    assert!(error.contains("one.csv: is not a piece of a ranking"), "{error}");
     // Another value for the same key.
     let text = String::from_utf8(bytes(folder, "part-3-0.csv")).unwrap();
     let row = text.lines().nth(2).unwrap();

@@ -130,12 +130,12 @@ fn what_cannot_be_a_picture_or_a_report_is_refused_in_a_line() {
     );
     std::fs::write(folder.join("still.toml"), still.replace("[control]\nmode = \"cut-off\"\n", "")).unwrap();
     for (arguments, wrong) in [
-        (&["picture", "still.toml", "--tile", "control", "--out", "a.svg"][..], "nothing moves"),
+        (&["picture", "still.toml", "--tile", "control", "--out", "a.svg"][..], "no control"),
         (&["picture", "s.toml", "--tile", "plan", "--out", "a.svg"], "expected one of btdf, transmittance"),
         (&["picture", "s.toml", "--tile", "room", "--size", "90x90", "--out", "a.svg"], "expected e.g. 1600x1200"),
         (&["picture", "s.toml", "--tile", "room", "--out", "a.jpg"], ".svg or .png"),
         (&["report", "still.toml", "--out", "a.doc"], "written as .pdf"),
-        (&["report", "still.toml", "--sheet", "--tender", "t.txt", "--out", "a.pdf"], "{colour} is no field"),
+        (&["report", "still.toml", "--sheet", "--tender", "t.txt", "--out", "a.pdf"], "{colour} is not a field"),
         (&["report", "no-such-product", "--out", "a.pdf"], "no-such-product"),
     ] {
         std::fs::write(folder.join("t.txt"), "{name} in {colour}").unwrap();
@@ -230,7 +230,7 @@ fn a_study_tells_its_candidates_as_the_table_does_and_draws_them_on_one_scale() 
         let line = line.unwrap_or_else(|| panic!("{name}: {text}"));
         line[name.len()..].split("  ").map(|cell| cell.trim().trim_start_matches("▲ ").to_owned()).collect()
     };
-    for name in ["Mean illuminance / lx", "Darkest sensor / lx", "Luminous flux / lm", "Uniformity"] {
+    for name in ["Mean illuminance / lx", "Minimum illuminance / lx", "Luminous flux / lm", "Uniformity U_o"] {
         let cells = |text: &str| row(text, name).into_iter().filter(|cell| !cell.is_empty()).collect::<Vec<_>>();
         let (wanted, found) = (cells(&plain), cells(&study));
         assert!(wanted.len() >= 3 && found[..2] == wanted[..2], "{name}: {wanted:?} {found:?}");
@@ -238,7 +238,7 @@ fn a_study_tells_its_candidates_as_the_table_does_and_draws_them_on_one_scale() 
     // Marked is what is better beyond the errors, and nothing else.
     let figures = table["figures"].as_array().unwrap();
     let better: usize = figures.iter().map(|figure| figure["better"].as_array().unwrap().len()).sum();
-    let marks = study.lines().filter(|line| !line.contains("marks what")).map(|line| line.matches('▲').count());
+    let marks = study.lines().filter(|line| !line.contains("marks values")).map(|line| line.matches('▲').count());
     assert_eq!(marks.sum::<usize>(), better);
     assert!(better > 0);
 }
@@ -275,7 +275,7 @@ fn reports_and_pictures_speak_german_where_they_are_asked_to() {
             "study.pdf",
             &[
                 "Tageslichtstudie",
-                "Kennzahlen",
+                "Kennwerte",
                 "Bilder",
                 "Vergleich",
                 "Genauigkeit",
@@ -288,13 +288,20 @@ fn reports_and_pictures_speak_german_where_they_are_asked_to() {
             "sheet.pdf",
             &[
                 "Produktblatt",
-                "Wohin das Licht geht",
+                "Verteilung des durchgelassenen Lichts",
                 "Stellungen",
-                "Im Einsatz",
+                "Anwendungsbeispiel",
                 "Ausschreibungstext",
                 "Lichttransmissionsgrad",
             ],
-            &["Product sheet", "Where light goes", "In use", "Tender text", "normal incidence", "Manufacturer"],
+            &[
+                "Product sheet",
+                "Distribution of transmitted light",
+                "Application example",
+                "Tender text",
+                "normal incidence",
+                "Manufacturer",
+            ],
         ),
     ];
     for (name, wanted, unwanted) in headings {

@@ -150,7 +150,7 @@ fn flipped_bits_are_told_and_mended_from_the_file_they_came_from() {
     assert_eq!(check.status.code(), Some(1), "{}", said(&check));
     assert!(String::from_utf8(check.stdout).unwrap().contains("data of \"mine\""));
     let mended = done(at, &["catalogue", "check", "--repair"]);
-    assert!(mended.contains("mended: data of \"mine\"") && mended.contains(".damaged"), "{mended}");
+    assert!(mended.contains("repaired: data of \"mine\"") && mended.contains(".damaged"), "{mended}");
     done(at, &["room", "a.toml"]);
     // Without its file it is lost, and said so.
     let db = rusqlite::Connection::open(at.join("catalogue.cfsdb")).unwrap();
@@ -174,7 +174,7 @@ fn a_list_says_what_was_restored_and_what_it_leaves_out() {
     drop(db);
     let list = cfs(at, &["catalogue", "list"]);
     let warnings = said(&list);
-    assert!(warnings.contains("restored from what the program contains: clear-single."), "{warnings}");
+    assert!(warnings.contains("restored from the data built into the program: clear-single."), "{warnings}");
     assert!(warnings.contains("Not listed, because damaged in the catalogue: mine."), "{warnings}");
     let after = String::from_utf8(list.stdout).unwrap();
     assert_eq!(before.lines().count(), after.lines().count() + 1);
@@ -197,7 +197,7 @@ fn layouts_that_are_none_are_told_in_one_line_and_mended() {
         assert_eq!(told.status.code(), Some(2), "{number}");
         let error = said(&told);
         assert!(error.contains("check --repair") && !error.contains("CREATE") && error.lines().count() == 1, "{error}");
-        assert!(done(at, &["catalogue", "check", "--repair"]).contains("mended"), "{number}");
+        assert!(done(at, &["catalogue", "check", "--repair"]).contains("repaired"), "{number}");
         done(at, &["catalogue", "list"]);
     }
 }

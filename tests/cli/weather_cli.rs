@@ -151,7 +151,7 @@ fn keys_that_do_not_go_with_weather_are_named() {
         ("time = \"2026-06-21T12:30\"\ndiffuse_horizontal = 1e4".to_owned(), "sky.model: missing"),
         (
             "model = \"uniform\"\ndiffuse_horizontal = 1e4\nlight = \"file\"".to_owned(),
-            "sky.light: belongs to sky.weather alone",
+            "sky.light: is only valid with sky.weather",
         ),
         (
             "model = \"uniform\"\ndiffuse_horizontal = 1e4\nsun_offset_minutes = 30".to_owned(),

@@ -104,7 +104,7 @@ fn a_year_that_was_ended_goes_on() {
     let text = std::fs::read(&part).unwrap();
     std::fs::write(&part, &text[..text.len() - 5]).unwrap();
     let (text, told) = done(folder, &command);
-    assert!(told.contains(&format!("hours.csv.part: goes on behind {} hours", count - 1)), "{told}");
+    assert!(told.contains(&format!("hours.csv.part: resumes after {} hours", count - 1)), "{told}");
     assert_eq!(std::fs::read(folder.join("hours.csv")).unwrap(), table);
     let mut again: Value = serde_json::from_str(&text).unwrap();
     for one in [&mut whole, &mut again] {

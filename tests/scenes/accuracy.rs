@@ -106,7 +106,9 @@ fn a_run_that_the_reference_hardly_refines_has_no_error() {
     let padded = rung(5e-2, 1e-4, 1e-4);
     assert!(words::undetermined_reason(&padded, &finest).is_none() && padded.coverage().padded == 1.0);
     let given = Reference { origin: Origin::Given("lux.csv".into()), ..finest };
-    assert!(words::undetermined_reason(&rung(1e-3, 0.0, 1e-3), &given).unwrap().contains("lux.csv is itself open"));
+    assert!(
+        words::undetermined_reason(&rung(1e-3, 0.0, 1e-3), &given).unwrap().contains("lux.csv itself is uncertain")
+    );
     // It counts for no coverage.
     let rungs = vec![padded, rung(1e-3, 0.0, 1e-3)];
     let series = vec![Series { method: "room", quantity: Quantity::Total, rungs }];
@@ -123,7 +125,7 @@ fn effort_that_does_not_help_is_told() {
     };
     assert_eq!(words::data_limit(&limited(0.001)), None);
     let said = words::data_limit(&limited(0.07)).unwrap();
-    assert!(said.contains("does not help: the data leave ± 7.0 % open, the computation ± 1.0 %"), "{said}");
+    assert!(said.contains("does not help: uncertainty of the data ± 7.0 %, of the computation ± 1.0 %"), "{said}");
     // Measured data between whose directions the sun stands: the data leave more open than their cells.
     let scene = text(MADE, &clear(35.0, 190.0, 60_000.0), GRID).scene_with(klems(rough));
     let accuracy = ladder(&scene, &Silent).unwrap();

@@ -122,7 +122,7 @@ fn a_beam_is_in_the_files_or_left_to_the_host() {
     assert!((apart.direction.z + sin).abs() < 1e-4 && apart.direction.y > 0.98 * cos, "{:?}", apart.direction);
     assert!((apart.normal / 49_000.0 - 1.0).abs() < 1e-3);
     let header = String::from_utf8(left.files[9].bytes.clone()).expect("ASCII").replace("\r\n[MORE]", "");
-    for gist in ["tile 10 of 140", "14 x 10 tiles", "Without the straight sunbeam", "rms", "sun 35.0/170.0"] {
+    for gist in ["tile 10 of 140", "14 x 10 tiles", "Without direct sunlight", "rms", "sun 35.0/170.0"] {
         assert!(header.contains(gist), "{gist}");
     }
 }

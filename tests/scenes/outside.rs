@@ -142,11 +142,11 @@ fn a_flat_skyline_by_bearings_is_the_horizontal_one() {
 #[test]
 fn the_plan_says_what_was_split() {
     let far = words(&text(DIFFUSE, OVERCAST, &a_box([-9e3, -9e3, 0.0], [9e3, -8e3, 2e3], "")));
-    assert!(far.contains("aperture 1: not split"), "{far}");
+    assert!(far.contains("aperture 1: not subdivided"), "{far}");
     let fin = words(&text(DIFFUSE, OVERCAST, &a_box([0.3, -0.9, 0.0], [0.5, 0.0, 3.0], "")));
-    assert!(fin.contains("aperture 1: split into"), "{fin}");
+    assert!(fin.contains("aperture 1: subdivided into"), "{fin}");
     let through = words(&text(CLEAR, OVERCAST, &a_box([0.3, -0.9, 0.0], [0.5, 0.0, 3.0], "")));
-    assert!(through.contains("every sensor looks straight through"), "{through}");
+    assert!(through.contains("all calculation points see the sky through it"), "{through}");
     assert!(words(&text(DIFFUSE, OVERCAST, "")).is_empty());
 }
 

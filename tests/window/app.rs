@@ -117,7 +117,7 @@ fn typing_in_the_search_field_filters_the_list() {
     harness.key_press(Key::Num1);
     settle(&mut harness);
     assert_eq!(maximised(&harness), None);
-    assert!(harness.query_by_label("Nothing has all these words.").is_some());
+    assert!(harness.query_by_label("No product contains all these words.").is_some());
 }
 
 #[test]

@@ -49,13 +49,13 @@ fn turn_and_point(harness: &mut Harness<'_, App>, name: &str) {
 #[test]
 fn what_leaves_is_a_body_or_cuts_or_a_disk() {
     let mut harness = alone("BTDF", "3D");
-    assert!(value(&harness, "Emergent body").starts_with("largest q "), "{}", value(&harness, "Emergent body"));
-    turn_and_point(&mut harness, "Emergent body");
+    assert!(value(&harness, "3D polar surface").starts_with("largest q "), "{}", value(&harness, "3D polar surface"));
+    turn_and_point(&mut harness, "3D polar surface");
     // Every node of the body reaches the origin's neighbourhood or more: something is under its middle.
-    assert!(harness.query_by_label_contains("off the normal").is_some());
+    assert!(harness.query_by_label_contains("to the normal").is_some());
     assert!(harness.query_by_label("Emergent hemisphere").is_none());
-    click(&mut harness, "Cuts");
-    assert!(value(&harness, "Emergent cuts").starts_with("largest "));
+    click(&mut harness, "Curves");
+    assert!(value(&harness, "Section curves").starts_with("largest "));
     assert!(harness.query_by_label("in the plane of incidence").is_some());
     click(&mut harness, "Disk");
     assert!(harness.query_by_label("Emergent hemisphere").is_some());
@@ -64,9 +64,9 @@ fn what_leaves_is_a_body_or_cuts_or_a_disk() {
 #[test]
 fn the_lid_is_a_body_with_its_peak() {
     let mut harness = alone("LID", "3D");
-    let told = value(&harness, "LID body");
+    let told = value(&harness, "LID 3D polar surface");
     assert!(told.starts_with("peak ") && told.contains(" to C ") && told.contains("γ"), "{told}");
-    turn_and_point(&mut harness, "LID body");
+    turn_and_point(&mut harness, "LID 3D polar surface");
     assert!(harness.query_all_by_label_contains("cd").any(|node| node.value().is_some_and(|it| it.starts_with("C "))));
     click(&mut harness, "3D");
     assert!(harness.query_by_label("LID polar diagram").is_some());

@@ -154,9 +154,9 @@ fn the_control_tile_says_why_nothing_moves() {
     let mut h = window();
     control_tile(&mut h);
     apply(&mut h, Command::Select("clear-double".into()));
-    let fixed = "This pane has one state. Blinds, louvres and switchable glazing are controlled here.";
+    let fixed = "This pane has one state. Blinds, louvres and switchable glazing can be controlled here.";
     assert!(h.query_by_label(fixed).is_some());
-    assert!(h.query_by_label_contains("by hand").is_none(), "what does not move is not set by hand");
+    assert!(h.query_by_label_contains("manual").is_none(), "what does not move is not set by hand");
     // Without a product nothing is said of one.
     let known = std::mem::replace(&mut h.state_mut().state.catalogue, CatalogueState::Opening);
     h.state_mut().state.product = None;
@@ -165,8 +165,8 @@ fn the_control_tile_says_why_nothing_moves() {
     h.state_mut().state.catalogue = known;
     h.state_mut().state.document.selection.product.clear();
     h.run_steps(2);
-    assert!(h.query_all_by_label("No product chosen: choose one in the catalogue.").count() > 0);
-    assert!(h.query_by_label_contains("does not move").is_none());
+    assert!(h.query_all_by_label("No product selected: select one in the catalogue.").count() > 0);
+    assert!(h.query_by_label_contains("has only one state").is_none());
 }
 
 #[test]
@@ -175,13 +175,13 @@ fn facets_fold_into_menus_and_what_is_chosen_goes_by_a_click() {
     let all = state(&h).found.total;
     let moving = state(&h).found.facets.moving;
     assert!(moving[0] + moving[1] == all && moving[0] > 0);
-    h.get_by_label("Filter by moves").click();
+    h.get_by_label("Filter by movable").click();
     h.run_steps(3);
     h.get_by_label(&format!("fixed  {}", moving[1])).click();
     settle(&mut h);
     assert_eq!((state(&h).query.moving, state(&h).found.entries.len()), (Some(false), moving[1]));
     // The menu is still open: a second choice takes the first back.
-    h.get_by_label(&format!("moving  {}", moving[0])).click();
+    h.get_by_label(&format!("movable  {}", moving[0])).click();
     settle(&mut h);
     assert_eq!(state(&h).query.moving, Some(true));
     h.key_press(Key::Escape);
@@ -194,7 +194,7 @@ fn facets_fold_into_menus_and_what_is_chosen_goes_by_a_click() {
     h.key_press(Key::Escape);
     h.run_steps(3);
     assert_eq!(state(&h).found.entries.len(), blinds);
-    h.get_by_label("Without moving").click();
+    h.get_by_label("Without movable").click();
     settle(&mut h);
     assert!(!state(&h).query.has(Filter::Moving) && state(&h).query.has(Filter::Kinds));
     h.get_by_label("Without venetian").click();
@@ -210,7 +210,7 @@ fn where_nothing_is_found_a_click_relaxes_what_stands_in_the_way() {
     assert!(state(&h).found.entries.is_empty());
     let panels = state(&h).found.without.iter().find(|(filter, _)| *filter == Filter::Moving).unwrap().1;
     let products = if panels == 1 { "1 product".to_owned() } else { format!("{panels} products") };
-    h.get_by_label(&format!("{products} without “moving”")).click();
+    h.get_by_label(&format!("{products} without “movable”")).click();
     settle(&mut h);
     assert_eq!((state(&h).query.text.as_str(), state(&h).query.moving), ("laser", None));
     assert_eq!(state(&h).found.entries.len(), panels);
@@ -239,7 +239,7 @@ fn the_list_is_ordered_by_what_is_chosen() {
     };
     assert!(matches!(state(&h).query.sort, Sort::By(_)));
     assert!(values(&h).len() > 3 && values(&h).is_sorted_by(|a, b| a >= b), "the greatest first");
-    h.get_by_label("Falling order").click();
+    h.get_by_label("Descending").click();
     settle(&mut h);
     assert!(values(&h).is_sorted());
 }

@@ -27,7 +27,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 const ASK: &str = "Rank the catalogue for this façade";
-const LIST: &str = "Products in order; arrow keys walk, Enter takes one into the room";
+const LIST: &str = "Ranked products; arrow keys select, Enter puts one into the room";
 
 fn window_in(theme: Theme, size: [f32; 2]) -> (Harness<'static, App>, Arc<Ranks>) {
     let engine = Arc::new(Ranks::default());
@@ -86,10 +86,10 @@ fn a_click_ranks_the_catalogue_and_undo_takes_what_it_put_into_the_scene() {
     assert_eq!(counts[..2], ["lighting.LENI_kWh_m2", "UDI_a"]);
     assert!(counts.iter().any(|figure| figure.starts_with("glare.Ev_1.")) && counts.contains(&"movements"));
     // What is left out is folded, and says why.
-    assert_eq!(harness.query_all_by_label_contains("Takes no part").count(), 0);
-    harness.get_by_label("left out (1)").click();
+    assert_eq!(harness.query_all_by_label_contains("Excluded: ").count(), 0);
+    harness.get_by_label("excluded (1)").click();
     settle(&mut harness);
-    harness.get_by_label("Empty frame: Takes no part: no transmission for light from outside");
+    harness.get_by_label("Empty frame: Excluded: no transmission for light from outside");
     assert_eq!(order(&harness).len(), 5);
     apply(&mut harness, Command::Undo);
     assert_eq!(harness.state().state.document.scene, before);
@@ -115,12 +115,12 @@ fn coarse_results_come_first_a_stop_keeps_them_and_it_goes_on_from_there() {
     assert!(!harness.state().works_in(Lane::Rank) && engine.years.load(Ordering::Relaxed) == 0);
     assert_eq!(order(&harness).len(), 4, "what was found stays");
     engine.hold.store(false, Ordering::Relaxed);
-    harness.get_by_label("Go on").click();
+    harness.get_by_label("Continue").click();
     harness.run_steps(2);
     settle(&mut harness);
     assert_eq!(engine.years.load(Ordering::Relaxed), 5);
     assert_eq!(harness.state().results.rank.value.as_ref().unwrap().unfinished(), 0);
-    assert!(harness.query_by_label("Go on").is_none());
+    assert!(harness.query_by_label("Continue").is_none());
 }
 
 #[test]
@@ -132,7 +132,7 @@ fn weights_and_further_objectives_order_anew_without_computing() {
     assert_eq!(order(&harness), "abcd");
     // By a slider that stands there.
     look(&mut harness, |look| look.page = Page::Objectives);
-    harness.get_by_role_and_label(Role::Slider, "Weight of Lighting energy").focus();
+    harness.get_by_role_and_label(Role::Slider, "Weight of Lighting energy LENI").focus();
     harness.run_steps(2);
     for _ in 0..45 {
         harness.key_press(Key::ArrowRight);
@@ -207,7 +207,7 @@ fn another_room_is_told_going_back_costs_nothing_and_a_new_product_costs_one() {
 fn the_search_limits_what_is_ranked() {
     let (mut harness, engine) = window();
     apply(&mut harness, Command::Find(Query { text: "pane".to_owned(), ..Query::default() }));
-    harness.get_by_label("only what the search finds (2)").click();
+    harness.get_by_label("only search results (2)").click();
     settle(&mut harness);
     harness.get_by_label(ASK).click();
     harness.run_steps(2);
@@ -246,14 +246,14 @@ fn keys_walk_enter_takes_into_the_room_and_undo_takes_it_back() {
     apply(&mut harness, Command::Undo);
     assert_eq!(in_room(&harness), "a");
     // Two clicks into the tray: the row, the button.
-    let row = harness.query_all_by_label_contains("Deep screen: worth").next().expect("its row");
+    let row = harness.query_all_by_label_contains("Deep screen: score").next().expect("its row");
     row.click();
     settle(&mut harness);
-    harness.get_by_label("Into the comparison").click();
+    harness.get_by_label("Add to comparison").click();
     settle(&mut harness);
     let tray: Vec<String> = harness.state().state.document.scene.compare.iter().map(|one| one.name.clone()).collect();
     assert_eq!(tray, ["Deep screen"]);
-    harness.get_by_label("Into the room").click();
+    harness.get_by_label("Put into the room").click();
     settle(&mut harness);
     assert_eq!(in_room(&harness), "d");
     apply(&mut harness, Command::Undo);
@@ -308,7 +308,7 @@ fn why_one_is_before_another_adds_up_in_words() {
 #[test]
 fn rows_are_filtered_sorted_and_handed_on() {
     let (mut harness, _) = ranked();
-    harness.get_by_label("Order by Product").click();
+    harness.get_by_label("Sort by Product").click();
     settle(&mut harness);
     assert_eq!((order(&harness), harness.state().state.settings.choose.sort.clone()), ("abdc".to_owned(), Sort::Name));
     look(&mut harness, |look| look.words = "PANE".to_owned());
@@ -350,13 +350,13 @@ fn without_a_ranking_nothing_of_it_is_handed_on_and_an_empty_search_is_told() {
     apply(&mut harness, Command::ExportTile(CHOOSE));
     apply(&mut harness, Command::ExportChoices(Box::new(choices)));
     let Some(Err(told)) = &harness.state().state.export.shown else { panic!("a ranking out of nothing") };
-    assert!(told.contains("make one in the Choose tile"), "{told}");
+    assert!(told.contains("compute one in the Ranking tile"), "{told}");
     apply(&mut harness, Command::Sheet(None));
     apply(&mut harness, Command::Find(Query { text: "qqqqqqqq".to_owned(), ..Query::default() }));
     look(&mut harness, |look| look.in_search = true);
     apply(&mut harness, Command::Choose(ChooseAct::Rank));
     let error = harness.state().results.rank.error.clone().expect("it is told");
-    assert!(error.contains("No product is found"), "{error}");
+    assert!(error.contains("No product matches"), "{error}");
 }
 
 #[test]

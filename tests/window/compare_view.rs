@@ -137,7 +137,7 @@ fn a_row_of_the_catalogue_goes_in_and_out_by_its_sign_and_six_are_most() {
     let moving = harness.state().state.document.scene.compare.iter().find(|one| one.control.is_some());
     assert!(moving.is_some_and(|one| one.name.contains(", ")), "{:?}", tray(&harness));
     let first = entries[0].name.clone();
-    harness.get_by_label(&format!("Take out of the comparison: {first}")).click();
+    harness.get_by_label(&format!("Remove from the comparison: {first}")).click();
     settle(&mut harness);
     assert!(tray(&harness).len() == 5 && !tray(&harness)[0].starts_with(&first));
     harness.get_by_label(&format!("Compare: {first}")).click();
@@ -266,7 +266,7 @@ fn products_like_the_shown_one_are_listed_with_their_distance() {
     assert!(like.distances.windows(2).all(|pair| pair[0].distance <= pair[1].distance));
     // Glass is like glass.
     assert!(["pane", "stack"].contains(&found.entries[0].kind.as_str()), "{:?}", found.entries[0].name);
-    harness.get_by_label_contains("No longer like").click();
+    harness.get_by_label_contains("No longer similar to").click();
     settle(&mut harness);
     assert!(harness.state().state.found.like.is_none());
     assert!(harness.query_all_by_label_contains("Compare: ").all(|node| !node.accesskit_node().is_disabled()));
@@ -341,10 +341,10 @@ fn the_comparison_speaks_german() {
     let (mut harness, _) = two();
     act(&mut harness, Act::Look(Look::Figures));
     apply(&mut harness, Command::Language(LanguageChoice::German));
-    for label in ["Nebeneinander", "Kennzahlen", "Tauschen", "Schließen", "Als CSV kopieren", "Besser"] {
+    for label in ["Nebeneinander", "Kennwerte", "Tauschen", "Schließen", "Als CSV kopieren", "Besser"] {
         assert!(harness.query_all_by_label(label).count() > 0, "{label}");
     }
-    assert!(harness.query_all_by_label_contains("Dunkelster Messpunkt / lx").count() > 0);
+    assert!(harness.query_all_by_label_contains("Kleinste Beleuchtungsstärke / lx").count() > 0);
     assert!(harness.query_by_label("Kandidat 1 Clear opening").is_some());
     for english in ["Side by side", "Figures", "Swap", "Copy as CSV", "Better"] {
         assert_eq!(harness.query_all_by_label(english).count(), 0, "{english}");

@@ -127,7 +127,7 @@ fn a_fault_is_told_in_german() {
     harness.state_mut().state.document.scene.room.reflectance.floor = FAULT;
     settle(&mut harness);
     let told = said(&harness).pop().unwrap();
-    assert!(told.contains("Programmfehler") && told.contains("ein Bericht zum Weitersenden steht in"), "{told}");
+    assert!(told.contains("interner Fehler") && told.contains("ein Bericht zum Weitersenden steht in"), "{told}");
     assert!(harness.query_all_by_label("Bericht kopieren").count() > 0);
 }
 
@@ -140,7 +140,7 @@ fn a_report_that_cannot_be_written_is_told() {
     harness.state_mut().state.document.scene.room.reflectance.floor = FAULT;
     settle(&mut harness);
     let told = said(&harness).pop().unwrap();
-    assert!(told.contains("at fault on purpose") && told.contains("no report on it could be written"), "{told}");
+    assert!(told.contains("at fault on purpose") && told.contains("the report could not be written"), "{told}");
 }
 
 /// A fault on the window's own thread: its message.
@@ -191,11 +191,11 @@ fn a_session_that_ends_the_program_again_and_again_is_set_aside() {
     let third = window_in(sessions.path(), reports.path());
     assert_ne!(title(&third.state().state), own);
     let told = said(&third);
-    assert!(told.len() == 1 && told[0].contains("set aside") && told[0].contains(".txt"), "{told:?}");
+    assert!(told.len() == 1 && told[0].contains("was moved to") && told[0].contains(".txt"), "{told:?}");
     let [(_, aside)] = &*texts(sessions.path(), "aside") else { panic!("it is there still") };
     assert!(aside.contains("14:00"), "{aside}");
     // Told once.
     let left = killed(sessions.path());
     drop(third);
-    assert!(!said(&window_in(left.path(), reports.path())).iter().any(|text| text.contains("set aside")));
+    assert!(!said(&window_in(left.path(), reports.path())).iter().any(|text| text.contains("was moved to")));
 }

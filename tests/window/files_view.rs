@@ -103,7 +103,7 @@ fn unlike_files_become_products_of_their_own_and_can_be_taken_otherwise_before_t
     for label in ["3 products of 4 states", "Venetian: 0°, 45°", "Satine", "Honeycomb"] {
         assert!(harness.query_all_by_label(label).next().is_some(), "{label}");
     }
-    harness.get_by_label("Every file apart").click();
+    harness.get_by_label("One product per file").click();
     settle(&mut harness);
     assert_eq!(proposed(&harness).len(), 4);
     harness.get_by_label("All one product").click();
@@ -153,7 +153,7 @@ fn the_same_again_is_told_before_it_is_added() {
     assert!(harness.query_by_label("Already in the catalogue as Screen").is_some());
     apply(&mut harness, Command::AddImport);
     assert_eq!(products(&harness), before + 1, "not without being asked for");
-    harness.get_by_label("Show it").click();
+    harness.get_by_label("Show").click();
     settle(&mut harness);
     assert_eq!(harness.state().state.document.selection.product, "screen");
     harness.get_by_label("Add anyway").click();
@@ -182,7 +182,7 @@ fn a_folder_is_read_and_what_is_no_dataset_is_listed_with_the_reason() {
         import(&harness).left_out,
         ["notes.pdf: not a dataset (.xml, .btdf.txt, .cfsd)", "office.toml: a scene; open it by itself"]
     );
-    assert!(harness.query_by_label("Left out: 2 files").is_some());
+    assert!(harness.query_by_label("Skipped: 2 files").is_some());
     let empty = tempfile::tempdir().unwrap();
     apply(&mut harness, Command::OpenPaths(vec![empty.path().to_owned()]));
     assert!(import(&harness).left_out[0].contains("a folder without files"));
@@ -203,7 +203,7 @@ fn a_typed_folder_is_opened_by_the_keyboard_alone_and_added_from_the_palette() {
     assert_eq!(import(&harness).products.len(), 3);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::K);
     harness.run_steps(3);
-    harness.get_by_role_and_label(Role::TextInput, "Command").type_text("add what was read");
+    harness.get_by_role_and_label(Role::TextInput, "Command").type_text("add import to catalogue");
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     settle(&mut harness);
@@ -272,7 +272,7 @@ fn products_are_renamed_and_deleted_and_undo_and_the_list_bring_them_back() {
     harness.get_by_label("Restore Awning").click();
     settle(&mut harness);
     assert_eq!(products(&harness), total);
-    assert!(harness.query_by_label("No product is deleted.").is_some());
+    assert!(harness.query_by_label("No deleted products.").is_some());
 }
 
 #[test]
@@ -287,7 +287,7 @@ fn a_file_that_exists_is_not_written_over_unasked() {
     harness.get_by_label("Save").click();
     settle(&mut harness);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
-    assert!(harness.query_by_label("A file of this name exists already.").is_some());
+    assert!(harness.query_by_label("A file of this name already exists.").is_some());
     harness.get_by_label("Other name").click();
     settle(&mut harness);
     assert!(harness.query_by_label("Replace").is_none());
@@ -339,9 +339,9 @@ fn messages_leave_by_themselves_or_by_a_click_never_cover_the_status_line_and_st
     harness.run_steps(3);
     assert_eq!(harness.state().state.sheet, Some(Sheet::Messages));
     assert!(harness.query_by_label(&text).is_some());
-    harness.get_by_label("Forget all").click();
+    harness.get_by_label("Clear all").click();
     harness.run_steps(3);
-    assert!(harness.query_by_label("Nothing was said yet.").is_some());
+    assert!(harness.query_by_label("No messages yet.").is_some());
 }
 
 /// Waits until the session on disk says something.
@@ -392,7 +392,7 @@ fn what_was_open_is_restored_after_a_kill_and_told_once() {
     assert_eq!(state.goniophotometer.text, "name = \"half typed");
     assert_eq!((import(&restored).grouping, import(&restored).products.len()), (Grouping::Each, 4));
     assert_eq!(import(&restored).products[2].fields.name, "Half named");
-    assert_eq!(said(&restored).iter().filter(|text| text.starts_with("Restored what was open at ")).count(), 1);
+    assert_eq!(said(&restored).iter().filter(|text| text.starts_with("Session of ")).count(), 1);
     // Closed in order, the next one starts there without a word.
     let mut restored = restored;
     restored.state_mut().close();

@@ -124,7 +124,7 @@ fn what_was_shown_last_is_a_facet() {
     for key in ["clear-double", "laser-cut-panel"] {
         apply(&mut h, Command::Select(key.into()));
     }
-    h.get_by_label("Products shown last alone, the last first").click();
+    h.get_by_label("Recently shown products only, newest first").click();
     settle(&mut h);
     let keys: Vec<&str> = state(&h).found.entries.iter().map(|entry| entry.key.as_str()).collect();
     assert_eq!(keys, ["laser-cut-panel", "clear-double", "venetian-80-72"]);
@@ -166,7 +166,7 @@ fn products_are_collected_and_starred_and_undo_goes_over_both() {
     h.get_by_label("Show: Atrium").click();
     settle(&mut h);
     assert_eq!(state(&h).found.entries.len(), 2);
-    h.get_by_label("Disband: Atrium").click();
+    h.get_by_label("Delete: Atrium").click();
     settle(&mut h);
     assert!(inside(&h).is_empty());
     apply(&mut h, Command::Undo);

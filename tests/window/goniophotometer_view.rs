@@ -36,7 +36,7 @@ fn from_an_example_to_the_catalogue_and_out_again() {
     harness.key_press(Key::G);
     harness.run_steps(3);
     assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
-    assert!(section(&harness).contains("Choose an example"));
+    assert!(section(&harness).contains("Select an example"));
     let before = harness.state().state.found.total;
     harness.get_by_label("Panes").click();
     harness.run_steps(3);
@@ -82,7 +82,7 @@ fn the_drawing_follows_the_text_and_its_states() {
     harness.state_mut().apply(Command::EditSystem(wrong));
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("venetian.spacing: -1; expected metres").is_some());
-    assert!(section(&harness).contains("Choose an example"));
+    assert!(section(&harness).contains("Select an example"));
     harness.state_mut().apply(Command::MeasureSystem);
     assert!(!harness.state().busy());
     harness.state_mut().apply(Command::SystemExample(1));

@@ -157,7 +157,7 @@ fn a_series_has_an_index_that_names_every_file() {
     std::fs::remove_file(folder.join(&name)).unwrap();
     harness.get_by_label("Write").click();
     settle(&mut harness);
-    harness.get_by_label("Files of these names exist already.");
+    harness.get_by_label("Files of these names already exist.");
     assert!(!folder.join(&name).exists());
     harness.get_by_label("Replace").click();
     settle(&mut harness);
@@ -191,7 +191,7 @@ fn a_window_goes_out_in_tiles_that_are_one_aperture_again() {
     let (names, words): (Vec<String>, Vec<String>) = files.iter().cloned().unzip();
     assert!(names[0].ends_with(".index.csv") && names[1].ends_with("_1.ldt"), "{names:?}");
     // Nothing is computed before it is asked for.
-    assert!(words[0].contains("as they are written") && words[1] == "the first tile", "{words:?}");
+    assert!(words[0].contains("while writing") && words[1] == "the first luminaire", "{words:?}");
     write(&mut harness, folder.path());
     let own = folder.path().join(names[0].trim_end_matches(".index.csv"));
     let back = luminaires::read(&own.join(&names[0]), None).unwrap();
@@ -213,7 +213,7 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
     apply(&mut harness, Command::EditPath(own.display().to_string()));
     harness.get_by_label("Write").click();
     settle(&mut harness);
-    harness.get_by_label("A file of this name exists already.");
+    harness.get_by_label("A file of this name already exists.");
     assert_eq!(std::fs::read(&own).unwrap(), b"mine");
     // Another form: the own name stays, with its ending.
     choose(&mut harness, |choices| choices.vector = true);
@@ -232,7 +232,7 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
         choices.tender = "{colour}".to_owned();
     });
     let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
-    assert!(error.contains("line 1") && error.contains("{colour} is no field"), "{error}");
+    assert!(error.contains("line 1") && error.contains("{colour} is not a field"), "{error}");
 }
 
 #[test]

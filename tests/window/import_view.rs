@@ -107,7 +107,7 @@ fn families_are_found_among_other_files_and_what_is_not_certain_is_asked() {
     assert!(!again.wanted());
     // The question is in its place, in words.
     assert!(harness.query_by_label(&Ambiguity::NumbersAlone.question()).is_some());
-    assert!(harness.query_by_label("1 question open: what they are about stays here.").is_some());
+    assert!(harness.query_by_label("1 question open: the files concerned stay here.").is_some());
     // What is certain goes in at once; the question stays, and so does the sheet.
     harness.get_by_label("Add 6 products to catalogue").click();
     settle(&mut harness);
@@ -229,7 +229,7 @@ fn rows_are_put_together_by_mouse_and_keyboard_and_states_get_angles_before_anyt
         harness.run_steps(2);
         assert_eq!(import(&harness).selected.len(), count);
     }
-    harness.get_by_label("One product of these").click();
+    harness.get_by_label("Make one product").click();
     settle(&mut harness);
     assert_eq!(import(&harness).products.len(), 2);
     let names = |harness: &Harness<'_, App>| keys_of(import(harness), "panel a.xml");
@@ -280,7 +280,7 @@ fn files_are_taken_apart_and_given_to_another_product_and_what_was_typed_goes_wi
     // One of them is something else after all.
     let flat = place(&harness, "ven0.xml");
     apply(&mut harness, Command::Import(Step::Choose(flat, Choose::Only)));
-    harness.get_by_label("Each its own").click();
+    harness.get_by_label("Make separate products").click();
     settle(&mut harness);
     assert_eq!(import(&harness).products.len(), 2);
     assert_eq!(import(&harness).products.iter().map(|one| one.datasets.len()).max(), Some(3));
@@ -291,7 +291,7 @@ fn files_are_taken_apart_and_given_to_another_product_and_what_was_typed_goes_wi
     assert!(problem.contains("85") && !import(&harness).products[thirty.0].ready(), "{problem}");
     assert!(harness.query_by_label(&problem).is_some());
     apply(&mut harness, Command::Import(Step::Name(thirty, StateWords { angle: "x".into(), name: String::new() })));
-    assert!(import(&harness).products[thirty.0].problem().unwrap().contains("“x” is no angle"));
+    assert!(import(&harness).products[thirty.0].problem().unwrap().contains("“x” is not an angle"));
 }
 
 #[test]
@@ -300,9 +300,9 @@ fn words_are_typed_once_for_all_that_are_chosen() {
     loose(folder.path());
     let mut harness = window();
     open(&mut harness, folder.path());
-    harness.get_by_label("Choose all").click();
+    harness.get_by_label("Select all").click();
     harness.run_steps(3);
-    assert!(harness.query_by_label("About 4 products").is_some());
+    assert!(harness.query_by_label("Details of 4 products").is_some());
     harness.get_by_role_and_label(Role::TextInput, "Kind").focus();
     harness.run_steps(1);
     harness.get_by_role_and_label(Role::TextInput, "Kind").type_text("prism");
@@ -384,7 +384,7 @@ fn an_archive_with_folders_and_a_package_in_it_is_taken_in_like_a_folder() {
     apply(&mut harness, Command::AddAnyway(0, true));
     apply(&mut harness, Command::AddImport);
     assert_eq!(products(&harness), before + 2);
-    assert!(said(&harness).iter().any(|text| text.contains("there already")), "{:?}", said(&harness));
+    assert!(said(&harness).iter().any(|text| text.contains("already there")), "{:?}", said(&harness));
     apply(&mut harness, Command::Undo);
     assert_eq!(products(&harness), before + 2);
 }

@@ -53,7 +53,7 @@ fn a_path_can_be_typed_in_the_first_frames_of_a_window() {
 fn a_path_can_be_typed_whatever_else_had_the_keyboard() {
     let mut harness = window();
     // A field of the scene, and the search field, which asks for it itself.
-    harness.get_by_role_and_label(Role::TextInput, "Time").focus();
+    harness.get_by_role_and_label(Role::TextInput, "Local time").focus();
     harness.run_steps(2);
     open_path(&mut harness);
     harness.step();

@@ -114,7 +114,7 @@ fn an_overhang_is_dragged_by_metres_in_the_section_and_one_undo_takes_it_back() 
 fn a_face_is_dragged_in_the_plan_while_the_picture_stands_still() {
     let mut harness = room(RoomView::Plan);
     let before = solid(&harness, 0);
-    let plan = harness.get_by_label("Room plan").rect();
+    let plan = harness.get_by_label("Floor plan of the room").rect();
     let scale = plan.height() / 4.0;
     let outer = harness.get_by_label("Overhang, outer side").rect().center();
     harness.hover_at(outer);
@@ -125,14 +125,14 @@ fn a_face_is_dragged_in_the_plan_while_the_picture_stands_still() {
         harness.hover_at(outer - vec2(share * 0.42 * scale, 0.0));
         harness.run_steps(2);
     }
-    assert_eq!(harness.get_by_label("Room plan").rect(), plan);
+    assert_eq!(harness.get_by_label("Floor plan of the room").rect(), plan);
     assert_eq!(value(&harness, "Overhang, outer side"), "-1.40 to 0.00 m, 1.40 m");
     harness.drop_at(outer - vec2(0.42 * scale, 0.0));
     settle(&mut harness);
     let after = solid(&harness, 0);
     assert_eq!((after.from[1], after.to), (-1.4, before.to));
     // Then the picture makes room for it.
-    assert!(harness.get_by_label("Room plan").rect().left() > plan.left());
+    assert!(harness.get_by_label("Floor plan of the room").rect().left() > plan.left());
     undo(&mut harness);
     assert_eq!(solid(&harness, 0), before);
 }
@@ -168,14 +168,14 @@ fn the_keyboard_moves_a_box_keeps_it_out_of_the_room_and_takes_it_away() {
 #[test]
 fn far_boxes_leave_the_room_large_and_are_told_with_their_distance() {
     let mut harness = room(RoomView::Plan);
-    let before = harness.get_by_label("Room plan").rect();
+    let before = harness.get_by_label("Floor plan of the room").rect();
     apply(&mut harness, Command::Outside(Act::Add(Kind::Neighbour)));
-    let after = harness.get_by_label("Room plan").rect();
+    let after = harness.get_by_label("Floor plan of the room").rect();
     assert!(after.width() > 0.9 * before.width(), "{before:?} {after:?}");
-    assert!(value(&harness, "Outside, beyond the picture").contains("Neighbour 15.0 m away"));
+    assert!(value(&harness, "Obstructions beyond the picture").contains("Neighbour 15.0 m away"));
     assert!(harness.query_by_label("Move Neighbour").is_none());
     apply(&mut harness, Command::RoomView(RoomView::Section));
-    assert!(value(&harness, "Outside, beyond the picture").contains("Neighbour 15.0 m away"));
+    assert!(value(&harness, "Obstructions beyond the picture").contains("Neighbour 15.0 m away"));
 }
 
 #[test]
@@ -199,18 +199,18 @@ fn the_section_shows_the_sun_s_shade_on_the_ground_while_something_stands_outsid
     high.site.ground_height = -9.0;
     apply(&mut harness, Command::Scene(Box::new(high.clone())));
     assert!(harness.query_by_label("Ground outside").is_none());
-    assert!(value(&harness, "Outside, beyond the picture").contains("ground 9.0 m below the floor"));
+    assert!(value(&harness, "Obstructions beyond the picture").contains("ground 9.0 m below the floor"));
     (high.site.ground_height, high.outside) = (0.0, Vec::new());
     apply(&mut harness, Command::Scene(Box::new(high)));
     assert!(harness.query_by_label("Ground outside").is_none());
-    assert!(harness.query_by_label("Outside, beyond the picture").is_none());
+    assert!(harness.query_by_label("Obstructions beyond the picture").is_none());
 }
 
 /// A tall window with the panel's section open.
 fn panel() -> Harness<'static, App> {
     let mut harness = frames(App::for_test(Arc::new(Idle)), [1280.0, 1400.0]);
     settle(&mut harness);
-    unfold(&mut harness, "Outside");
+    unfold(&mut harness, "Obstructions");
     harness
 }
 
@@ -242,13 +242,13 @@ fn boxes_are_added_typed_doubled_and_taken_away_in_the_panel() {
     enter(&mut harness, "Extent along y", "0.9");
     let deep = solid(&harness, 0);
     assert_eq!((deep.from[1], deep.to[1]), (-0.9, 0.0), "it grows outwards");
-    enter(&mut harness, "Gap to the façade", "0.2");
+    enter(&mut harness, "Distance to façade", "0.2");
     assert_eq!([solid(&harness, 0).from[1], solid(&harness, 0).to[1]], [-1.1, -0.2]);
-    enter(&mut harness, "Turned", "30");
+    enter(&mut harness, "Rotation", "30");
     assert_eq!(solid(&harness, 0).turn, 30.0);
     enter(&mut harness, "Reflectance", "0.65");
     assert_eq!(scene(&harness).outside[0].reflectance, Some(0.65));
-    harness.get_by_label("Luminance stated").click();
+    harness.get_by_label("Set luminance").click();
     settle(&mut harness);
     let keys = &scene(&harness).outside[0];
     assert!(keys.reflectance.is_none() && keys.luminance.is_some_and(|luminance| luminance > 0.0));
@@ -256,7 +256,7 @@ fn boxes_are_added_typed_doubled_and_taken_away_in_the_panel() {
     settle(&mut harness);
     assert_eq!(scene(&harness).outside.len(), 2);
     assert_ne!(solid(&harness, 0), solid(&harness, 1));
-    harness.get_by_label("Take away Fin").click();
+    harness.get_by_label("Remove Fin").click();
     settle(&mut harness);
     assert_eq!(scene(&harness).outside.len(), 1);
     undo(&mut harness);
@@ -265,7 +265,7 @@ fn boxes_are_added_typed_doubled_and_taken_away_in_the_panel() {
     harness.state_mut().state.document.scene.outside[0].solid =
         BoxKeys { from: [1.0, -1.0, 0.0], to: [2.0, 1.0, 1.0], turn: 0.0 };
     harness.run_steps(3);
-    assert!(says(&harness, "reaches into the room"));
+    assert!(says(&harness, "extends into the room"));
     // The same scene from a file.
     let text = toml::to_string(scene(&harness)).unwrap();
     assert!(text.contains("name = \"Fin\""), "{text}");
@@ -275,19 +275,19 @@ fn boxes_are_added_typed_doubled_and_taken_away_in_the_panel() {
 #[test]
 fn frame_dirt_skyline_and_summer_time_are_typed() {
     let mut harness = panel();
-    unfold(&mut harness, "Outside");
+    unfold(&mut harness, "Obstructions");
     unfold(&mut harness, "Apertures");
-    enter(&mut harness, "Frame, share", "0.15");
-    enter(&mut harness, "Dirt, factor", "0.9");
+    enter(&mut harness, "Frame fraction", "0.15");
+    enter(&mut harness, "Dirt factor k₂", "0.9");
     let aperture = &scene(&harness).aperture[0];
     assert_eq!((aperture.frame, aperture.dirt), (0.15, 0.9));
     unfold(&mut harness, "Apertures");
     unfold(&mut harness, "Ground and skyline");
-    enter(&mut harness, "Skyline altitude", "12");
-    harness.get_by_label("Skyline of even height").click();
+    enter(&mut harness, "Skyline elevation", "12");
+    harness.get_by_label("Uniform skyline").click();
     settle(&mut harness);
     assert!(scene(&harness).sky.obstruction.is_none());
-    enter(&mut harness, "Altitude 3", "25");
+    enter(&mut harness, "Elevation 3", "25");
     enter(&mut harness, "Bearing 3", "170");
     harness.get_by_label("Add a point").click();
     settle(&mut harness);
@@ -295,7 +295,7 @@ fn frame_dirt_skyline_and_summer_time_are_typed() {
     assert_eq!(skyline.altitudes[..3], [[0.0, 12.0], [90.0, 12.0], [170.0, 25.0]]);
     assert_eq!(skyline.altitudes.len(), 5);
     assert!(harness.state().state.scene_error.is_none());
-    harness.get_by_label("Skyline of even height").click();
+    harness.get_by_label("Uniform skyline").click();
     settle(&mut harness);
     assert_eq!(scene(&harness).sky.obstruction.map(|flat| flat.altitude), Some(25.0));
     unfold(&mut harness, "Ground and skyline");
@@ -311,21 +311,21 @@ fn frame_dirt_skyline_and_summer_time_are_typed() {
 fn every_kind_speaks_german() {
     let mut harness = panel();
     apply(&mut harness, Command::Language(LanguageChoice::German));
-    for word in ["Vordach", "Seitenblende", "Leibung", "Balkon", "Nachbargebäude"] {
+    for word in ["Vordach", "Seitenblende", "Laibung", "Balkon", "Nachbargebäude"] {
         harness.get_by_label("Hinzufügen…").click();
         harness.run_steps(4);
         harness.get_by_label(word).click();
         settle(&mut harness);
     }
     let names: Vec<&str> = scene(&harness).outside.iter().map(|one| one.name.as_str()).collect();
-    for name in ["Vordach", "Seitenblende", "Leibung links", "Balkon", "Balkonbrüstung", "Nachbargebäude"] {
+    for name in ["Vordach", "Seitenblende", "Laibung links", "Balkon", "Balkonbrüstung", "Nachbargebäude"] {
         assert!(names.contains(&name), "{names:?}");
         assert!(harness.query_by_role_and_label(Role::DisclosureTriangle, name).is_some(), "{name}");
     }
     unfold(&mut harness, "Balkon");
     assert!(harness.query_by_label("Balkon entfernen").is_some() && says(&harness, "Abstand zur Fassade"));
     apply(&mut harness, Command::RoomView(RoomView::Section));
-    assert!(value(&harness, "Draußen, jenseits des Bildes").contains("Nachbargebäude 15,0 m entfernt"));
+    assert!(value(&harness, "Verbauungen außerhalb des Bildes").contains("Nachbargebäude 15,0 m entfernt"));
 }
 
 #[test]
@@ -341,7 +341,7 @@ fn a_control_sees_what_boxes_hide_and_says_why_there_is_no_year() {
     assert!(!harness.state().results.year.stale);
     let open = sunny(&harness);
     assert!(open > 0 && open < free, "{free} {open}");
-    assert!(harness.query_by_label("About the year").is_none());
+    assert!(harness.query_by_label("Note on the year").is_none());
     // A skyline by bearing hides the sun all the same: high in the south it stays away from the façade for longer.
     let mut hidden = scene(&harness).clone();
     hidden.sky.obstruction = None;
@@ -353,7 +353,7 @@ fn a_control_sees_what_boxes_hide_and_says_why_there_is_no_year() {
     angles.sky.time = None;
     (angles.sky.sun.altitude, angles.sky.sun.azimuth) = (Some(40.0), Some(180.0));
     apply(&mut harness, Command::Scene(Box::new(angles)));
-    assert!(value(&harness, "About the year").contains("By date and time"));
+    assert!(value(&harness, "Note on the year").contains("By date and time"));
     apply(&mut harness, Command::Maximise(Some(tile("Control"))));
     assert!(!says(&harness, "updating"), "what there is none of is not awaited");
 }
@@ -369,7 +369,7 @@ fn the_accuracy_sheet_says_what_was_split_and_why() {
     assert_eq!((harness.state().results.room.error.clone(), room.outside.len()), (None, 1));
     assert!(room.outside[0].parts.is_some_and(|parts| parts >= 1), "{:?}", room.outside);
     apply(&mut harness, Command::Sheet(Some(Sheet::Accuracy)));
-    assert!(says(&harness, "each with its own outside") && says(&harness, "aperture 1: the sun reaches"));
+    assert!(says(&harness, "its own view of the obstructions") && says(&harness, "sunlit"));
 }
 
 #[test]
@@ -392,7 +392,7 @@ fn boxes_in_all_views_can_be_read() {
         apply(&mut harness, Command::Maximise(None));
     }
     apply(&mut harness, Command::Theme(ThemeChoice::Light));
-    let section = harness.get_by_role_and_label(Role::DisclosureTriangle, "Outside");
+    let section = harness.get_by_role_and_label(Role::DisclosureTriangle, "Obstructions");
     section.click();
     harness.run_steps(30);
     can_be_read(&mut harness, "the section unfolded");

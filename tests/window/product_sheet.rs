@@ -50,7 +50,7 @@ fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_u
     edit(&mut harness, "venetian");
     harness.get_by_label("Read its files again").click();
     settle(&mut harness);
-    assert!(harness.query_by_label("Nothing has changed since they were read.").is_some());
+    assert!(harness.query_by_label("The files have not changed since they were read.").is_some());
     write(folder.path(), "ven45.xml", &sheet("Venetian", 0.1));
     apply(&mut harness, Command::Sheet(None));
     edit(&mut harness, "venetian");
@@ -59,8 +59,8 @@ fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_u
     near(tau(1), 0.2);
     let told = harness.state().state.editing.as_ref().unwrap().reread.as_ref().unwrap().differences.clone();
     assert_eq!(told.len(), 1);
-    assert!(told[0].starts_with("ven45.xml: τ 0.2") && told[0].contains("becomes 0.1"), "{told:?}");
-    harness.get_by_label("Take the changes").click();
+    assert!(told[0].starts_with("ven45.xml: τ changes from 0.2") && told[0].contains(" to 0.1"), "{told:?}");
+    harness.get_by_label("Apply the changes").click();
     settle(&mut harness);
     near(tau(1), 0.1);
     apply(&mut harness, Command::Undo);

@@ -117,9 +117,9 @@ fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
     // The product's tiles are alive, the title says what lights the room.
     let shown = state.document.selection.clone();
     assert!(!shown.product.is_empty() && state.product.as_ref().is_some_and(|product| product.key == shown.product));
-    assert!(words(&harness).starts_with("cfs – ideal diffuse · "), "{}", words(&harness));
+    assert!(words(&harness).starts_with("cfs – ideal diffuser · "), "{}", words(&harness));
     let told = |harness: &Harness<'_, App>| {
-        let said = |message: &Message| message.text.contains("own system (ideal diffuse)");
+        let said = |message: &Message| message.text.contains("system of the scene (ideal diffuser)");
         harness.state().toasts.all().filter(|message| said(message)).count()
     };
     assert_eq!(told(&harness), 1);
@@ -153,14 +153,14 @@ fn the_panel_shows_the_illuminances_that_are_used_and_lets_them_be_typed() {
     };
     let before = klx(&harness);
     assert!(harness.query_by_label(&before).is_some(), "{before}");
-    enter(&mut harness, Role::SpinButton, "Turbidity (Linke)", "6.3");
+    enter(&mut harness, Role::SpinButton, "Linke turbidity", "6.3");
     assert_eq!(scene(&harness).sky.turbidity, 6.3);
     let hazy = klx(&harness);
     assert!(hazy != before && harness.query_by_label(&hazy).is_some(), "{before} {hazy}");
     // Typed figures start from those and then stay.
     harness.get_by_role_and_label(Role::ComboBox, "Illuminances").click();
     harness.run_steps(3);
-    harness.get_by_label("Typed").click();
+    harness.get_by_label("Manual").click();
     settle(&mut harness);
     assert_eq!(scene(&harness).sky.illuminance, IlluminanceKey::Stated);
     assert_eq!(klx(&harness), hazy);
@@ -180,23 +180,25 @@ fn dates_and_times_are_typed_and_what_is_wrong_changes_nothing() {
     assert!(words(&harness).contains("1 Dec 12:00"), "{}", words(&harness));
     assert!(scene(&harness).sky.time.as_ref().unwrap().text().starts_with("2023-12-01"));
     assert_eq!(harness.state().state.maximised, None, "digits are text");
-    enter(&mut harness, Role::TextInput, "Time", "12:33");
+    enter(&mut harness, Role::TextInput, "Local time", "12:33");
     assert!(words(&harness).contains("1 Dec 12:33"), "{}", words(&harness));
     // To the minute, whatever steps the slider has.
     harness.run_steps(5);
     assert!(words(&harness).contains("1 Dec 12:33"), "{}", words(&harness));
     let before = scene(&harness).clone();
-    for (field, text, told) in
-        [("Date", "32.1.2023", "no such day"), ("Time", "25:33", "no time of day"), ("Time", "12.13", "colon")]
-    {
+    for (field, text, told) in [
+        ("Date", "32.1.2023", "does not exist"),
+        ("Local time", "25:33", "not a time of day"),
+        ("Local time", "12.13", "colon"),
+    ] {
         enter(&mut harness, Role::TextInput, field, text);
         assert_eq!(*scene(&harness), before, "{text}");
         assert!(says(&harness, told), "{text}");
     }
     // The next good one is taken, and nothing is told any more.
-    enter(&mut harness, Role::TextInput, "Time", "9.3");
+    enter(&mut harness, Role::TextInput, "Local time", "9.3");
     assert!(words(&harness).contains("1 Dec 09:18"), "{}", words(&harness));
-    assert!(!says(&harness, "no time of day") && !says(&harness, "colon"));
+    assert!(!says(&harness, "not a time of day") && !says(&harness, "colon"));
 }
 
 #[test]
@@ -248,20 +250,20 @@ fn sizes_push_the_sill_and_say_so_and_what_cannot_be_is_refused() {
     enter(&mut harness, Role::SpinButton, "Height", "2.3");
     let after = &scene(&harness).aperture[0];
     assert_eq!((after.origin[1], after.size[1]), (0.7, 2.3));
-    assert!(says(&harness, "“Sill” is 0.70 m now"));
+    assert!(says(&harness, "“Sill” was set to 0.70 m"));
     // Higher than the room: refused, not cut.
     enter(&mut harness, Role::SpinButton, "Height", "4.3");
     let after = &scene(&harness).aperture[0];
     assert_eq!((after.origin[1], after.size[1]), (0.7, 2.3));
-    assert!(says(&harness, "4.3 m is not possible here"));
+    assert!(says(&harness, "4.3 m is out of range"));
     // A sill that leaves no room for the height.
     enter(&mut harness, Role::SpinButton, "Sill", "1.3");
     assert_eq!(scene(&harness).aperture[0].origin[1], 0.7);
-    assert!(says(&harness, "1.3 m is not possible here"));
+    assert!(says(&harness, "1.3 m is out of range"));
     // A field that is only looked at rounds nothing.
     harness.state_mut().state.document.scene.aperture[0].origin[0] = 0.123_456;
     harness.run_steps(2);
-    harness.get_by_role_and_label(Role::SpinButton, "From the left").focus();
+    harness.get_by_role_and_label(Role::SpinButton, "Distance from left").focus();
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     settle(&mut harness);
@@ -272,12 +274,12 @@ fn sizes_push_the_sill_and_say_so_and_what_cannot_be_is_refused() {
     enter(&mut harness, Role::SpinButton, "Height", "2.3");
     assert_eq!(scene(&harness).room.height, 2.3);
     assert_eq!(scene(&harness).aperture[0].size[1], 2.3);
-    assert!(says(&harness, "reaches beyond the façade"));
+    assert!(says(&harness, "extends beyond the façade"));
 }
 
 /// Tops of the sections' headers.
 fn layout(harness: &Harness<'_, App>) -> Vec<f32> {
-    ["Place", "Façade", "Date and time", "Sky", "Ground and skyline", "Apertures", "Room", "Sensors"]
+    ["Place", "Façade", "Date and time", "Sky", "Ground and skyline", "Apertures", "Room", "Calculation points"]
         .map(|section| harness.get_by_role_and_label(Role::DisclosureTriangle, section).rect().top())
         .to_vec()
 }
@@ -310,7 +312,7 @@ fn nothing_in_the_panel_moves_when_the_sun_rises_sets_or_leaves_the_facade() {
 fn undo_takes_a_typed_time_back() {
     let mut harness = window();
     harness.run_steps(3);
-    enter(&mut harness, Role::TextInput, "Time", "8:33");
+    enter(&mut harness, Role::TextInput, "Local time", "8:33");
     assert!(words(&harness).contains("08:33"));
     // The history takes a step when things have been at rest for a moment.
     harness.run_steps(120);

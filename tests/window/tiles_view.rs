@@ -75,7 +75,7 @@ fn the_btdf_tile_shows_data_filtered_and_compressed_and_tells_how_far_they_are_o
     apply(&mut harness, Command::Hour(0));
     assert!(Arc::ptr_eq(&made, harness.state().results.form.value.as_ref().unwrap()));
     apply(&mut harness, Command::DataForm(DataForm::Compact));
-    harness.get_by_label_contains("compact: ");
+    harness.get_by_label_contains("compressed: ");
     let compact = harness.state().results.form.value.clone().unwrap();
     assert!(matches!(compact.made.as_ref().unwrap().how, How::Wavelets { in_force: false, .. }));
     // Another incidence has data of its own.
@@ -83,9 +83,9 @@ fn the_btdf_tile_shows_data_filtered_and_compressed_and_tells_how_far_they_are_o
     assert!(!Arc::ptr_eq(&compact, harness.state().results.form.value.as_ref().unwrap()));
     crate::driven::select(&mut harness, |entry| entry.name == "Ideal diffuser");
     assert_eq!(harness.state().results.form.value.as_ref().unwrap().made, Err(NoForm::NoValues));
-    assert!(harness.query_all_by_label_contains("No values to filter or compress").next().is_some());
+    assert!(harness.query_all_by_label_contains("Nothing to filter or compress").next().is_some());
     apply(&mut harness, Command::DataForm(DataForm::Measured));
-    assert!(harness.query_all_by_label_contains("No values to filter or compress").next().is_none());
+    assert!(harness.query_all_by_label_contains("Nothing to filter or compress").next().is_none());
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn a_tile_is_copied_as_a_picture_and_the_line_under_it_as_text() {
     let picture = picture.expect("a picture in the clipboard");
     let colours: std::collections::BTreeSet<[u8; 4]> = picture.pixels.iter().map(|pixel| pixel.to_array()).collect();
     assert!(picture.size[0] > 300 && picture.size[1] > 200 && colours.len() > 50, "{:?}", picture.size);
-    let plan = harness.get_by_label("Room plan").rect();
+    let plan = harness.get_by_label("Floor plan of the room").rect();
     harness.hover_at(plan.center());
     harness.run_steps(3);
     harness.state_mut().apply(Command::CopyValue);
@@ -193,12 +193,12 @@ fn scales_that_are_held_stay_when_the_light_changes() {
             egui::Rect::from_x_y_ranges(dome.x_range().expand(60.0), dome.bottom() + 20.0..=dome.bottom() + 110.0);
         crate::legible::inspect::words_within(harness, legend)
     };
-    harness.get_by_label("Hold").click();
+    harness.get_by_label("Lock scale").click();
     harness.run_steps(3);
     let before = marks(&harness);
     apply(&mut harness, Command::Hour(5));
     assert_eq!(marks(&harness), before);
-    harness.get_by_label("Hold").click();
+    harness.get_by_label("Lock scale").click();
     harness.run_steps(3);
     assert_ne!(marks(&harness), before);
 }
@@ -208,13 +208,13 @@ fn the_tiles_speak_german_and_write_numbers_as_germans_do() {
     let mut harness = window("Room");
     apply(&mut harness, Command::Language(LanguageChoice::German));
     harness.get_by_label("Kachel Raum");
-    let summary = harness.get_by_label("Raumgrundriss").value().unwrap_or_default();
-    assert!(summary.contains("Mittel") && summary.contains("Min/Mittel 0,"), "{summary}");
+    let summary = harness.get_by_label("Grundriss des Raums").value().unwrap_or_default();
+    assert!(summary.contains("Mittel") && summary.contains("U_o 0,"), "{summary}");
     apply(&mut harness, Command::Maximise(None));
-    for label in ["Kachel BTDF", "Kachel Transmission", "Kachel Himmel", "Kachel LVK", "Kachel Regelung"] {
+    for label in ["Kachel BTDF", "Kachel Transmissionsgrad", "Kachel Himmel", "Kachel LVK", "Kachel Steuerung"] {
         harness.get_by_label(label);
     }
-    for label in ["Einfallsseite", "Karte des Transmissionsgrads", "Himmelskuppel", "LVK Polardiagramm"] {
+    for label in ["Einfallsseite", "Karte des Transmissionsgrads", "Himmelskuppel", "LVK, Polardiagramm"] {
         assert!(!harness.get_by_label(label).value().unwrap_or_default().is_empty(), "{label}");
     }
     apply(&mut harness, Command::Language(LanguageChoice::English));

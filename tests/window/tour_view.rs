@@ -51,7 +51,7 @@ fn each_step_is_done_by_what_it_asks_for_and_by_nothing_else() {
     settle(&mut harness);
     assert_eq!((stop(&harness), harness.state().state.sheet), (None, Some(Sheet::Export)));
     assert_eq!(harness.state().state.settings.tour, 5);
-    assert!(harness.state().toasts.all().any(|message| message.text.starts_with("The tour is done")));
+    assert!(harness.state().toasts.all().any(|message| message.text.starts_with("The tour is finished")));
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn escape_leaves_it_and_it_goes_on_where_it_was_left() {
     harness.key_press(Key::Escape);
     settle(&mut harness);
     assert_eq!(stop(&harness), None);
-    assert!(harness.query_by_label("Leave the tour").is_none());
+    assert!(harness.query_by_label("End the tour").is_none());
     apply(&mut harness, Command::Tour(TourAct::Start));
     assert_eq!(stop(&harness), Some(Stop::Sun));
 }

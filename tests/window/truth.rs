@@ -61,8 +61,8 @@ fn all_that_speaks_of_an_incidence_speaks_of_the_same_one() {
     apply(&mut harness, Command::Hour(11));
     for name in OF_ONE_INCIDENCE {
         let text = value(&harness, name);
-        assert!(text.starts_with("perpendicular light at θ 0°"), "{name}: {text}");
-        assert!(text.contains("sun not before the façade"), "{name}: {text}");
+        assert!(text.starts_with("normal incidence at θ 0°"), "{name}: {text}");
+        assert!(text.contains("sun not in front of the façade"), "{name}: {text}");
     }
 }
 
@@ -74,9 +74,9 @@ fn status_line_and_room_tile_state_the_same_error() {
     let room = harness.state().results.room.value.clone().unwrap();
     let greatest = room.totals().map(|total| total.error / total.value).fold(0.0, f64::max);
     assert!(greatest > 5e-5, "an error that can be told: {greatest}");
-    let stated = value(&harness, "Room plan");
+    let stated = value(&harness, "Floor plan of the room");
     let (_, stated) = stated.rsplit_once(" · ").unwrap();
-    assert!(stated.starts_with("error ≤ ") && stated.ends_with(" % of each value"), "{stated}");
+    assert!(stated.starts_with("uncertainty ≤ ") && stated.ends_with(" % of each value"), "{stated}");
     let number: f64 = stated.split(' ').nth(2).unwrap().parse().unwrap();
     assert!((number / (100.0 * greatest) - 1.0).abs() < 0.06, "{stated} {greatest}");
     assert!(harness.query_by_label_contains(&format!("room: {stated}")).is_some(), "{:?}", words(&harness));
@@ -112,11 +112,11 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
         }
         match sun {
             Some(sun) => {
-                let wanted = format!("sun's beam {}", si(sun.intensity, "cd"));
+                let wanted = format!("direct sunlight {}", si(sun.intensity, "cd"));
                 assert!(says(&harness, &wanted) > 0, "{wanted}: {:?}", words(&harness));
                 assert!(sun.intensity > 10.0 * scattered.intensity);
             }
-            None => assert!(says(&harness, "no unscattered sun") > 0),
+            None => assert!(says(&harness, "no direct sun transmitted") > 0),
         }
         // Per area of aperture it is called so.
         harness.get_by_label("per m²").click();
@@ -131,7 +131,7 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
 fn pictures_keep_their_places_when_the_sun_leaves_the_facade() {
     let mut harness = window();
     let places = |harness: &Harness<'_, App>| -> Vec<(&str, Rect)> {
-        [&OF_ONE_INCIDENCE[..], &["Sky dome", "Sky section", "LID polar diagram", "Room plan"]]
+        [&OF_ONE_INCIDENCE[..], &["Sky dome", "Sky section", "LID polar diagram", "Floor plan of the room"]]
             .concat()
             .into_iter()
             .filter_map(|name| Some((name, harness.query_by_label(name)?.rect())))
@@ -166,7 +166,7 @@ fn before_anything_is_there_nothing_is_said_of_it() {
     harness.run_steps(4);
     // Six tiles, the list, the status line.
     assert!(says(&harness, "pening the catalogue…") >= 8, "{:?}", words(&harness));
-    for untrue in ["does not move", "no warnings", "no sky", "No sky", "No illuminances", "no product"] {
+    for untrue in ["has only one state", "no warnings", "no sky", "No sky", "No illuminances", "no product"] {
         assert_eq!(says(&harness, untrue), 0, "{untrue}: {:?}", words(&harness));
     }
     release.send(()).unwrap();
@@ -180,7 +180,7 @@ fn a_sun_under_the_horizon_is_said_to_be_there() {
     let mut harness = window();
     apply(&mut harness, Command::Hour(11));
     let told = value(&harness, "Sky dome");
-    assert!(told.starts_with("sun ") && told.contains("° below the horizon, bearing "), "{told}");
+    assert!(told.starts_with("sun ") && told.contains("° below the horizon, azimuth "), "{told}");
     assert!(!told.contains('-'), "{told}");
 }
 
@@ -208,7 +208,7 @@ fn what_is_old_and_not_renewed_says_so() {
     // As after a job that was stopped.
     harness.state_mut().results.room.stale = true;
     harness.run_steps(2);
-    assert!(says(&harness, "outdated") > 0 && says(&harness, "of an earlier scene") > 0, "{:?}", words(&harness));
+    assert!(says(&harness, "outdated") > 0 && says(&harness, ", outdated") > 0, "{:?}", words(&harness));
     assert_eq!(says(&harness, "updating"), 0);
 }
 

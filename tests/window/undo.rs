@@ -83,10 +83,10 @@ fn every_offered_command_that_changes_something_is_taken_back() {
         "One hour later",
         "One day earlier",
         "Next state",
-        "Reset the scene",
+        "Reset scene",
         "Delete product",
-        "Add to compare with this moment",
-        "Empty the tray",
+        "Add to comparison with this date and time",
+        "Clear comparison",
     ] {
         assert!(changing.contains(&expected), "{expected} changed nothing: {changing:?}");
     }

@@ -299,11 +299,11 @@ fn a_click_on_the_incident_hemisphere_chooses_that_cell() {
     assert!(next.0.vector().y > chosen.0.vector().y + 0.05);
     assert_eq!(cell(h.state().incident), cell(next));
     // And the toggle asks, but does not do.
-    if h.query_by_label("Follow the sun").is_none() {
+    if h.query_by_label("Follow sun").is_none() {
         h.query_all_by_label("View").last().expect("the tile's menu").click();
         h.run();
     }
-    h.get_by_label("Follow the sun").click();
+    h.get_by_label("Follow sun").click();
     h.run();
     assert_eq!(h.state().btdf.1.last(), Some(&btdf::Action::FollowSun(true)));
 }
@@ -386,10 +386,10 @@ fn tiles_without_data_say_what_is_missing() {
         });
     });
     h.run();
-    for part in ["Choose a product", "No illuminances yet", "one state", "diffuse illuminance above 0 lx"] {
+    for part in ["Select a product", "No illuminances yet", "one state", "diffuse illuminance above 0 lx"] {
         assert!(h.query_by_label_contains(part).is_some(), "{part}");
     }
-    assert!(h.query_by_label("Room plan").is_none());
+    assert!(h.query_by_label("Floor plan of the room").is_none());
 }
 
 #[test]
@@ -497,7 +497,7 @@ fn six_tiles_are_named_and_fit_from_small_to_large() {
             "Flux split",
             "Sky dome",
             "LID polar diagram",
-            "Room plan",
+            "Floor plan of the room",
             "Control curve",
         ] {
             let node = h.get_by_label(name);
@@ -538,7 +538,7 @@ fn the_plan_has_a_scale_and_names_the_lines_that_are_asked_for() {
         });
         h.run();
         // On the plan itself: the scale of colours may have the same numbers.
-        let words = words_within(&h, h.get_by_label("Room plan").rect());
+        let words = words_within(&h, h.get_by_label("Floor plan of the room").rect());
         for wanted in ["300", "500"] {
             assert!(words.iter().any(|text| text == wanted), "{wanted} at {size:?}: {words:?}");
         }
@@ -550,11 +550,11 @@ fn the_plan_has_a_scale_and_names_the_lines_that_are_asked_for() {
 fn a_legend_hides_and_shows_a_series() {
     let mut h = bench([1350.0, 860.0], Theme::Light);
     h.run();
-    for name in ["total", "direct", "rule", "today"] {
+    for name in ["total", "direct", "curve", "today"] {
         let shown = |h: &Harness<'_, Bench>| h.get_by_label(name).accesskit_node().toggled();
         let rect = h.get_by_label(name).rect();
         // Above its plot, not on it.
-        for plot in ["Room profile", "Control curve"] {
+        for plot in ["Illuminance profile", "Control curve"] {
             assert!(!h.get_by_label(plot).rect().intersects(rect), "{name}");
         }
         assert_eq!(shown(&h), Some(Toggled::True), "{name}");

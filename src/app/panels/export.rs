@@ -189,7 +189,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let name = ui.label(texts::WRITE_TO);
     // On as many lines as the name needs: its end, which says what it is, stays visible.
     let field = TextEdit::multiline(&mut text)
-        .id(egui::Id::unique("path of what is handed on"))
+        .id(egui::Id::unique("export path"))
         .desired_rows(1)
         .return_key(None::<egui::KeyboardShortcut>)
         .desired_width(f32::INFINITY);

@@ -26,7 +26,7 @@ enum FieldMessage {
 }
 
 fn key(ui: &Ui, label: &str) -> egui::Id {
-    ui.make_persistent_id((label, "told"))
+    ui.make_persistent_id((label, "note"))
 }
 
 /// Shows under a field what its last change brought with it, until the next one.

@@ -43,7 +43,9 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         egui::Panel::top("tour").frame(bar).show(ui, |ui| tour::show(ui, app, &mut commands));
     }
     if !app.state.document.scene.compare.is_empty() {
-        egui::Panel::top("tray").frame(bar).show(ui, |ui| compare::comparison_line(ui, &app.state, &mut commands));
+        egui::Panel::top("comparison")
+            .frame(bar)
+            .show(ui, |ui| compare::comparison_line(ui, &app.state, &mut commands));
     }
     let status = egui::Panel::bottom("status").frame(bar).show(ui, |ui| status::show(ui, app, &mut commands));
     // Messages stand above the status line, never over it.

@@ -15,7 +15,7 @@ use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The BTDF tile.
-pub const TILE: Tile = Tile { title: say::BTDF.english(), name: say::BTDF, help: say::BTDF_HELP };
+pub const TILE: Tile = Tile { title: "BTDF", name: say::BTDF, help: say::BTDF_HELP };
 
 /// Drawing of the BTDF tile.
 #[derive(Default)]

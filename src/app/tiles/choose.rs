@@ -18,7 +18,7 @@ use egui::Ui;
 use std::sync::Arc;
 
 /// The ranking tile.
-pub const TILE: Tile = Tile { title: say::CHOOSE.english(), name: say::CHOOSE, help: say::CHOOSE_HELP };
+pub const TILE: Tile = Tile { title: "Choose", name: say::CHOOSE, help: say::CHOOSE_HELP };
 
 type Ordered = Result<Arc<Shortlist>, String>;
 

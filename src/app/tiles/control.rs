@@ -17,7 +17,7 @@ use egui::{ComboBox, DragValue, Ui, UiBuilder};
 use std::path::PathBuf;
 
 /// The control tile.
-pub const TILE: Tile = Tile { title: say::CONTROL.english(), name: say::CONTROL, help: say::CONTROL_HELP };
+pub const TILE: Tile = Tile { title: "Control", name: say::CONTROL, help: say::CONTROL_HELP };
 
 /// Height of the strip of control modes. \[points\]
 const RULES_HEIGHT: f32 = 26.0;

@@ -9,7 +9,7 @@ use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The LID tile.
-pub const TILE: Tile = Tile { title: say::LID.english(), name: say::LID, help: say::LID_HELP };
+pub const TILE: Tile = Tile { title: "LID", name: say::LID, help: say::LID_HELP };
 
 /// Drawing of the LID tile.
 #[derive(Default)]

@@ -18,7 +18,7 @@ use crate::texts::{Text, tiles as say};
 use egui::Ui;
 
 /// The room tile.
-pub const TILE: Tile = Tile { title: say::ROOM.english(), name: say::ROOM, help: say::ROOM_HELP };
+pub const TILE: Tile = Tile { title: "Room", name: say::ROOM, help: say::ROOM_HELP };
 
 /// Drawing of the room tile.
 #[derive(Default)]

@@ -14,7 +14,7 @@ use crate::texts::tiles as say;
 use egui::Ui;
 
 /// The sky tile.
-pub const TILE: Tile = Tile { title: say::SKY.english(), name: say::SKY, help: say::SKY_HELP };
+pub const TILE: Tile = Tile { title: "Sky", name: say::SKY, help: say::SKY_HELP };
 
 /// Drawing of the sky tile.
 #[derive(Default)]

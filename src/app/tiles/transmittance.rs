@@ -18,8 +18,7 @@ use egui::Ui;
 use std::path::PathBuf;
 
 /// The transmittance tile.
-pub const TILE: Tile =
-    Tile { title: say::TRANSMITTANCE.english(), name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
+pub const TILE: Tile = Tile { title: "Transmittance", name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
 
 /// Key of the sun's paths: place, bearing and weather.
 type PathKey = (i16, [u64; 4], Option<PathBuf>);

@@ -15,7 +15,7 @@ use crate::texts::{Language, language, year as say};
 use egui::Ui;
 
 /// The year tile.
-pub const TILE: Tile = Tile { title: say::YEAR.english(), name: say::YEAR, help: say::YEAR_HELP };
+pub const TILE: Tile = Tile { title: "Year", name: say::YEAR, help: say::YEAR_HELP };
 
 /// Drawing of the year tile.
 #[derive(Default)]

@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
             (false, _) => 0.0,
             (true, Page::Objectives) => 340.0,
             (true, Page::Plot) => 250.0 + 2.0 * AXIS,
-            (true, Page::Table) => 470.0,
+            (true, Page::Table) => 515.0,
         },
     };
     let status = Status { error: None, ..input.status };

@@ -180,6 +180,6 @@ mod tests {
         let values = vec![Estimate::new(10.0, 2.0), Estimate::new(-1.0, 2.0)];
         let picture = Picture::Plan { room: [1.0, 2.0], count: [1, 2], values };
         assert_eq!(picture.reach(), 10.0);
-        assert_eq!(summary(&picture).full(), "mean ΔE +4.50 lx · more than the errors at 1 of 2 sensors");
+        assert_eq!(summary(&picture).full(), "mean ΔE +4.50 lx · above the uncertainty at 1 of 2 points");
     }
 }

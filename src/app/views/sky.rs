@@ -151,7 +151,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::SKY_ABOUT.get(),
         empty: input.luminance.is_none().then_some(say::SKY_EMPTY.get()),
-        controls_width: 104.0,
+        controls_width: 144.0,
     };
     let (mut log, mut hold) = (state.log, state.hold);
     tile::show(
@@ -327,7 +327,7 @@ fn dome(
     }
 }
 
-/// Returns "sun 41.0° high, bearing 171°", and shorter wordings; "15.0° below the horizon".
+/// Returns "sun at 41.0° altitude, azimuth 171°", and shorter wordings; "15.0° below the horizon".
 fn place_text(what: Text, place: Place) -> [String; 3] {
     let degrees = place.altitude.to_degrees();
     let height = height_words(degrees, 1);
@@ -470,8 +470,8 @@ mod tests {
             let place = Place { altitude: degrees.to_radians(), bearing: bearing.to_radians() };
             place_text(say::SUN, place)[0].clone()
         };
-        assert_eq!(text(-15.0, 290.0), "sun 15.0° below the horizon, bearing 290°");
-        assert_eq!(text(41.2, 359.8), "sun 41.2° high, bearing 0°");
+        assert_eq!(text(-15.0, 290.0), "sun 15.0° below the horizon, azimuth 290°");
+        assert_eq!(text(41.2, 359.8), "sun at 41.2° altitude, azimuth 0°");
     }
 
     #[test]

@@ -11,7 +11,7 @@ pub use input::{Action, Input, Shown};
 
 use crate::app::paint::hour_map;
 use crate::app::paint::tile::{self, Status, Words};
-use crate::study::year::{Page, Shows, Year, choices, error, title};
+use crate::study::year::{Page, Shows, Year, choices, csv_column, error, title};
 use crate::texts::{fixed, words::MONTHS, year as say};
 use egui::{ComboBox, Rect, Ui, UiBuilder};
 use parts::progress;
@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::YEAR_ABOUT.get(),
         empty: None,
-        controls_width: if input.shown.is_some() { 440.0 } else { 0.0 },
+        controls_width: if input.shown.is_some() { 470.0 } else { 0.0 },
     };
     let status = Status { error: None, ..input.status };
     tile::show(
@@ -203,7 +203,7 @@ fn summary(shown: &Shown<'_>) -> String {
 pub fn csv(input: &Input<'_>) -> String {
     let Some(shown) = &input.shown else { return String::new() };
     match input.look.page {
-        Page::Map => shown.map.csv(),
+        Page::Map => shown.map.csv(&csv_column(input.look.shows)),
         Page::Figures => figures::csv(shown.rows),
         Page::Lighting => lighting::csv(shown),
     }

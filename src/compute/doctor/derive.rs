@@ -20,7 +20,7 @@ pub fn by_reciprocity(given: &Btdf, to_front: bool) -> Option<(Btdf, &'static st
             let reversed = tree.reversed();
             let how = match tree.rank() {
                 TreeRank::Four => "exactly",
-                TreeRank::Three => "with its leaves averaged anew, as rank 3 demands",
+                TreeRank::Three => "with its leaves averaged again, as rank 3 requires",
             };
             (Scattered::Tree(Box::new(reversed)), how)
         }

@@ -112,7 +112,7 @@ fn sides(dataset: &Dataset, blocks: &Blocks) -> Option<Diagnosis> {
         let (front, back) = (rho(Component::ReflectionFront), rho(Component::ReflectionBack));
         let ways = 100.0 * reflection;
         parts.push(format!(
-            "the outside reflects {front:.1} % and the inside {back:.1} % of even light (values differ by {ways:.0} %)"
+            "the outside reflects {front:.1} % and the inside {back:.1} % of uniform light (values differ by {ways:.0} %)"
         ));
     }
     if transmission >= UNEVEN {

@@ -12,7 +12,7 @@ pub(super) fn check(dataset: &Dataset) -> Option<Diagnosis> {
     let btdf = dataset.transmission().or(dataset.visible.transmission_back.as_ref())?;
     let side = |count: usize| (2.0 * std::f64::consts::PI / count as f64).sqrt();
     let (what, width) = match btdf.scattered.as_ref() {
-        None => ("Light goes straight on".to_owned(), 0.0),
+        None => ("Regular transmission only".to_owned(), 0.0),
         Some(Scattered::Lambert(_)) => ("Ideally diffuse, a function of the angle of incidence".to_owned(), 0.0),
         Some(Scattered::Cells(matrix)) => {
             let (i, o) = (matrix.incident().len(), matrix.emergent().len());

@@ -91,7 +91,9 @@ impl Interpolator {
         }
         let note = match kernel {
             None => format!("sub-patches of {:.1}°, each with its own indicatrix", step.to_degrees()),
-            Some(_) => format!("sub-patches: the data's directions are no lattice that {} is made for", scheme.key()),
+            Some(_) => {
+                format!("sub-patches: the data's directions do not form the lattice that {} is made for", scheme.key())
+            }
         };
         (total, superpose::diffuse(model, &patches, &values), note)
     }

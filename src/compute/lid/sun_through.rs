@@ -147,7 +147,7 @@ impl Emission {
                 100.0 * beams.map(|beam| beam.exitance).sum::<f64>() / self.incident_sun + 0.0
             };
             self.notes.push(format!(
-                "sun: by the description for this very direction; {:.2} % goes straight on, {:.2} % as turned beams",
+                "sun: by the description for its exact direction; {:.2} % undeviated, {:.2} % as redirected beams",
                 of(true),
                 of(false)
             ));

@@ -127,7 +127,7 @@ fn check_name(
         findings.push(Finding::warning(
             "unknown-basis-name",
             format!(
-                "Angle basis '{}' is no standard name; its own list of {} directions is used.",
+                "Angle basis '{}' is not a standard name; its own list of {} directions is used.",
                 excerpt(basis.name()),
                 basis.len()
             ),

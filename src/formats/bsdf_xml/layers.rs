@@ -41,7 +41,7 @@ pub(super) fn of_system<'a, 'd>(
     let absorbed = absorbed.count();
     if absorbed > 0 {
         let message =
-            format!("Absorbed fractions of layers ({absorbed} blocks) are no part of the light and were not read.");
+            format!("Absorbed fractions of layers ({absorbed} blocks) do not affect light and were not read.");
         findings.push(Finding::info("absorbed-not-read", message));
     }
     let is_optical = |data: &Node<'_, '_>| {

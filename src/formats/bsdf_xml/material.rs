@@ -69,7 +69,9 @@ pub(super) fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_
         if word.eq_ignore_ascii_case(element) {
             dataset.findings.push(Finding::warning(
                 "template-word",
-                format!("The {element} of the file is the template's own word '{word}': tell the product's."),
+                format!(
+                    "The file still has the template's placeholder '{word}' as its {element}; enter the product's."
+                ),
             ));
         } else if word != "Unknown" {
             // What the writer puts where nothing is known.

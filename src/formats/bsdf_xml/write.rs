@@ -59,7 +59,7 @@ fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> 
             report("resampled", format!("{name}: a {from}, averaged over the cells of {}.", basis.name()));
         }
         if btdf.regular.is_some() {
-            report("regular-in-cells", format!("{name}: light that goes straight on now fills its own cell."));
+            report("regular-in-cells", format!("{name}: regular transmission now fills its own cell."));
         }
         if dataset.derived.contains(&component) {
             report("derived-written", format!("{name}: derived, written like a block of the source."));

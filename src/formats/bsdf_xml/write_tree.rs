@@ -78,7 +78,7 @@ pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatEr
                 let (code, what) = if form.derived {
                     ("derived-written", "derived, written like a block of the source")
                 } else {
-                    ("derived-left-out", "derived, left out; whoever reads the file can derive it again")
+                    ("derived-left-out", "derived and not written; programs that read the file can derive it")
                 };
                 findings.push(Finding::info(code, format!("{title}: {what}.")));
                 if !form.derived {
@@ -142,7 +142,7 @@ fn tree_of(
     if btdf.regular.is_some() {
         findings.push(Finding::info(
             "regular-in-cells",
-            format!("{title}: light that goes straight on now fills its own cell of the tree."),
+            format!("{title}: regular transmission now fills its own cell of the tree."),
         ));
     }
     if made.turned > 0.02 {

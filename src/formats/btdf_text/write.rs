@@ -100,8 +100,8 @@ impl Table {
                 let from = match other {
                     Some(Scattered::Tree(_)) => "a tensor tree",
                     Some(Scattered::Lambert(_)) => "a diffuse function",
-                    Some(Scattered::Directions(_) | Scattered::Cells(_)) => "cells and light that goes straight on",
-                    None => "light that goes straight on",
+                    Some(Scattered::Directions(_) | Scattered::Cells(_)) => "cells and regular transmission",
+                    None => "regular transmission",
                 };
                 // The finest incident cells whose means the format knows.
                 let incident = RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
@@ -113,7 +113,7 @@ impl Table {
                 if btdf.regular.is_some() {
                     report(
                         "regular-in-cells",
-                        "Light that goes straight on is spread over its incident cell (10° to 15°).".to_owned(),
+                        "Regular transmission is spread over its incident cell (10° to 15°).".to_owned(),
                     );
                 }
                 (Self::of_matrix(&made, &mut report), made.emergent())

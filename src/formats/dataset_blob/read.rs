@@ -275,7 +275,7 @@ impl<'a> Reader<'a, '_> {
             .map(|_| {
                 let v = DVec3::new(self.number()?, self.number()?, self.number()?);
                 if (v.length() - 1.0).abs() > 1e-9 || v.z < -1e-9 {
-                    return self.invalid("an incident direction that is no unit vector of the outer hemisphere");
+                    return self.invalid("an incident direction that is not a unit vector of the outer hemisphere");
                 }
                 Ok(Incident(Dir::from_unit(v)))
             })

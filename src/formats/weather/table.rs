@@ -213,7 +213,7 @@ pub fn write(weather: &Weather) -> Result<String, FormatError> {
                 .enumerate()
                 .all(|(k, hour)| hour.day == day[0].day && usize::try_from(hour.start) == Ok(3600 * k));
         if !whole || weather.quantity != Quantity::NormalIrradiance {
-            return refuse(&day[0], "records that are no whole day of hours", "24 hours a day, from 1 to 24");
+            return refuse(&day[0], "records that do not make a whole day of hours", "24 hours a day, from 1 to 24");
         }
         let _ = writeln!(text, "{}", day[0].day);
         for (k, record) in day.iter().enumerate() {

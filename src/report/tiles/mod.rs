@@ -46,9 +46,18 @@ impl TileKind {
     pub const ALL: [Self; 8] =
         [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control, Self::Year, Self::Choose];
 
-    /// Returns the title by which the window stores the tile.
+    /// Returns the key by which the window stores the tile; it does not change with the labels.
     pub const fn title(self) -> &'static str {
-        self.words().english()
+        match self {
+            Self::Btdf => "BTDF",
+            Self::Transmittance => "Transmittance",
+            Self::Sky => "Sky",
+            Self::Lid => "LID",
+            Self::Room => "Room",
+            Self::Control => "Control",
+            Self::Year => "Year",
+            Self::Choose => "Choose",
+        }
     }
 
     /// Returns the translated title.

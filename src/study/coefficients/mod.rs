@@ -116,7 +116,7 @@ impl Coefficients {
         if scene.near_field != NearField::SolidAngle {
             return Err(StudyError::key(
                 "compute.near_field",
-                "coefficients need the solid-angle method; leave the key out",
+                "coefficients need the solid-angle method; remove the key",
             ));
         }
         if let Some(index) = scene.apertures.iter().position(|one| one.lamps.is_some()) {
@@ -126,7 +126,7 @@ impl Coefficients {
             ));
         }
         if scene.outside.surroundings().is_some_and(|around| !around.solids.is_empty()) {
-            let message = "coefficients know no boxes: leave the key out, or compute single hours";
+            let message = "coefficients do not support boxes: remove the key, or compute single hours";
             return Err(StudyError::key("outside", message));
         }
         let reflects = scene.room.floor > 0.0

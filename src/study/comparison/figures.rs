@@ -51,6 +51,15 @@ pub enum Sense {
 }
 
 impl Sense {
+    /// Returns the value in files; it does not change with the label.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::More => "more is better",
+            Self::Less => "less is better",
+            Self::Aim => "a matter of aim",
+        }
+    }
+
     /// Returns the label of the direction.
     pub const fn words(self) -> Text {
         match self {
@@ -122,6 +131,27 @@ pub struct Figure {
     pub tip: Text,
     /// Computes the value from the results; `None` if these are not sufficient.
     pub of: fn(&Facts) -> Option<Value>,
+}
+
+impl Figure {
+    /// Returns the name in JSON files; it does not change with the label.
+    pub fn json_name(&self) -> &'static str {
+        match self.key {
+            "tau_normal" => "τ normal",
+            "tau_hemispherical" => "τ hemispherical",
+            "to_ceiling" => "Light to the ceiling",
+            "sun_blocked" => "Sun blocked",
+            "view" => "View",
+            "flux" => "Luminous flux",
+            "peak_scattered" => "Scattered peak of the LID",
+            "mean" => "Mean illuminance",
+            "least" => "Darkest sensor",
+            "greatest" => "Brightest sensor",
+            "uniformity" => "Uniformity",
+            "share_300" => "Sensors with 300 lx",
+            key => key,
+        }
+    }
 }
 
 /// Minimum illuminance over half of a room by EN 17037. \[lx\]

@@ -2,7 +2,7 @@
 //! the errors.
 
 use super::figures::{Facts, Figure, Sense, Value};
-use crate::texts::{Language, compare as texts, csv_cell, speak};
+use crate::texts::{compare as texts, csv_cell};
 
 /// Outcome of the comparison of a row's values.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,10 +75,19 @@ pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
     }
 }
 
+/// Formats an outcome for files; its words do not change with the labels.
+fn verdict_key(verdict: &Verdict, names: &[String]) -> String {
+    match verdict {
+        Verdict::Within => "within the errors".to_owned(),
+        Verdict::Unstated => "error not stated".to_owned(),
+        Verdict::Aim => Sense::Aim.key().to_owned(),
+        Verdict::Better(_) | Verdict::Alone => verdict_words(verdict, names),
+    }
+}
+
 /// Returns the rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`. Its words are
 /// English, as in all data files.
 pub fn csv(rows: &[Row], names: &[String]) -> String {
-    let _english = speak(Language::English);
     let mut out = String::from("figure,unit,better_is");
     for name in names {
         out.push_str(&format!(",{},{}", csv_cell(name), csv_cell(&format!("error of {name}"))));
@@ -86,12 +95,12 @@ pub fn csv(rows: &[Row], names: &[String]) -> String {
     out.push_str(",better\n");
     let number = |value: Option<f64>| value.map(|value| format!("{value:.6}")).unwrap_or_default();
     for row in rows {
-        out.push_str(&format!("{},{},{}", row.figure.key, row.figure.unit, row.figure.sense.words().english()));
+        out.push_str(&format!("{},{},{}", row.figure.key, row.figure.unit, row.figure.sense.key()));
         for value in &row.values {
             let error = value.and_then(|value| value.error);
             out.push_str(&format!(",{},{}", number(value.map(|value| value.value)), number(error)));
         }
-        out.push_str(&format!(",{}\n", csv_cell(&verdict_words(&row.verdict, names))));
+        out.push_str(&format!(",{}\n", csv_cell(&verdict_key(&row.verdict, names))));
     }
     out
 }

@@ -108,6 +108,6 @@ pub fn section_from_keys(keys: &SlatKeys) -> Result<SlatRow, StudyError> {
         _ => return Err(wrong("needs either width (and rise) or profile, besides spacing")),
     };
     SlatRow::new(profile, keys.spacing).ok_or_else(|| {
-        wrong("is no section: width and spacing are lengths above 0 m, rise is at most half the width, a profile has two points or more")
+        wrong("is not a valid section: width and spacing are lengths above 0 m, rise is at most half the width, a profile has two points or more")
     })
 }

@@ -120,7 +120,7 @@ pub fn sun_at(facing: &Facing<'_>, upright: bool) -> Option<SunAt> {
 pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Settings, StudyError> {
     // Ignored, such a key would look as if it did something.
     if let Some((key, modes)) = keys.misplaced() {
-        return Err(StudyError::key(format!("control.{key}"), format!("belongs to mode = {modes}: leave it out")));
+        return Err(StudyError::key(format!("control.{key}"), format!("is only valid with mode = {modes}; remove it")));
     }
     let unmoved = || Settings::new(vec![0.0; device.keys.len()], Rule::Fixed(0));
     let by_name = matches!(keys.mode, ControlMode::Fixed | ControlMode::User | ControlMode::Table);
@@ -275,7 +275,7 @@ fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
         hour(text).ok_or_else(|| {
             StudyError::key(
                 "control.schedule",
-                format!("\"{text}\" is no time of the day: write HH:MM, 00:00 to 24:00"),
+                format!("\"{text}\" is not a time of the day: write HH:MM, 00:00 to 24:00"),
             )
         })
     };

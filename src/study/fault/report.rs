@@ -62,7 +62,7 @@ fn text(fault: &Fault, before: &[Fault], report: &Report<'_>) -> String {
     let _ = write!(
         own,
         "cfs {} ({system}, {processor}, {build} build)\n\
-         A fault of the program. What stands here can be read and sent as it is.\n\n\
+         Internal error. This report can be read and sent as it is.\n\n\
          == What was being done\n{}\n\n== Fault\n",
         env!("CARGO_PKG_VERSION"),
         report.doing

@@ -118,11 +118,11 @@ fn objective(number: usize, keys: &ObjectiveKeys) -> Result<Objective, StudyErro
     let ObjectiveKeys { figure, better, worst, best, weight } = keys;
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_' | '-');
     if figure.is_empty() || !figure.chars().all(plain) {
-        return wrong("figure", format!("\"{figure}\" is no key of a figure; e.g. \"lighting.LENI_kWh_m2\""));
+        return wrong("figure", format!("\"{figure}\" is not the key of a figure; e.g. \"lighting.LENI_kWh_m2\""));
     }
     for (key, value) in [("worst", *worst), ("best", *best)] {
         if !value.is_finite() {
-            return wrong(key, format!("{value} is no number"));
+            return wrong(key, format!("{value} is not a number"));
         }
     }
     if !(weight.is_finite() && *weight > 0.0) {

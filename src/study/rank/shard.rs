@@ -26,7 +26,7 @@ impl Shard {
     /// # Errors
     /// Returns a message that says what is expected.
     pub fn read(text: &str) -> Result<Self, String> {
-        let wrong = || format!("\"{text}\" is no shard; expected n/N with n from 0 to N - 1, e.g. 0/8");
+        let wrong = || format!("\"{text}\" is not a shard; expected n/N with n from 0 to N - 1, e.g. 0/8");
         let (number, count) = text.split_once('/').ok_or_else(wrong)?;
         let (number, count) = (number.parse().map_err(|_| wrong())?, count.parse().map_err(|_| wrong())?);
         if number < count { Ok(Self { number, count }) } else { Err(wrong()) }

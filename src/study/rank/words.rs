@@ -20,7 +20,7 @@ pub fn why(list: &List, ranked: &[Ranked], rows: &[(&str, &Found)], of: usize) -
     let Some((other, why)) = &own.to_best else { return "the only one".to_owned() };
     let rival = &ranked[*other];
     let is_distinct = surely_above(own.utility, rival.utility) || surely_above(rival.utility, own.utility);
-    let qualifier = if is_distinct { "" } else { "not to be told from it, as it comes out " };
+    let qualifier = if is_distinct { "" } else { "within the uncertainty, " };
     let name = rows[*other].0;
     let shares = shares(list, rows[of].1, why, Some(rows[*other].1));
     format!("{qualifier}{} {name}: {shares}; {mean}", against(why.utility))

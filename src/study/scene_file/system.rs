@@ -185,7 +185,7 @@ fn family(states: &[FamilyState]) -> Result<(), String> {
             return Err(format!("states: two are called '{}'; expected a key for each", one.state));
         }
         if !one.value.is_finite() {
-            return Err(format!("states: the value of '{}' is no number", one.state));
+            return Err(format!("states: the value of '{}' is not a number", one.state));
         }
     }
     Ok(())

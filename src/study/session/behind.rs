@@ -178,7 +178,7 @@ impl Session {
         if scene.near_field != NearField::SolidAngle {
             return Err(StudyError::key(
                 "compute.near_field",
-                "with boxes or a skyline by bearing only the solid-angle method is there; leave the key out",
+                "with boxes or a skyline by bearing only the solid-angle method is available; remove the key",
             ));
         }
         let all = (0..scene.apertures.len()).map(|index| self.split(scene, index, progress));

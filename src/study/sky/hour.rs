@@ -106,7 +106,7 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
 fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     let by_weather = sky.model == SkyModelKey::Weather;
     if sky.weather.is_none() {
-        const ALONE: &str = "belongs to sky.weather alone: leave it out";
+        const ALONE: &str = "is only valid with sky.weather; remove it";
         if by_weather {
             let message = "missing: \"cie\", \"uniform\", \"perez\" or \"scan\"; or weather = a file, and time";
             return Err(wrong("sky.model", message));
@@ -118,7 +118,7 @@ fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     }
     let not_beside = |key: &'static str, given: bool| {
         if given {
-            Err(wrong(key, "given together with sky.weather, which says it: leave one of them out"))
+            Err(wrong(key, "given together with sky.weather, which includes it; remove one of them"))
         } else {
             Ok(())
         }

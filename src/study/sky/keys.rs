@@ -67,7 +67,7 @@ pub(super) fn check_ranges(sky: &SkyKeys, site: &SiteKeys) -> Result<(), SkyKeyE
 pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     let only = |key, given: bool, model: SkyModelKey, name: &str| {
         if given && sky.model != model {
-            Err(wrong(key, format!("belongs to model = \"{name}\" alone: leave it out")))
+            Err(wrong(key, format!("is only valid with model = \"{name}\"; remove it")))
         } else {
             Ok(())
         }

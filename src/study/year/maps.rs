@@ -41,6 +41,19 @@ pub fn title(shows: Shows) -> String {
     }
 }
 
+/// Returns the head of a map's column in CSV files; it does not change with the title.
+pub fn csv_column(shows: Shows) -> String {
+    match shows {
+        Shows::Mean => "Mean illuminance".to_owned(),
+        Shows::Sensor(place) => format!("Sensor {}", place + 1),
+        Shows::State(_) => "State".to_owned(),
+        Shows::Dgps(eye) => format!("DGPs, eye {}", eye + 1),
+        Shows::Lighting => "Lighting power".to_owned(),
+        Shows::DirectNormal => "Direct normal".to_owned(),
+        Shows::DiffuseHorizontal => "Diffuse horizontal".to_owned(),
+    }
+}
+
 /// Returns the places of a device's states in ascending order of their values, and their keys in that order; in the
 /// device's order if the states have no values.
 pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {

@@ -58,7 +58,7 @@ pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
 pub use light::Light;
 pub use lm83::{Group, Lm83, SHADE};
 pub use look::{Look, Page, Shows};
-pub use maps::{choices, error, map, title, weather_map};
+pub use maps::{choices, csv_column, error, map, title, weather_map};
 pub use opening::{NOT_JUDGED, Opening, opening};
 pub use resume::{Kept, STORE_DELAY};
 pub use settings::{Settings, settings};

@@ -46,7 +46,7 @@ fn day(keys: &SunlightKeys, steps: &Steps) -> Result<Day, StudyError> {
     let wrong = || {
         StudyError::key(
             "year.sunlight.date",
-            format!("\"{}\" is no day of a sunlight exposure (allowed: \"02-01\" to \"03-21\", MM-DD)", keys.date),
+            format!("\"{}\" is not a day of a sunlight exposure (allowed: \"02-01\" to \"03-21\", MM-DD)", keys.date),
         )
     };
     let (month, number) = keys.date.split_once('-').ok_or_else(wrong)?;

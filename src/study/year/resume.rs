@@ -126,9 +126,9 @@ impl Kept {
         if head != format!("{HEAD} {}", self.fingerprint) && !(may_overwrite || whole.is_empty()) {
             let what = match head.strip_prefix(HEAD) {
                 Some(_) => "holds hours of another scene, weather, product or program",
-                None => "is no part of a year",
+                None => "is not a part of a year",
             };
-            return Err(wrong(&self.path, format!("{what}; remove it, or begin anew with --force")));
+            return Err(wrong(&self.path, format!("{what}; remove it, or start again with --force")));
         }
         let mut end = 0;
         if head == format!("{HEAD} {}", self.fingerprint) {
@@ -339,7 +339,7 @@ mod tests {
         kept.done().unwrap();
         assert!(!path.exists());
         std::fs::write(&path, "notes\n").unwrap();
-        assert!(open("a", false).unwrap_err().to_string().contains("is no part of a year"));
+        assert!(open("a", false).unwrap_err().to_string().contains("is not a part of a year"));
         assert_eq!(std::fs::read_to_string(&path).unwrap(), "notes\n");
     }
 

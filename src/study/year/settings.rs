@@ -59,7 +59,7 @@ pub fn settings(file: &SceneFile) -> Result<Settings, StudyError> {
     within("hours.to", keys.hours.to, 0.0, 24.0, " h")?;
     if keys.hours.from == keys.hours.to {
         let message =
-            format!("from {0} h to {0} h is no time; for all hours give from = 0.0, to = 24.0", keys.hours.from);
+            format!("from {0} h to {0} h is not a period; for all hours give from = 0.0, to = 24.0", keys.hours.from);
         return Err(StudyError::key("year.hours", message));
     }
     if !matches!(keys.ground.len(), 0 | 12) {

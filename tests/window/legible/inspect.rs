@@ -169,7 +169,7 @@ fn catalogue_edge(harness: &Harness<'_, App>, tiles: &[Rect]) -> f32 {
 /// menu bar, and in the narrowest tile the words for a sun behind the façade.
 fn cut_with_a_tip(harness: &Harness<'_, App>) -> Vec<String> {
     let state = &harness.state().state;
-    let sun_behind = "the sun is not before the façade".to_owned();
+    let sun_behind = "the sun is not in front of the façade".to_owned();
     let selection = title::title(state).replace("cfs – ", "");
     // Names in the rows of a ranking, with their marks, and why others are left out.
     let ranked = harness.state().results.rank.value.as_ref();

@@ -204,11 +204,11 @@ mod tests {
         scene.outside.push(OutsideKeys { name: String::new(), ..scene.outside[0].clone() });
         assert_eq!((essence(&scene).as_str(), problem(&scene)), ("Overhang, Box 2", None));
         scene.outside[1].solid.to[1] = 0.3;
-        assert!(problem(&scene).is_some_and(|said| said.starts_with("Box 2 reaches into the room")));
+        assert!(problem(&scene).is_some_and(|said| said.starts_with("Box 2 extends into the room")));
         scene.outside.truncate(1);
         act(&mut scene, Act::Add(Kind::Balcony)).unwrap();
         let said = problem(&scene).unwrap();
-        assert!(said.starts_with("Balcony does not rise above the ground at 0.00 m"), "{said}");
+        assert!(said.starts_with("Balcony is below the ground at 0.00 m"), "{said}");
         scene.site.ground_height = -3.0;
         assert_eq!(problem(&scene), None);
     }

@@ -35,9 +35,21 @@ fn unknown_tiles_leave_missing_ones_come_as_tabs_and_broken_text_is_refused() {
     let twice = text.replace("\"b\"", "\"a\"");
     assert_eq!(Layout::read(&twice, &tiles()).unwrap().tiles().iter().filter(|tile| **tile == a).count(), 1);
     assert!(Layout::read(&text[..text.len() - 4], &tiles()).is_err());
-    assert!(Layout::read(&text.replace("\"version\":1", "\"version\":7"), &tiles()).unwrap_err().contains("form 7"));
+    assert!(Layout::read(&text.replace("\"version\":1", "\"version\":7"), &tiles()).unwrap_err().contains("format 7"));
     assert!(Layout::read(&text.replace("2.0", "-2.0"), &tiles()).unwrap_err().contains("share"));
     assert!(Layout::read(r#"{"version":1,"tree":{"tile":"x"}}"#, &tiles()).is_err());
+}
+
+#[test]
+fn a_layout_of_the_version_before_is_read_whatever_tiles_are_called() {
+    let old = ["BTDF", "Transmittance", "Sky", "LID", "Room", "Control", "Year", "Choose"];
+    let kept: Vec<String> = old.iter().map(|title| format!(r#"{{"tile":"{title}"}}"#)).collect();
+    let text = format!(r#"{{"version":1,"tree":{{"tabs":{{"front":7,"tabs":[{}]}}}}}}"#, kept.join(","));
+    let known: Vec<Tile> = crate::app::tiles::TILES.iter().map(|entry| entry.tile).collect();
+    let read = Layout::read(&text, &known).unwrap();
+    assert_eq!(read.tiles().iter().map(|tile| tile.title).collect::<Vec<_>>(), old);
+    assert_eq!(crate::report::TileKind::ALL.map(crate::report::TileKind::title), old);
+    assert!(matches!(read, Layout::Tabs { front: 7, .. }));
 }
 
 #[test]

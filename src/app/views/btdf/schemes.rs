@@ -202,7 +202,7 @@ mod tests {
         let asked = SchemesResult { key: (1, SunScheme::Nearest, Default::default()), made: Ok(vec![]) };
         let input = SchemesInput { result: Some(&asked), ..input };
         assert!(
-            input.why(&triangle(Way::Moved)).full().contains("“nearest”, as the scene asks · misplaces about 12 %")
+            input.why(&triangle(Way::Moved)).full().contains("“nearest”, as set in the scene · misplaces about 12 %")
         );
     }
 

@@ -291,7 +291,7 @@ impl Peaks {
             if let Some(o) = self.basis().index(to) {
                 spread[o] += lobe * exitance / weight[o];
             }
-            let way = if straight { "straight on" } else { "mirrored" };
+            let way = if straight { "undeviated" } else { "mirrored" };
             words.push(format!("{:.1} % ± {:.1} % {way}", 100.0 * strength, 100.0 * error));
         }
         let own = &self.rest[cell];
