@@ -85,7 +85,7 @@ fn as_text(path: &Path, health: &Health, result: Option<&RepairResult>) -> Resul
             writeln!(text, "  as it was: {}", files::absolute(&result.copy).display())?;
             result.repaired.iter().try_for_each(|message| writeln!(text, "  repaired: {message}"))?;
             result.lost.iter().try_for_each(|message| writeln!(text, "  lost: {message}"))?;
-            writeln!(text, "  now: {} products, {} datasets", result.after.products, mended.after.datasets)?;
+            writeln!(text, "  now: {} products, {} datasets", result.after.products, result.after.datasets)?;
         }
     }
     for (key, at) in &result.map_or(health, |result| &result.after).restored {

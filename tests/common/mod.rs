@@ -1,4 +1,4 @@
-//! Data too big for this repository, and a note of every test that did not look for want of something.
+//! Reference data, and a note of every test that did not look for want of something.
 //!
 //! What a passing test prints is not shown. So it is written down, for all test programs of a run together, and
 //! `tests/zz_not_looked_at.rs`, which comes last, says the sum.
@@ -14,16 +14,34 @@ pub fn root() -> &'static Path {
     package.ancestors().find(|folder| folder.join("Cargo.lock").is_file()).expect("a folder with a lock file")
 }
 
-/// A file or folder of the public data, which are in `$CFS_TEST_DATA` or `../shared`; noted when it is not there.
+/// File in a folder of `tests/reference` that has some cases of a kit only: says which.
+pub const SELECTION: &str = "SELECTION.md";
+
+/// Returns a file or folder of the reference data.
+///
+/// Kits made for this project are in `tests/reference`; files of makers, and kits too large for the repository, are in
+/// `$CFS_TEST_DATA` or `../shared`. Where the repository has a [`SELECTION`], the whole kit comes first. What is absent,
+/// or looked at by a selection only, is noted.
 #[track_caller]
 pub fn data(part: &str) -> Option<PathBuf> {
+    let own = root().join("tests").join(part);
+    let selected = own.join(SELECTION).exists();
+    if own.exists() && !selected {
+        return Some(own);
+    }
     let folder = std::env::var_os("CFS_TEST_DATA").map_or_else(|| "../shared".into(), PathBuf::from);
     let path = root().join(folder).join(part);
     if path.exists() {
         return Some(path);
     }
-    not_looked_at("reference data absent (CFS_TEST_DATA)");
-    None
+    let absent = if selected { "only a selection of the reference data" } else { "reference data absent" };
+    not_looked_at(&format!("{absent} (CFS_TEST_DATA)"));
+    selected.then_some(own)
+}
+
+/// Whether a file of a kit is one that a [`SELECTION`] does without.
+pub fn left_out(file: &Path) -> bool {
+    !file.exists() && file.with_file_name(SELECTION).exists()
 }
 
 /// Are pictures compared? Only those of a software Vulkan driver (lavapipe): others draw other pixels.

@@ -2,7 +2,7 @@
 
 pub mod analytic;
 
-use crate::common::data;
+use crate::common::{data, left_out};
 use analytic::{Noise, glass, rings, system};
 use cfs::catalogue::{Catalogue, NewProduct};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
@@ -259,9 +259,13 @@ fn matrices_of_cells_stay_compact_too() {
 
 #[test]
 fn files_of_the_reference_kit() {
-    let (Some(systems), Some(makers)) = (data("reference/systems"), data("data/bsdf")) else { return };
+    let Some(systems) = data("reference/systems") else { return };
     for name in ["clear", "diffuser", "lcp", "lcpskew", "redirect", "scatter", "slats"] {
-        let text = std::fs::read_to_string(systems.join(format!("ana_{name}.btdf.txt"))).unwrap();
+        let path = systems.join(format!("ana_{name}.btdf.txt"));
+        if left_out(&path) {
+            continue;
+        }
+        let text = std::fs::read_to_string(path).unwrap();
         let given = dataset(analytic::read_text(&text));
         let made = compact(&given, Criterion::ARCHIVE).unwrap();
         let f = &made.functions[0];
@@ -281,6 +285,7 @@ fn files_of_the_reference_kit() {
         assert!(f.bytes < f.bytes_lossless && room < 0.02);
     }
     // Klems matrices are compressed, trees are compact already.
+    let Some(makers) = data("data/bsdf") else { return };
     let read = |path: &str| {
         let bytes = std::fs::read(makers.join(path)).unwrap();
         cfs::formats::read_dataset("a.xml", &bytes).unwrap().remove(0)

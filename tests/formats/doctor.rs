@@ -21,7 +21,8 @@ fn walk(folder: &Path, list: &mut Vec<PathBuf>) {
 
 /// Every dataset that can be read, by file name. Parser samples and a hand-made tree are no products.
 fn genuine() -> Vec<(String, Dataset)> {
-    let (Some(makers), Some(systems)) = (data("data/bsdf"), data("reference/systems")) else { return Vec::new() };
+    let Some(makers) = data("data/bsdf") else { return Vec::new() };
+    let Some(systems) = data("reference/systems") else { return Vec::new() };
     let mut files = Vec::new();
     walk(&makers, &mut files);
     walk(&systems, &mut files);

@@ -1,7 +1,7 @@
 //! Measured datasets as text: orientation, layouts, symmetry, families, round trips, hostile files.
 
 use crate::btdf_text::{File, function, names, uneven, vector};
-use crate::common::data;
+use crate::common::{data, left_out};
 use cfs::catalogue::{Catalogue, Grouping, Origin, SourceFile, check, gather};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{Band, Btdf, CellMatrix, Component, Dataset, Scattered, Severity, reciprocity_error};
@@ -307,7 +307,11 @@ fn analytic_systems_have_their_exact_transmittances() {
         table.records().map(|row| row.unwrap().iter().map(|field| field.parse().unwrap()).collect()).collect();
     assert_eq!(rows.len(), 145);
     for (column, name) in names.iter().enumerate() {
-        let bytes = std::fs::read(folder.join(format!("ana_{name}.btdf.txt"))).unwrap();
+        let path = folder.join(format!("ana_{name}.btdf.txt"));
+        if left_out(&path) {
+            continue;
+        }
+        let bytes = std::fs::read(path).unwrap();
         let start = std::time::Instant::now();
         let dataset = read(&bytes).unwrap();
         println!("{name}: {} bytes in {:?}", bytes.len(), start.elapsed());

@@ -1,7 +1,5 @@
-//! Whole scenes against the public reference cases: every scene of every folder, sensor by sensor, and whether the
-//! stated error covers the true one.
-//!
-//! The cases are found by the environment variable `CFS_TEST_DATA` (a directory that holds `data` and `reference`).
+//! Whole scenes against the reference cases: every scene of every kit, sensor by sensor, and whether the stated error
+//! covers the true one.
 
 use crate::common::data;
 use crate::rooms::compute;
@@ -9,9 +7,6 @@ use cfs::study::{Library, Session, load_scene};
 use rayon::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-
-/// Where the cases are in the public data.
-pub const CASES: &str = "reference/cases";
 
 /// How a value is judged: |v − E| ≤ relative·E + the reference's own uncertainty + absolute.
 #[derive(Clone, Copy)]
@@ -35,15 +30,17 @@ struct Outcome {
     sum_error: f64,
 }
 
-pub fn scenes(cases: &Path, folder: &str) -> Vec<PathBuf> {
-    let mut list: Vec<PathBuf> = std::fs::read_dir(cases.join(folder))
+/// Scenes of a kit that have a table beside them.
+#[track_caller]
+pub fn scenes(kit: &str) -> Option<Vec<PathBuf>> {
+    let mut list: Vec<PathBuf> = std::fs::read_dir(data(&format!("reference/cases/{kit}"))?)
         .unwrap()
         .map(|entry| entry.unwrap().path())
         .filter(|path| path.extension().is_some_and(|e| e == "toml") && path.with_extension("csv").exists())
         .collect();
     list.sort();
-    assert!(!list.is_empty(), "{folder} holds no scenes");
-    list
+    assert!(!list.is_empty(), "{kit} holds no scenes");
+    Some(list)
 }
 
 pub fn number(row: &HashMap<String, String>, column: &str) -> f64 {
@@ -99,11 +96,9 @@ fn compare(path: &Path, bar: Bar) -> Outcome {
 
 /// Every scene of a folder whose name passes, each sensor against the bar that its name asks for.
 fn every_sensor(folder: &str, bar: impl Fn(&str) -> Option<Bar> + Sync) {
-    let Some(cases) = data(CASES) else { return };
-    let outcomes: Vec<Outcome> = scenes(&cases, folder)
-        .par_iter()
-        .filter_map(|path| Some(compare(path, bar(&path.file_stem()?.to_string_lossy())?)))
-        .collect();
+    let Some(scenes) = scenes(folder) else { return };
+    let outcomes: Vec<Outcome> =
+        scenes.par_iter().filter_map(|path| Some(compare(path, bar(&path.file_stem()?.to_string_lossy())?))).collect();
     report(folder, &outcomes, |outcome| outcome.worst.0 > 0.0);
     errors_are_stated(folder, &outcomes);
 }
@@ -181,9 +176,9 @@ fn matrices_of_makers() {
 
 #[test]
 fn tensor_trees() {
-    let Some(cases) = data(CASES) else { return };
+    let Some(scenes) = scenes("tensor") else { return };
     let bar = Bar { relative: 1.0, absolute: f64::INFINITY };
-    let outcomes: Vec<Outcome> = scenes(&cases, "tensor").par_iter().map(|path| compare(path, bar)).collect();
+    let outcomes: Vec<Outcome> = scenes.par_iter().map(|path| compare(path, bar)).collect();
     for outcome in &outcomes {
         let [got, want] = outcome.sums;
         println!("tensor/{}: sum {:+.3} %", outcome.name, 100.0 * (got / want - 1.0));
@@ -199,9 +194,9 @@ fn tensor_trees() {
 fn sky_patches() {
     use cfs::compute::sky::mean_luminance;
     use cfs::compute::sky::patches::tregenza_patches;
-    let Some(cases) = data(CASES) else { return };
+    let Some(scenes) = scenes("sky") else { return };
     let (mut off, mut compared) = (Vec::new(), 0);
-    for path in scenes(&cases, "sky") {
+    for path in scenes {
         let scene = load_scene(&path, &Library::default()).unwrap();
         let rows: Vec<HashMap<String, String>> = csv::Reader::from_path(path.with_extension("csv"))
             .unwrap()
@@ -233,11 +228,10 @@ fn sky_patches() {
 #[test]
 fn a_session_that_has_seen_other_scenes_gives_the_same() {
     // Caches are keyed by geometry: results must not depend on what was asked before.
-    let Some(cases) = data(CASES) else { return };
     let session = Session::new();
     let library = Library::default();
-    for folder in ["inter", "systems"] {
-        for path in scenes(&cases, folder).iter().step_by(3) {
+    for kit in ["inter", "systems"] {
+        for path in scenes(kit).iter().flatten().step_by(3) {
             let scene = load_scene(path, &library).unwrap();
             let warm = session.room(&scene, &cfs::compute::estimate::Silent).unwrap();
             let cold = Session::new().room(&scene, &cfs::compute::estimate::Silent).unwrap();
