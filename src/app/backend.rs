@@ -159,7 +159,7 @@ impl Shelf for CatalogueShelf {
         // The first of equals stays first, as the catalogue has them.
         let Some(one) = waiting.iter().min_by_key(|one| place(one)) else { return Ok([0, all]) };
         progress.advance("computing", all.saturating_sub(waiting.len()), all);
-        // Not by way of `at_work`: who waits for this state would wait for one who rests while somebody waits.
+        // Not through `in_progress`: who waits for this state would wait for one who rests while somebody waits.
         let withdrawn = Withdrawn(progress);
         let product = lock(filler).product(&one.product)?;
         let dataset = builtin::compute(&product, &one.state, &Library::default(), &withdrawn).map_err(|error| {

@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn many_who_ask_make_one_computation() {
-        let (at_work, there, count) = (StatesInProgress::default(), AtomicBool::new(false), AtomicUsize::new(0));
+        let (in_progress, there, count) = (StatesInProgress::default(), AtomicBool::new(false), AtomicUsize::new(0));
         std::thread::scope(|scope| {
             for _ in 0..6 {
                 scope.spawn(|| {
@@ -88,7 +88,7 @@ mod tests {
                         there.store(true, Ordering::SeqCst);
                         Ok(())
                     };
-                    at_work.once(&state(), &Silent, || Ok(there.load(Ordering::SeqCst)), compute).unwrap();
+                    in_progress.once(&state(), &Silent, || Ok(there.load(Ordering::SeqCst)), compute).unwrap();
                     assert!(there.load(Ordering::SeqCst));
                 });
             }
@@ -98,7 +98,7 @@ mod tests {
 
     #[test]
     fn who_waits_takes_over_from_who_gives_up() {
-        let (at_work, there) = (StatesInProgress::default(), AtomicBool::new(false));
+        let (in_progress, there) = (StatesInProgress::default(), AtomicBool::new(false));
         let (begun, begins) = std::sync::mpsc::channel();
         std::thread::scope(|scope| {
             scope.spawn(|| {
@@ -107,14 +107,14 @@ mod tests {
                     std::thread::sleep(Duration::from_millis(60));
                     Err(StudyError::Cancelled(Cancelled).into())
                 };
-                assert!(at_work.once(&state(), &Silent, || Ok(false), gives_up).is_err());
+                assert!(in_progress.once(&state(), &Silent, || Ok(false), gives_up).is_err());
             });
             begins.recv().unwrap();
             let compute = || {
                 there.store(true, Ordering::SeqCst);
                 Ok(())
             };
-            at_work.once(&state(), &Silent, || Ok(there.load(Ordering::SeqCst)), compute).unwrap();
+            in_progress.once(&state(), &Silent, || Ok(there.load(Ordering::SeqCst)), compute).unwrap();
         });
         assert!(there.load(Ordering::SeqCst));
     }
@@ -127,12 +127,12 @@ mod tests {
                 true
             }
         }
-        let at_work = StatesInProgress::default();
+        let in_progress = StatesInProgress::default();
         let inside = || {
-            let error = at_work.once(&state(), &Withdrawn, || Ok(false), || Ok(())).unwrap_err();
+            let error = in_progress.once(&state(), &Withdrawn, || Ok(false), || Ok(())).unwrap_err();
             assert!(matches!(error, AppError::Study(StudyError::Cancelled(_))), "{error}");
             Ok(())
         };
-        at_work.once(&state(), &Silent, || Ok(false), inside).unwrap();
+        in_progress.once(&state(), &Silent, || Ok(false), inside).unwrap();
     }
 }

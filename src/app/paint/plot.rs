@@ -281,7 +281,7 @@ fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32)
         .tick_label_font(FontId::proportional(TICKS))
 }
 
-/// Returns ticks at least about `apart` points from one another.
+/// Returns ticks at least about `distance` points from one another.
 fn marks(axis: &Axis, input: &GridInput, distance: f64) -> Vec<GridMark> {
     let (lo, hi) = input.bounds;
     // The base step is eight points.

@@ -7,7 +7,7 @@
 //! Comparisons between functions are made on common cells by through direction ([`blocks`]), where a clear pane is a
 //! diagonal matrix and reciprocity a plain transpose. A fault is a hypothesis about all blocks of a file together
 //! (`hypotheses`): the numbers are read as if it were undone (`reading`), every reading is rated by the same few
-//! questions (`witnesses`), and the best explanation is reported, and offered as certain where its lead over all others
+//! questions (`evidence`), and the best explanation is reported, and offered as certain where its lead over all others
 //! is large (`judgement`). Where no question contradicts a reading, as when all functions are upside down together, the
 //! data do not show the fault; the sentence about the sun then asks the user.
 

@@ -324,7 +324,7 @@ impl FaceLight {
         index
     }
 
-    /// Calls `tell` with the index and weight of each value in the light at a place; not at all where there is no
+    /// Calls `visit` with the index and weight of each value in the light at a place; not at all where there is no
     /// panel.
     pub fn weigh(&self, at: [f64; 2], mut visit: impl FnMut(usize, f64)) {
         if let Part::Panel { limits, nodes, first, .. } = self.part(at) {

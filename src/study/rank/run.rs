@@ -47,7 +47,7 @@ struct Ready {
 }
 
 /// Computes items, those with few states first, and in later stages the best of the earlier stage first. Results do not
-/// depend on the number of threads. All items complete a stage before any enters the next; `told` receives every result
+/// depend on the number of threads. All items complete a stage before any enters the next; `report` receives every result
 /// when it is available, from any thread.
 ///
 /// # Errors

@@ -224,7 +224,7 @@ impl SunTile {
         Self { part: part_of(aperture, part), lit, halves }
     }
 
-    /// Calls `tell` for every tile that is small enough for a sensor at `eye`, with its sunlit share.
+    /// Calls `on_tile` for every tile that is small enough for a sensor at `eye`, with its sunlit share.
     fn visit(&self, eye: DVec3, on_tile: &mut dyn FnMut(&Aperture, f64)) {
         let small = self.part.size[0].max(self.part.size[1]) <= SUN_TILE_AWAY * self.part.distance(eye);
         if self.halves.is_empty() || small {

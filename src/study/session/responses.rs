@@ -2,7 +2,7 @@
 //! (adjoint).
 //!
 //! One set serves every sky, sun and system of a room; light that apertures reflect by direction is added by cells,
-//! see [`super::thrown_back`].
+//! see [`super::room_side_reflection`].
 
 use super::beam_responses::{BeamResponses, ReflectedBeamLight};
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};

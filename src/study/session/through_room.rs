@@ -27,7 +27,7 @@ pub(super) struct ThroughRoom {
     pub sensor_key: Key,
 }
 
-/// Returns the weights of a sensor: its value, then with `doubts` those of its walls.
+/// Returns the weights of a sensor: its value, and `with_uncertainty` those of its walls.
 fn lists(sensor: &Response, with_uncertainty: bool) -> impl Iterator<Item = &[f64]> {
     std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| with_uncertainty)).map(Vec::as_slice)
 }
@@ -39,7 +39,7 @@ impl ThroughRoom {
     }
 
     /// Returns the sensors' weights of the luminance of an aperture's cells, by way of the room alone, computed or
-    /// kept; without `doubts` values only.
+    /// kept. `with_uncertainty`: with those of its walls.
     pub fn through_room(
         &self,
         session: &Session,

@@ -2,7 +2,7 @@
 //!
 //! A partial file `NAME.part` contains the fingerprint of all input of the hours, then a line for each hour with all
 //! bits of its numbers: a resumed year is identical to one of a single run. It is created only when the run takes
-//! longer than [`PATIENCE`], and removed when the table is complete. A line that was incomplete when the run ended is
+//! longer than [`STORE_DELAY`], and removed when the table is complete. A line that was incomplete when the run ended is
 //! written again. Results from the hours (glare, solar energy, figures) are not stored.
 
 use super::light::{self, Light, Question};
@@ -88,7 +88,7 @@ impl Hour {
 
 impl Kept {
     /// Creates the store beside a table, and reads an existing partial file. `fingerprint`: of all input of the hours;
-    /// `patience`: see [`PATIENCE`]; `anew`: whether a file of another input may be overwritten.
+    /// `delay`: see [`STORE_DELAY`]. `may_overwrite`: whether a file of another input may be overwritten.
     ///
     /// # Errors
     /// Returns an error if the partial file is of another scene, weather or program, or if another run is writing it.

@@ -208,7 +208,7 @@ pub(super) fn show_beyond(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input
     response.on_hover_text(list.join("\n"));
 }
 
-/// Whether anything lies beyond the picture, so that [`tell`] has something to state.
+/// Whether anything lies beyond the picture, so that [`show_beyond`] has something to state.
 pub(super) fn has_beyond(input: &Input<'_>, side: bool, span: Span) -> bool {
     let holds = |extent: [[f64; 2]; 2]| {
         (0..2).all(|axis| span.0[axis][0] <= extent[axis][0] + 1e-9 && extent[axis][1] <= span.0[axis][1] + 1e-9)

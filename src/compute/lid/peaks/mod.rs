@@ -51,7 +51,7 @@ pub struct SunOnCells {
     pub beams: Vec<BeamLight>,
     /// Luminance of the rest by emergent cell. \[cd/m²\]
     pub luminance: Vec<f64>,
-    /// Uncertainties of `luminance`, as in [`super::CellLight::doubts`].
+    /// Uncertainties of `luminance`, as in [`super::CellLight::uncertainties`].
     pub uncertainties: Vec<Vec<f64>>,
     /// Sentence on what was done.
     pub note: String,
