@@ -70,7 +70,7 @@ impl ProductDistance {
         (count > 0).then(|| Self { distance: (sum / f64::from(count)).sqrt(), terms })
     }
 
-    /// Returns a text such as `distance 0.03: ceiling +0.06, τ −0.01`, with the largest terms in falling order.
+    /// Returns a text such as `0.03 apart: ceiling +0.06, τ −0.01`, with the largest terms in falling order.
     pub fn words(&self) -> String {
         let mut terms: Vec<(Text, f64)> =
             TERMS.into_iter().zip(self.terms).filter_map(|(word, term)| Some((word, term?))).collect();

@@ -2,9 +2,9 @@
 //! all.
 //!
 //! Every family implements the same interface ([`Family`]): its keys, states and structure, a drawing of its section,
-//! and a [`OpticalModel`], the optical model from which the virtual goniophotometer ([`measure`]) computes data. A family
-//! is added by a module of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in
-//! system files are in `formats::system_toml`.
+//! and an [`OpticalModel`], from which the virtual goniophotometer ([`measure`]) computes data. A family is added by a
+//! module of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in system files are in
+//! `formats::system_toml`.
 
 pub mod clear;
 mod family;

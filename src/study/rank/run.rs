@@ -47,8 +47,8 @@ struct Ready {
 }
 
 /// Computes items, those with few states first, and in later stages the best of the earlier stage first. Results do not
-/// depend on the number of threads. All items complete a stage before any enters the next; `report` receives every result
-/// when it is available, from any thread.
+/// depend on the number of threads. All items complete a stage before any enters the next; `report` receives every
+/// result when it is available, from any thread.
 ///
 /// # Errors
 /// Returns an error if a climate cannot be read, if no year has a figure, or if cancelled. Errors of a product are its

@@ -2,8 +2,8 @@
 //!
 //! A partial file `NAME.part` contains the fingerprint of all input of the hours, then a line for each hour with all
 //! bits of its numbers: a resumed year is identical to one of a single run. It is created only when the run takes
-//! longer than [`STORE_DELAY`], and removed when the table is complete. A line that was incomplete when the run ended is
-//! written again. Results from the hours (glare, solar energy, figures) are not stored.
+//! longer than [`STORE_DELAY`], and removed when the table is complete. A line that was incomplete when the run ended
+//! is written again. Results from the hours (glare, solar energy, figures) are not stored.
 
 use super::light::{self, Light, Question};
 use crate::compute::estimate::Progress;
