@@ -18,7 +18,8 @@ const PLACES: [&str; 9] = [
 ];
 
 /// What stands before the code of a finding.
-const REPORTS: [&str; 5] = ["Finding::info(", "Finding::warning(", "Finding::error(", "suspicion(confidence,", "tell("];
+const REPORTS: [&str; 5] =
+    ["Finding::info(", "Finding::warning(", "Finding::error(", "suspicion(confidence,", "report("];
 
 #[test]
 fn findings_about_datasets_have_words_and_words_a_finding() {

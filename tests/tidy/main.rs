@@ -3,6 +3,7 @@
 
 mod arrows;
 mod findings;
+mod glossary;
 mod layers;
 mod licences;
 mod scan;

@@ -116,15 +116,26 @@ impl Behind {
         let places = sensors * nodes.count();
         let by_node = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
         let by_node = if columns.is_empty() { Arc::default() } else { by_node() };
+        let mut lights: Vec<Vec<f32>> = Vec::with_capacity(by_node.len() * columns.len());
+        let mut by_luminance: Vec<Counts> = vec![Counts::new(); self.prepared.count()];
         for (node, seen) in by_node.iter().enumerate() {
-            for (p, column) in columns.iter().enumerate() {
+            for (column, seen) in columns.iter().zip(seen) {
                 let rows = column.light.chunks_exact(places).flat_map(|row| &row[node * sensors..][..sensors]);
-                let light: Vec<f32> = rows.map(|e| *e as f32).collect();
-                for (place, counts) in &seen[p] {
-                    let to = tables.col_as_slice_mut(*place as usize);
-                    to.iter_mut().zip(&light).for_each(|(to, e)| *to += counts * e);
-                }
+                seen.iter()
+                    .for_each(|(place, counts)| by_luminance[*place as usize].push((lights.len() as u32, *counts)));
+                lights.push(rows.map(|e| *e as f32).collect());
             }
+        }
+        // One luminance after the other: its sums stay in the processor's cache.
+        let summed = |seen: &Counts| {
+            let mut sums = vec![0.0_f32; 3 * sensors];
+            for (light, counts) in seen {
+                sums.iter_mut().zip(&lights[*light as usize]).for_each(|(sum, e)| *sum += counts * e);
+            }
+            sums
+        };
+        for (place, sums) in by_luminance.par_iter().map(summed).collect::<Vec<_>>().iter().enumerate() {
+            tables.col_as_slice_mut(place).copy_from_slice(sums);
         }
         let reflected = |column: &Column| {
             column.light.get(places..2 * places).unwrap_or_default().iter().map(|e| *e as f32).collect()
@@ -214,8 +225,10 @@ impl Past {
         let mut sums = vec![[0.0; TOGETHER]; count];
         for (point, by_patch) in by_point.iter().enumerate() {
             for (seen, light) in by_patch.iter().zip(light.chunks_exact(count_of_points)) {
-                let light = &light[point];
-                for (place, counts) in seen.iter().filter(|_| light.iter().any(|e| *e != 0.0)) {
+                // By value, so that the lanes are added at once.
+                let light = light[point];
+                let seen = if light.iter().any(|e| *e != 0.0) { seen.as_slice() } else { &[] };
+                for (place, counts) in seen {
                     sums[*place as usize].iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
                 }
             }
