@@ -427,8 +427,7 @@ fn data_of_others_are_named_with_their_licence() {
 }
 
 /// Files of the window and its reports whose literals may have words, with the reason.
-const NO_WORDS: [(&str, &str); 17] = [
-    ("src/app/at_work.rs", "a stage, which `texts::stages` translates"),
+const NO_WORDS: [(&str, &str); 18] = [
     ("src/app/autosave.rs", "the name of a thread"),
     ("src/app/backend.rs", "products of tests' catalogues"),
     ("src/app/command.rs", "the name of a field"),
@@ -438,12 +437,14 @@ const NO_WORDS: [(&str, &str); 17] = [
     ("src/app/panels/compare/curves.rs", "the name of a plot"),
     ("src/app/panels/goniophotometer.rs", "the beginning of a system file"),
     ("src/app/panels/import.rs", "the name of an area"),
+    ("src/app/states_in_progress.rs", "a stage, which `texts::stages` translates"),
     ("src/drawing/svg.rs", "markup"),
     ("src/report/error.rs", "errors are in English, as those of the layers below"),
     ("src/report/pdf.rs", "errors"),
     ("src/report/size.rs", "errors"),
     ("src/report/study_report.rs", "a reason that is looked for"),
     ("src/report/tender.rs", "errors"),
+    ("src/report/words.rs", "keys of stages"),
     ("src/report/tiles/mod.rs", "tiles by their names in files, and an error"),
 ];
 

@@ -3,7 +3,7 @@
 use crate::scan::{Literal, literals};
 
 /// What stands before literals that nobody reads in the window: names for egui, invariants, attributes.
-const UNREAD: [&str; 14] = [
+const UNREAD: [&str; 15] = [
     "Id::new(",
     "Id::unique(",
     "id_salt(",
@@ -18,6 +18,7 @@ const UNREAD: [&str; 14] = [
     "assert!(",
     "reason = ",
     "doc = ",
+    "Tile { title: ",
 ];
 
 /// Is it said in words, apart from what is filled in? Names of kinds, keys and units are not.
