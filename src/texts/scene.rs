@@ -9,10 +9,10 @@ texts! {
     const GROUND_AND_SKYLINE = "Ground and skyline" | "Boden und Horizontlinie";
     const APERTURES = "Apertures" | "Öffnungen";
     const ROOM = "Room" | "Raum";
-    const SENSORS = "Calculation points" | "Berechnungspunkte";
+    const SENSORS = "Work plane" | "Nutzebene";
     const NONE = "none" | "keine";
     fn points(count) = "{count} points" | "{count} Punkte";
-    fn plane(nx, ny, height) = "{nx} × {ny} at {height} m" | "{nx} × {ny} in {height} m";
+    fn plane(nx, ny, height) = "{nx} × {ny}, {height} m" | "{nx} × {ny}, {height} m";
     fn plane_too_high(height, ceiling) = "The work plane at {height} m is above the ceiling at {ceiling} m: lower it." | "Die Nutzebene in {height} m liegt über der Decke in {ceiling} m: niedriger legen.";
     fn faces(bearing) = "Faces {bearing}" | "Ausrichtung {bearing}";
     const BEARING = "Bearing" | "Richtung";

@@ -4,7 +4,7 @@ texts! {
     // Titles and help.
     const BTDF = "BTDF" | "BTDF";
     const BTDF_HELP = "Shows where light from one direction leaves, as luminance coefficient q in 1/sr. IEA SHC Task 31, eq 2." | "Zeigt, wohin Licht aus einer Richtung austritt, als Leuchtdichtekoeffizient q in 1/sr. IEA SHC Task 31, Gl. 2.";
-    const TRANSMITTANCE = "Transmittance" | "Transmissionsgrad";
+    const TRANSMITTANCE = "Transmittance" | "τ-Verlauf";
     const TRANSMITTANCE_HELP = "Shows the direct–hemispherical transmittance for every incident direction. Task 31, eq 1." | "Zeigt den gerichtet-hemisphärischen Transmissionsgrad für jede Einfallsrichtung. Task 31, Gl. 1.";
     const SKY = "Sky" | "Himmel";
     const SKY_HELP = "Shows the luminance of sky, sun and ground as seen from the façade. CIE S 011 / ISO 15469." | "Zeigt die Leuchtdichte von Himmel, Sonne und Boden, von der Fassade aus gesehen. CIE S 011 / ISO 15469.";
@@ -32,7 +32,7 @@ texts! {
     const WEIGHTED_TIP = "Multiplies q by the cosine, as for luminous intensity" | "Multipliziert q mit dem Kosinus, wie für die Lichtstärke";
     const SHADE_TIP = "Shades the incident side by transmittance" | "Schattiert die Einfallsseite nach dem Transmissionsgrad";
     const SOLID_TIP = "Switches to equal solid angles (Lambert); if off, equal projected solid angles, r = sin θ" | "Schaltet auf gleiche Raumwinkel (Lambert); sonst gleiche projizierte Raumwinkel, r = sin θ";
-    const HOLD = "Lock scale" | "Skala sperren";
+    const HOLD = "Lock" | "Sperren";
     const HOLD_TIP = "Keeps the colour scale when the data change" | "Behält die Farbskala, wenn sich die Daten ändern";
     const WHERE_FROM = "incident directions" | "Einfallsrichtungen";
     fn where_from_shaded(most) = "incident directions\ngrey: τ 0–{most}" | "Einfallsrichtungen\nGrau: τ 0–{most}";
@@ -220,7 +220,7 @@ texts! {
     fn peak_to(value, to) = "peak {value} to {to}" | "Spitze {value} nach {to}";
     fn peak_alone(value) = "peak {value}" | "Spitze {value}";
     const NO_BEAM = "no direct sun transmitted" | "kein direktes Sonnenlicht durchgelassen";
-    const NO_BEAM_SHORT = "no direct sun" | "keine direkte Sonne";
+    const NO_BEAM_SHORT = "no direct sun" | "keine Sonne";
     fn beam_flux_to(to, flux) = "direct sunlight to {to}, {flux} (not to scale)" | "direktes Sonnenlicht nach {to}, {flux} (nicht maßstäblich)";
     fn beam_flux_most(to, flux) = "direct sunlight, most to {to}, {flux} (not to scale)" | "direktes Sonnenlicht, meist nach {to}, {flux} (nicht maßstäblich)";
     fn beam_value_flux(value, to, flux) = "direct sunlight {value}, to {to}, {flux} (not to scale)" | "direktes Sonnenlicht {value}, nach {to}, {flux} (nicht maßstäblich)";
@@ -228,11 +228,11 @@ texts! {
     fn beam_value_to(value, to) = "direct sunlight {value}, to {to}" | "direktes Sonnenlicht {value}, nach {to}";
     fn beam_value_most(value, to) = "direct sunlight {value}, most to {to}" | "direktes Sonnenlicht {value}, meist nach {to}";
     fn beam_value(value) = "direct sunlight {value}" | "direktes Sonnenlicht {value}";
-    fn beam_short(value) = "direct sun {value}" | "direkte Sonne {value}";
+    fn beam_short(value) = "sun {value}" | "Sonne {value}";
     fn facade_plane(name) = "{name} (0: façade plane)" | "{name} (0: Fassadenebene)";
     fn peak_plane(name) = "{name} (plane of the peak)" | "{name} (Ebene der Spitze)";
     const DIFFUSER_SAME = "ideal diffuser, same flux" | "ideal diffus streuend, gleicher Lichtstrom";
-    const DIFFUSER = "ideal diffuser" | "ideal diffus streuend";
+    const DIFFUSER = "ideal diffuser" | "ideal diffus";
     const CANDELA_PER_AREA = "cd per m² of aperture" | "cd je m² Öffnung";
     const CANDELA_PER_AREA_SHORT = "cd per m²" | "cd je m²";
     fn per_square_metre(value) = "{value} per m²" | "{value} je m²";

@@ -17,7 +17,7 @@ texts! {
     fn moment(day, month, clock) = "{day} {month} {clock}" | "{day}. {month} {clock} Uhr";
     const ON_THE_HORIZON = "on the horizon" | "am Horizont";
     fn below_the_horizon(angle) = "{angle} below the horizon" | "{angle} unter dem Horizont";
-    fn high(angle) = "at {angle} altitude" | "in {angle} Höhe";
+    fn high(angle) = "at {angle}" | "in {angle} Höhe";
     const NORTH = "north" | "Nord";
     const NORTH_EAST = "north-east" | "Nordost";
     const EAST = "east" | "Ost";

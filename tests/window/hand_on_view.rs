@@ -225,7 +225,7 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
     let wrong = folder.path().join("a.pdf");
     apply(&mut harness, Command::Write(PathUse::Export, wrong.clone()));
     assert!(!wrong.exists());
-    assert!(harness.state().toasts.all().any(|message| message.text.contains("ends in .svg")));
+    assert!(harness.state().toasts.all().any(|message| message.text.contains("end in .svg")));
     // A tender text with a wrong field is told where the preview stands.
     choose(&mut harness, |choices| {
         (choices.what, choices.report) = (What::Report, ReportKind::Sheet);

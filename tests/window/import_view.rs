@@ -115,7 +115,7 @@ fn families_are_found_among_other_files_and_what_is_not_certain_is_asked() {
     assert_eq!(harness.state().state.sheet, Some(Sheet::Import));
     assert!(import(&harness).products.iter().any(|one| one.ambiguity.is_some()));
     let cloth = import(&harness).products.iter().find(|one| one.ambiguity.is_some()).unwrap().fields.name.clone();
-    harness.get_by_label(&format!("Apart: {cloth}")).click();
+    harness.get_by_label(&format!("Separate: {cloth}")).click();
     settle(&mut harness);
     assert_eq!(import(&harness).questions(), 0);
     assert_eq!(import(&harness).wanted().count(), 3);
@@ -413,7 +413,7 @@ fn an_import_that_is_left_is_a_draft_after_a_restart_too_and_a_discarded_one_com
     let mut next = window_in(left.path());
     apply(&mut next, Command::Sheet(Some(Sheet::Import)));
     let name = next.state().state.drafts[0].name.clone();
-    next.get_by_label(&format!("Go on: {name}")).click();
+    next.get_by_label(&format!("Continue: {name}")).click();
     settle(&mut next);
     assert_eq!(proposed(&next), arranged);
     assert!(next.state().state.drafts.is_empty());

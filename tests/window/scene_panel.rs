@@ -279,7 +279,7 @@ fn sizes_push_the_sill_and_say_so_and_what_cannot_be_is_refused() {
 
 /// Tops of the sections' headers.
 fn layout(harness: &Harness<'_, App>) -> Vec<f32> {
-    ["Place", "Façade", "Date and time", "Sky", "Ground and skyline", "Apertures", "Room", "Calculation points"]
+    ["Place", "Façade", "Date and time", "Sky", "Ground and skyline", "Apertures", "Room", "Work plane"]
         .map(|section| harness.get_by_role_and_label(Role::DisclosureTriangle, section).rect().top())
         .to_vec()
 }

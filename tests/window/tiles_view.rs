@@ -193,12 +193,12 @@ fn scales_that_are_held_stay_when_the_light_changes() {
             egui::Rect::from_x_y_ranges(dome.x_range().expand(60.0), dome.bottom() + 20.0..=dome.bottom() + 110.0);
         crate::legible::inspect::words_within(harness, legend)
     };
-    harness.get_by_label("Lock scale").click();
+    harness.get_by_label("Lock").click();
     harness.run_steps(3);
     let before = marks(&harness);
     apply(&mut harness, Command::Hour(5));
     assert_eq!(marks(&harness), before);
-    harness.get_by_label("Lock scale").click();
+    harness.get_by_label("Lock").click();
     harness.run_steps(3);
     assert_ne!(marks(&harness), before);
 }
@@ -211,7 +211,7 @@ fn the_tiles_speak_german_and_write_numbers_as_germans_do() {
     let summary = harness.get_by_label("Grundriss des Raums").value().unwrap_or_default();
     assert!(summary.contains("Mittel") && summary.contains("U_o 0,"), "{summary}");
     apply(&mut harness, Command::Maximise(None));
-    for label in ["Kachel BTDF", "Kachel Transmissionsgrad", "Kachel Himmel", "Kachel LVK", "Kachel Steuerung"] {
+    for label in ["Kachel BTDF", "Kachel τ-Verlauf", "Kachel Himmel", "Kachel LVK", "Kachel Steuerung"] {
         harness.get_by_label(label);
     }
     for label in ["Einfallsseite", "Karte des Transmissionsgrads", "Himmelskuppel", "LVK, Polardiagramm"] {

@@ -151,7 +151,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::BTDF_ABOUT.get(),
         empty: input.btdf.is_none().then_some(say::BTDF_EMPTY.get()),
-        controls_width: 565.0,
+        controls_width: 545.0,
     };
     // The toggles and the picture both write: settings are copied for the head and taken back after.
     let mut settings = (state.projection, state.log, state.weighted, state.shade_tau);

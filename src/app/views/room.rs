@@ -68,7 +68,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::ROOM_ABOUT.get(),
         empty: (!there).then_some(missing),
-        controls_width: 535.0,
+        controls_width: 495.0,
     };
     let (mut log, mut hold, mut look) = (state.log, state.hold, input.look);
     tile::show(

@@ -151,7 +151,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::SKY_ABOUT.get(),
         empty: input.luminance.is_none().then_some(say::SKY_EMPTY.get()),
-        controls_width: 144.0,
+        controls_width: 104.0,
     };
     let (mut log, mut hold) = (state.log, state.hold);
     tile::show(

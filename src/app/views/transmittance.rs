@@ -77,7 +77,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::TRANSMITTANCE_ABOUT.get(),
         empty: input.btdf.is_none().then_some(say::TRANSMITTANCE_EMPTY.get()),
-        controls_width: 240.0,
+        controls_width: 200.0,
     };
     let (mut paths, mut log, mut hold) = (!state.hide_paths, state.log, state.hold);
     tile::show(

@@ -34,7 +34,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         subtitle: input.name,
         help: say::YEAR_ABOUT.get(),
         empty: None,
-        controls_width: if input.shown.is_some() { 470.0 } else { 0.0 },
+        controls_width: if input.shown.is_some() { 440.0 } else { 0.0 },
     };
     let status = Status { error: None, ..input.status };
     tile::show(
