@@ -103,7 +103,7 @@ fn a_run_tells_its_quality_and_its_package_holds_what_it_was_made_of() {
     let xml = cfs(folder, &["goniophotometer", "blind.system.toml", "--state", "45", "--out", "blind.xml"]);
     assert_eq!(xml.status.code(), Some(0), "{}", String::from_utf8_lossy(&xml.stderr));
     let shown = String::from_utf8(cfs(folder, &["info", "blind.xml"]).stdout).unwrap();
-    assert!(shown.contains("by direction, computed anew from the description"), "{shown}");
+    assert!(shown.contains("by direction, computed again from the description"), "{shown}");
     let judged = cfs(folder, &["catalogue", "validate", "blind.cfsp"]);
     assert_eq!(judged.status.code(), Some(0), "{}", String::from_utf8_lossy(&judged.stderr));
 }

@@ -155,7 +155,7 @@ fn keys_that_do_not_go_with_weather_are_named() {
         ),
         (
             "model = \"uniform\"\ndiffuse_horizontal = 1e4\nsun_offset_minutes = 30".to_owned(),
-            "sky.sun_offset_minutes: belongs",
+            "sky.sun_offset_minutes: is only valid with sky.weather",
         ),
         (format!("{HOUR}\nsun_offset_minutes = 300"), "minutes from −180 to 180 or the word \"auto\""),
         (format!("{HOUR}\nlight = \"sun\""), "efficacy"),
