@@ -117,7 +117,7 @@ mod tests {
         // A scene of its own system: the room's files are called by it, the product's by the product.
         let ideal = SystemKeys::Ideal { kind: IdealKind::Diffuse, transmittance: 0.6 };
         state.document.scene.aperture[0].system = ideal;
-        assert_eq!(file_name(&state, PathUse::ExportLid), "ideal-diffuse_sun-30-185.ldt");
+        assert_eq!(file_name(&state, PathUse::ExportLid), "ideal-diffuser_sun-30-185.ldt");
         let btdf = file_name(&state, PathUse::ExportTile(TILES[0].tile));
         assert_eq!(btdf, "venetian-80-72_-35-up_sun-30-185_btdf.csv");
         state.settings.folder = Some("/data/daylight".into());

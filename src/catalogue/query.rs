@@ -337,7 +337,7 @@ mod tests {
         let words: Vec<String> = query.filters().map(|filter| query.words_of(filter)).collect();
         assert_eq!(
             words,
-            ["laser cut panel or woven", "moving", "τ normal below 0.05 or 0.20 to 0.40", "View from 0.80"]
+            ["laser cut panel or woven", "movable", "τ normal below 0.05 or 0.20 to 0.40", "View from 0.80"]
         );
         assert_eq!(query.without(Filter::Range(Figure::TauNormal)).ranges, [Figure::View.range(5)]);
         assert_eq!(query.without(Filter::Word(0)).text, "80/72");
