@@ -19,7 +19,7 @@ texts! {
     fn glare_of(eye) = "DGP, observer {eye}" | "DGP, Beobachter {eye}";
     fn simple_glare_of(eye) = "DGPs, observer {eye}" | "DGPs, Beobachter {eye}";
 
-    const CHOOSE = "Ranking" | "Rangfolge";
+    const CHOOSE = "Ranking" | "Rang";
     const CHOOSE_HELP = "Ranks the products of the catalogue for this façade by an annual simulation of this room, with objectives and weights." | "Bewertet die Produkte des Katalogs für diese Fassade durch eine Jahressimulation dieses Raums, mit Zielen und Gewichten.";
     const CHOOSE_ABOUT = "Products of the catalogue, ranked by an annual simulation of this room with objectives and weights. Scores that differ within the uncertainty share a rank. Changed weights and scale limits reorder known results; nothing is computed again.\nDiamond: Pareto-optimal. Double tilde: approximate figures. Roof: currently in the room.\nSource: weighted sum of objectives between scale limits, with intervals; Pareto front; IEA SHC Task 31 report (2005), figure 18." | "Produkte des Katalogs, bewertet durch eine Jahressimulation dieses Raums mit Zielen und Gewichten. Nutzwerte, die sich innerhalb der Unsicherheit unterscheiden, teilen einen Rang. Geänderte Gewichte und Skalengrenzen ordnen bekannte Ergebnisse neu; nichts wird erneut berechnet.\nRaute: Pareto-optimal. Doppelte Tilde: Kennwerte als Näherung. Dach: zurzeit im Raum.\nQuelle: gewichtete Summe der Ziele zwischen Skalengrenzen, mit Intervallen; Pareto-Front; Bericht IEA SHC Task 31 (2005), Bild 18.";
 
@@ -28,10 +28,10 @@ texts! {
     const RANK_CATALOGUE = "Rank the catalogue for this façade" | "Katalog für diese Fassade bewerten";
     const RANK_TIP = "Runs in the background and can be stopped; results so far are kept" | "Läuft im Hintergrund und lässt sich anhalten; bisherige Ergebnisse bleiben";
     fn would_count(names) = "Objectives: {names}" | "Ziele: {names}";
-    const ADDED_OBJECTIVES = "Default objectives were added to the scene; change them in the Ranking tile" | "Vorgabeziele wurden der Szene hinzugefügt; in der Kachel Rangfolge zu ändern";
+    const ADDED_OBJECTIVES = "Default objectives were added to the scene; change them in the Ranking tile" | "Vorgabeziele wurden der Szene hinzugefügt; in der Kachel Rang zu ändern";
     const LANE_RANK = "ranking" | "Rangfolge";
     const STOPPED = "Ranking stopped; results so far are kept" | "Bewertung angehalten; bisherige Ergebnisse bleiben";
-    const NO_RANKING = "there is no ranking yet; compute one in the Ranking tile first" | "es gibt noch keine Rangfolge; zuerst eine in der Kachel Rangfolge berechnen";
+    const NO_RANKING = "there is no ranking yet; compute one in the Ranking tile first" | "es gibt noch keine Rangfolge; zuerst eine in der Kachel Rang berechnen";
     const NO_APERTURE = "The room has no aperture for a product: add one in the scene panel" | "Der Raum hat keine Öffnung für ein Produkt: im Szenenbereich eine hinzufügen";
     const NO_PRODUCTS = "No product matches; change the search of the catalogue, or rank all" | "Kein Produkt passt; die Suche im Katalog ändern oder alle bewerten";
     const PREPARING = "weather and products" | "Wetter und Produkte";

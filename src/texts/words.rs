@@ -151,7 +151,7 @@ texts! {
 
     // Obstructions.
     fn boxes_below_ground(count, height) = "obstructions below the ground at {height} m (site.ground_height), without effect: {count}" | "Verbauungen unter dem Boden in {height} m (site.ground_height), ohne Wirkung: {count}";
-    fn boxes_left_out(count) = "obstructions too low and too distant to matter, skipped: {count}" | "Verbauungen, zu niedrig und zu fern für eine Wirkung, ausgelassen: {count}";
+    fn boxes_left_out(count) = "obstructions too low and too distant to matter, left out: {count}" | "Verbauungen, zu niedrig und zu fern für eine Wirkung, ausgelassen: {count}";
     const BUILDING_UNNAMED = "no [building] specified: of the building only the obstruction boxes shade the ground" | "kein [building] angegeben: Vom Gebäude beschatten nur die Quader den Boden";
     fn past_outside(number) = "aperture {number}: all calculation points see the sky through it past the obstructions" | "Öffnung {number}: Alle Berechnungspunkte sehen durch sie an den Verbauungen vorbei";
     fn outside_alike(number, change) = "aperture {number}: not subdivided, its points see the same obstructions (light changes by {change} %)" | "Öffnung {number}: nicht unterteilt, ihre Punkte sehen dieselben Verbauungen (das Licht ändert sich um {change} %)";

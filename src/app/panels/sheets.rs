@@ -92,7 +92,8 @@ fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 }
 
 fn keys(ui: &mut Ui) {
-    egui::Grid::new("keys").num_columns(2).striped(true).show(ui, |ui| {
+    let wrap = 0.6 * ui.available_width();
+    egui::Grid::new("keys").num_columns(2).striped(true).max_col_width(wrap).show(ui, |ui| {
         for (offer, keys) in listed().filter_map(|offer| Some((offer, offer.keys?))) {
             ui.label(RichText::new(key_words(&keys)).strong());
             ui.label(&offer.text);
