@@ -2,7 +2,7 @@
 //!
 //! When in doubt, every file is a product of its own: two products that are taken for one are wrong everywhere
 //! afterwards, one that is taken for two is seen at once. Where numbers might be angles the user is asked, see
-//! [`Doubt`].
+//! [`Ambiguity`].
 
 use super::ambiguity::{Ambiguity, confirmed, speaks_of_slats};
 use super::numbered::{Pattern, distinct, plausible, unclear, wordless};

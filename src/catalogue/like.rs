@@ -19,7 +19,7 @@
 use super::{PROFILE_ANGLES, ProductRow};
 use crate::texts::{Text, catalogue as text, fixed};
 
-/// Labels of the terms, in the order of [`Apart::terms`].
+/// Labels of the terms, in the order of [`ProductDistance::terms`].
 const TERMS: [Text; 5] =
     [text::DISTANCE_TAU, text::DISTANCE_PROFILE, text::DISTANCE_CEILING, text::DISTANCE_SUN, text::DISTANCE_VIEW];
 /// Smallest difference that is visible with two decimals.

@@ -67,7 +67,7 @@ impl Over {
         Ok(())
     }
 
-    /// Writes files, all of them or none, without a report; [`tell_written`] reports them with those that follow.
+    /// Writes files, all of them or none, without a report; [`report_written`] reports them with those that follow.
     pub(super) fn write_silently(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         let output = |&(path, kind, bytes): &(_, _, _)| Output { path, bytes, replace: self.replace(kind) };
         files::write_all(&list.iter().map(output).collect::<Vec<_>>())
