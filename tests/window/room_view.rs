@@ -76,7 +76,7 @@ fn the_keyboard_moves_windows_and_plane() {
     harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowDown);
     settle(&mut harness);
     assert_eq!(aperture(&harness).1[1], 1.84);
-    harness.get_by_label("Work plane").focus();
+    harness.get_by_role_and_label(egui::accesskit::Role::Image, "Work plane").focus();
     harness.run_steps(2);
     harness.key_press(Key::ArrowDown);
     settle(&mut harness);
