@@ -137,12 +137,12 @@ mod tests {
     #[test]
     fn the_distance_is_the_root_mean_square_of_shares_of_the_light() {
         let (a, b) = (row(0.5, 0.4), row(0.4, 0.4));
-        let apart = ProductDistance::of(&a, &b).unwrap();
+        let distance = ProductDistance::of(&a, &b).unwrap();
         // τ, profile and sun differ by 0.1, the light to the ceiling by 0.04, the view not at all.
-        assert!((apart.distance - ((0.03 + 0.0016) / 5.0_f64).sqrt()).abs() < 1e-12);
-        assert_eq!(apart.words(), "0.08 apart: τ +0.10, profile 0.10, sun blocked −0.10");
+        assert!((distance.distance - ((0.03 + 0.0016) / 5.0_f64).sqrt()).abs() < 1e-12);
+        assert_eq!(distance.words(), "0.08 apart: τ +0.10, profile 0.10, sun blocked −0.10");
         let back = ProductDistance::of(&b, &a).unwrap();
-        assert_eq!(back.distance, apart.distance);
+        assert_eq!(back.distance, distance.distance);
         assert!((back.terms[0].unwrap() + 0.1).abs() < 1e-12);
         assert_eq!(ProductDistance::of(&a, &a).unwrap().distance, 0.0);
         assert_eq!(ProductDistance::of(&a, &a).unwrap().words(), "no difference above 0.005");
@@ -152,8 +152,8 @@ mod tests {
     fn what_is_not_known_is_left_out() {
         let (a, mut b) = (row(0.5, 0.4), row(0.4, 0.4));
         (b.to_ceiling, b.sun_blocked, b.view, b.tau_profile) = (None, None, None, Vec::new());
-        let apart = ProductDistance::of(&a, &b).unwrap();
-        assert!((apart.distance - 0.1).abs() < 1e-12 && apart.terms[1..] == [None; 4]);
+        let distance = ProductDistance::of(&a, &b).unwrap();
+        assert!((distance.distance - 0.1).abs() < 1e-12 && distance.terms[1..] == [None; 4]);
         b.tau_hemispherical = None;
         assert_eq!(ProductDistance::of(&a, &b), None);
     }

@@ -3,10 +3,10 @@
 texts! {
     // Figures that may be objectives.
     const LIGHTING_ENERGY = "Lighting energy LENI" | "Beleuchtungsenergie LENI";
-    const USEFUL_LIGHT = "UDI-a, 300–3000 lx" | "Nützliches Licht, 300–3000 lx";
+    const USEFUL_LIGHT = "UDI-a, 300–3000 lx" | "UDI-a, 300–3000 lx";
     const TOO_MUCH_LIGHT = "UDI-x, above 3000 lx" | "UDI-x, über 3000 lx";
     const TOO_LITTLE_LIGHT = "UDI-n, below 100 lx" | "UDI-n, unter 100 lx";
-    const SOME_LIGHT = "UDI-s, 100–300 lx" | "Etwas Licht, 100–300 lx";
+    const SOME_LIGHT = "UDI-s, 100–300 lx" | "UDI-s, 100–300 lx";
     const CONTINUOUS_AUTONOMY = "Continuous daylight autonomy cDA300" | "Kontinuierliche Tageslichtautonomie cDA300";
     const AUTONOMY_300 = "Daylight autonomy DA300" | "Tageslichtautonomie DA300";
     const AUTONOMY_500 = "Daylight autonomy DA500" | "Tageslichtautonomie DA500";
@@ -16,8 +16,8 @@ texts! {
     const MOVEMENTS = "State changes" | "Stellungswechsel";
     const MEAN_LIGHT = "Mean illuminance" | "Mittlere Beleuchtungsstärke";
     const SUMMER_SUN = "Solar energy transmitted in summer" | "Transmittierte Solarenergie im Sommer";
-    fn glare_of(eye) = "DGP, observer {eye}" | "DGP, Beobachter {eye}";
-    fn simple_glare_of(eye) = "DGPs, observer {eye}" | "DGPs, Beobachter {eye}";
+    fn glare_of(eye) = "DGP > 0.40, observer {eye}" | "DGP > 0,40, Beobachter {eye}";
+    fn simple_glare_of(eye) = "DGPs > 0.40, observer {eye}" | "DGPs > 0,40, Beobachter {eye}";
 
     const CHOOSE = "Ranking" | "Rang";
     const CHOOSE_HELP = "Ranks the products of the catalogue for this façade by an annual simulation of this room, with objectives and weights." | "Bewertet die Produkte des Katalogs für diese Fassade durch eine Jahressimulation dieses Raums, mit Zielen und Gewichten.";

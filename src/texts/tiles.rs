@@ -34,9 +34,9 @@ texts! {
     const SOLID_TIP = "Switches to equal solid angles (Lambert); if off, equal projected solid angles, r = sin θ" | "Schaltet auf gleiche Raumwinkel (Lambert); sonst gleiche projizierte Raumwinkel, r = sin θ";
     const HOLD = "Lock" | "Sperren";
     const HOLD_TIP = "Keeps the colour scale when the data change" | "Behält die Farbskala, wenn sich die Daten ändern";
-    const WHERE_FROM = "incident directions" | "Einfallsrichtungen";
-    fn where_from_shaded(most) = "incident directions\ngrey: τ 0–{most}" | "Einfallsrichtungen\nGrau: τ 0–{most}";
-    const WHERE_TO = "emergent directions" | "Austrittsrichtungen";
+    const WHERE_FROM = "incident directions" | "Einfall";
+    fn where_from_shaded(most) = "incident directions\ngrey: τ 0–{most}" | "Einfall\nGrau: τ 0–{most}";
+    const WHERE_TO = "emergent directions" | "Austritt";
     const OUTSIDE = "outside" | "außen";
     const INSIDE = "inside" | "innen";
     fn side_and(side, what) = "{side}: {what}" | "{side}: {what}";
@@ -220,7 +220,7 @@ texts! {
     fn peak_to(value, to) = "peak {value} to {to}" | "Spitze {value} nach {to}";
     fn peak_alone(value) = "peak {value}" | "Spitze {value}";
     const NO_BEAM = "no direct sun transmitted" | "kein direktes Sonnenlicht durchgelassen";
-    const NO_BEAM_SHORT = "no direct sun" | "keine Sonne";
+    const NO_BEAM_SHORT = "sun 0 cd" | "Sonne 0 cd";
     fn beam_flux_to(to, flux) = "direct sunlight to {to}, {flux} (not to scale)" | "direktes Sonnenlicht nach {to}, {flux} (nicht maßstäblich)";
     fn beam_flux_most(to, flux) = "direct sunlight, most to {to}, {flux} (not to scale)" | "direktes Sonnenlicht, meist nach {to}, {flux} (nicht maßstäblich)";
     fn beam_value_flux(value, to, flux) = "direct sunlight {value}, to {to}, {flux} (not to scale)" | "direktes Sonnenlicht {value}, nach {to}, {flux} (nicht maßstäblich)";

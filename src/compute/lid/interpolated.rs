@@ -108,7 +108,7 @@ impl Interpolator {
             light.shifts.push(light.luminance.iter().zip(&other).map(|(a, b)| a - b).collect());
             light.luminance = other;
         }
-        let text = "`cfs accuracy` tells what leaving out each direction costs";
+        let text = "`cfs accuracy` reports what leaving out each direction costs";
         let note = match (scheme, model.lattice().locate(direction).triangle) {
             (SunScheme::Responses, Some(_)) => format!("responses (lobes moved by their own neighbours); {text}"),
             (SunScheme::Responses, None) => "beyond the last row of incident directions: as on its border".into(),

@@ -208,10 +208,10 @@ mod tests {
     #[test]
     fn an_outline_that_fills_a_wall_is_that_wall() {
         let nested = Nested::with_about(&room(1.0), &[], &[], 640).unwrap();
-        let (thrown, gap) =
+        let (incident, gap) =
             patch_illuminances(&nested.fine, &[on_floor([[0.0, 0.0], [4.0, 0.0], [4.0, 6.0], [0.0, 6.0]])]);
         // Seen from the middle of a patch in closed form: near enough away from the edges of the floor.
-        for (patch, e) in nested.fine.patches.iter().zip(&thrown).filter(|(patch, _)| patch.wall == 1) {
+        for (patch, e) in nested.fine.patches.iter().zip(&incident).filter(|(patch, _)| patch.wall == 1) {
             let wall = &nested.fine.walls[1];
             let [low, _, high, _] = patch.corners(wall);
             let floor = [DVec2::ZERO, DVec2::new(4.0, 0.0), DVec2::new(4.0, 6.0), DVec2::new(0.0, 6.0)];
@@ -244,12 +244,12 @@ mod tests {
             [[3.5, 5.3], [4.0, 5.3], [4.0, 6.0], [3.5, 6.0]],
         ] {
             let outline = on_floor(corners);
-            let (thrown, gap) = patch_illuminances(&mesh, std::slice::from_ref(&outline));
-            let arrived: f64 = thrown.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.area).sum();
+            let (incident, gap) = patch_illuminances(&mesh, std::slice::from_ref(&outline));
+            let arrived: f64 = incident.iter().zip(&mesh.patches).map(|(e, patch)| e * patch.area).sum();
             let left = outline.exitance * area(&outline.corners);
             assert!((arrived / left - 1.0).abs() < 1e-12, "{arrived} {left}");
             assert!(gap < 0.03, "{corners:?}: {gap}");
-            assert!(mesh.patches.iter().zip(&thrown).all(|(patch, e)| if patch.wall == 0 {
+            assert!(mesh.patches.iter().zip(&incident).all(|(patch, e)| if patch.wall == 0 {
                 *e == 0.0
             } else {
                 *e >= 0.0
@@ -270,8 +270,8 @@ mod tests {
         let radiosity = Radiosity::new(Nested::with_about(&room(1.0), &[], &[], 640).unwrap()).unwrap();
         let patches = &radiosity.nested.fine.patches;
         let outline = on_floor([[1.0, 2.0], [1.07, 2.0], [1.07, 2.4], [1.0, 2.4]]);
-        let (thrown, _) = patch_illuminances(&radiosity.nested.fine, std::slice::from_ref(&outline));
-        let exitance = radiosity.exitance(&thrown);
+        let (incident, _) = patch_illuminances(&radiosity.nested.fine, std::slice::from_ref(&outline));
+        let exitance = radiosity.exitance(&incident);
         let absorbed: f64 = patches
             .iter()
             .zip(&exitance.fine)

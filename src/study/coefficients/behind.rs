@@ -39,6 +39,8 @@ const CELL_SEEN: usize = 128;
 const NODES: usize = 3;
 /// Number of sensors whose weights are computed together.
 const TOGETHER: usize = 16;
+/// Number of luminances that are summed before they are stored. Chosen: memory only, no effect on results.
+const LUMINANCES: usize = 256;
 
 /// Obstructions in front of all apertures of a scene.
 pub(super) struct Behind {
@@ -116,26 +118,25 @@ impl Behind {
         let places = sensors * nodes.count();
         let by_node = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
         let by_node = if columns.is_empty() { Arc::default() } else { by_node() };
-        let mut lights: Vec<Vec<f32>> = Vec::with_capacity(by_node.len() * columns.len());
         let mut by_luminance: Vec<Counts> = vec![Counts::new(); self.prepared.count()];
-        for (node, seen) in by_node.iter().enumerate() {
-            for (column, seen) in columns.iter().zip(seen) {
-                let rows = column.light.chunks_exact(places).flat_map(|row| &row[node * sensors..][..sensors]);
-                seen.iter()
-                    .for_each(|(place, counts)| by_luminance[*place as usize].push((lights.len() as u32, *counts)));
-                lights.push(rows.map(|e| *e as f32).collect());
-            }
+        for (number, seen) in by_node.iter().flatten().enumerate() {
+            seen.iter().for_each(|(place, counts)| by_luminance[*place as usize].push((number as u32, *counts)));
         }
         // One luminance after the other: its sums stay in the processor's cache.
         let summed = |seen: &Counts| {
             let mut sums = vec![0.0_f32; 3 * sensors];
-            for (light, counts) in seen {
-                sums.iter_mut().zip(&lights[*light as usize]).for_each(|(sum, e)| *sum += counts * e);
+            for (number, counts) in seen {
+                let (node, p) = (*number as usize / columns.len(), *number as usize % columns.len());
+                for (sums, row) in sums.chunks_exact_mut(sensors).zip(columns[p].light.chunks_exact(places)) {
+                    sums.iter_mut().zip(&row[node * sensors..]).for_each(|(sum, e)| *sum += counts * *e as f32);
+                }
             }
             sums
         };
-        for (place, sums) in by_luminance.par_iter().map(summed).collect::<Vec<_>>().iter().enumerate() {
-            tables.col_as_slice_mut(place).copy_from_slice(sums);
+        for (first, some) in by_luminance.chunks(LUMINANCES).enumerate() {
+            for (k, sums) in some.par_iter().map(summed).collect::<Vec<_>>().iter().enumerate() {
+                tables.col_as_slice_mut(first * LUMINANCES + k).copy_from_slice(sums);
+            }
         }
         let reflected = |column: &Column| {
             column.light.get(places..2 * places).unwrap_or_default().iter().map(|e| *e as f32).collect()

@@ -246,14 +246,14 @@ mod tests {
         let room = [4.0, 6.0, 3.0];
         let near = [keys([0.0, -1.0, 0.0], [1.0, 0.0, 2.0], 0.0)];
         let far = [keys([0.0, -30.0, 0.0], [4.0, -20.0, 9.0], 0.0)];
-        for (outside, told) in [(&near, false), (&far, true)] {
+        for (outside, is_beyond) in [(&near, false), (&far, true)] {
             let input = Input { room, outside, ..Input::nothing() };
             let span = span(&input, false);
             let frame = Frame::around(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)), span, room, false);
-            assert_eq!(has_beyond(&input, false, span), told);
+            assert_eq!(has_beyond(&input, false, span), is_beyond);
             let said = beyond(&input, &frame);
-            assert_eq!(said.len(), usize::from(told));
-            assert!(!told || (said[0].0.contains("20.0 m") && said[0].1.is_some()), "{said:?}");
+            assert_eq!(said.len(), usize::from(is_beyond));
+            assert!(!is_beyond || (said[0].0.contains("20.0 m") && said[0].1.is_some()), "{said:?}");
         }
     }
 }
