@@ -220,7 +220,7 @@ texts! {
     fn peak_to(value, to) = "peak {value} to {to}" | "Spitze {value} nach {to}";
     fn peak_alone(value) = "peak {value}" | "Spitze {value}";
     const NO_BEAM = "no direct sun transmitted" | "kein direktes Sonnenlicht durchgelassen";
-    const NO_BEAM_SHORT = "sun 0 cd" | "Sonne 0 cd";
+    const NO_BEAM_SHORT = "no direct sun" | "Sonne: 0";
     fn beam_flux_to(to, flux) = "direct sunlight to {to}, {flux} (not to scale)" | "direktes Sonnenlicht nach {to}, {flux} (nicht maßstäblich)";
     fn beam_flux_most(to, flux) = "direct sunlight, most to {to}, {flux} (not to scale)" | "direktes Sonnenlicht, meist nach {to}, {flux} (nicht maßstäblich)";
     fn beam_value_flux(value, to, flux) = "direct sunlight {value}, to {to}, {flux} (not to scale)" | "direktes Sonnenlicht {value}, nach {to}, {flux} (nicht maßstäblich)";
