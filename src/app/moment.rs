@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn heights_read_as_words() {
-        assert_eq!(height_words(41.24, 1), "at 41.2° altitude");
+        assert_eq!(height_words(41.24, 1), "at 41.2°");
         assert_eq!(height_words(-15.2, 0), "15° below the horizon");
         assert_eq!(height_words(-0.02, 1), "on the horizon");
     }

@@ -82,7 +82,7 @@ mod tests {
         for (altitude, words) in [
             (-15.0, "sun 15° below the horizon, azimuth 180°"),
             (-0.4, "sun on the horizon, azimuth 180°"),
-            (15.0, "sun at 15° altitude, azimuth 180°"),
+            (15.0, "sun at 15°, azimuth 180°"),
         ] {
             scene.sky.sun = SunKeys { altitude: Some(altitude), azimuth: Some(180.0), direct_normal: None };
             assert_eq!(time(&scene), words);

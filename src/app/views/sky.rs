@@ -471,7 +471,7 @@ mod tests {
             place_text(say::SUN, place)[0].clone()
         };
         assert_eq!(text(-15.0, 290.0), "sun 15.0° below the horizon, azimuth 290°");
-        assert_eq!(text(41.2, 359.8), "sun at 41.2° altitude, azimuth 0°");
+        assert_eq!(text(41.2, 359.8), "sun at 41.2°, azimuth 0°");
     }
 
     #[test]
