@@ -125,7 +125,7 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     }
     if args.json {
         let opening = opening(&file, &year.settings, &year.steps).map_err(located)?;
-        print(&format!("{:#}\n", to_json(&year, &figures(&year), &file, &opening)))?;
+        print(&format!("{:#}\n", to_json(&year, &figures(&year), &opening)))?;
     }
     for note in &year.notes {
         report!("note: {note}");

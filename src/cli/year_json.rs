@@ -1,16 +1,21 @@
 //! Annual figures as JSON: keys are stable, shares are 0 to 1.
 
-use crate::study::SceneFile;
+use crate::compute::estimate::Estimate;
 use crate::study::session::glare::CAVEAT;
-use crate::study::year::{Figures, Group, Lm83, NOT_JUDGED, Opening, SHADE, Year, metrics};
+use crate::study::year::{
+    Entry, Figures, Group, Lm83, NOT_JUDGED, Opening, Quantity, SHADE, ThroughAperture, Year, estimate, metrics,
+};
 use serde_json::{Map, Value, json};
 
 /// Returns the result of a year as JSON: figures, their uncertainties due to those of the hours, weather, states,
 /// stages, and what was not computed.
-pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, opening: &Opening) -> Value {
-    let area = file.room.width * file.room.depth;
-    let [mut own, less, more] = figures.each_ref().map(|one| metrics::metrics(year, one, area));
-    let errors = metrics::errors(&own, &less, &more).unwrap_or_default();
+pub(super) fn to_json(year: &Year, figures: &[Figures; 3], opening: &Opening) -> Value {
+    let entries = metrics(year, figures);
+    let mut own = nested(&entries, |entry| Some(plain(&entry.values[0])));
+    let mut errors = nested(&entries, error);
+    if let Some(all) = own.get_mut("solar") {
+        (all["apertures"], errors["solar"]["apertures"]) = apertures(year, figures);
+    }
     // Added to the standard's other figures. They do not depend on illuminances; their uncertainties stand with them.
     if let Some(standard) = own.get_mut("EN17037") {
         standard["sunlight"] = sunlight(opening);
@@ -43,6 +48,59 @@ pub(super) fn to_json(year: &Year, figures: &[Figures; 3], file: &SceneFile, ope
         "left_out": left_out(year, &figures[0]),
         "notes": year.notes.iter().map(String::as_str).chain(year.dgp.as_ref().map(|_| CAVEAT)).collect::<Vec<_>>(),
     })
+}
+
+/// Returns values of metrics under their keys, step by step.
+fn nested(entries: &[Entry], value: impl Fn(&Entry) -> Option<Value>) -> Value {
+    let mut all = json!({});
+    for entry in entries {
+        if let Some(value) = value(entry) {
+            *entry.path().into_iter().fold(&mut all, |inner, step| &mut inner[step]) = value;
+        }
+    }
+    all
+}
+
+fn plain(quantity: &Quantity) -> Value {
+    match quantity {
+        Quantity::Number(value) => json!(value),
+        Quantity::List(list) => json!(list),
+        Quantity::Counts(list) => json!(list),
+        Quantity::Met(met) => json!(met),
+        Quantity::Word(word) => json!(word),
+    }
+}
+
+/// Returns the uncertainty of a number, or of each number of a list; `None` for all else.
+fn error(entry: &Entry) -> Option<Value> {
+    match &entry.values {
+        [Quantity::Number(_), ..] => Some(json!(entry.estimate()?.error)),
+        [Quantity::List(own), Quantity::List(less), Quantity::List(more)] => {
+            let error = |k: usize| estimate([own[k], less[k], more[k]]).error;
+            Some(json!((0..own.len()).map(error).collect::<Vec<_>>()))
+        }
+        [Quantity::Counts(list), ..] => Some(json!(vec![0.0; list.len()])),
+        _ => None,
+    }
+}
+
+/// Returns the solar energy transmitted through each aperture, and its uncertainties.
+fn apertures(year: &Year, figures: &[Figures; 3]) -> (Value, Value) {
+    let all = year.solar.iter().flat_map(|solar| solar.apertures.iter().enumerate());
+    let of = |(k, one): (usize, &ThroughAperture)| {
+        let energy = figures.each_ref().map(|one| one.solar.as_ref().map_or(0.0, |solar| solar.apertures[k]));
+        let Estimate { value, error } = estimate(energy);
+        let own = json!({
+            "aperture": one.number,
+            "area_m2": one.area,
+            "kWh": value,
+            "kWh_m2": value / one.area,
+            "source": one.source.words(),
+        });
+        (own, json!({"aperture": 0.0, "area_m2": 0.0, "kWh": error, "kWh_m2": error / one.area}))
+    };
+    let (own, errors): (Vec<Value>, Vec<Value>) = all.map(of).unzip();
+    (json!(own), json!(errors))
 }
 
 /// Returns the exposure to sunlight of EN 17037 as JSON.

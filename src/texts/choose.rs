@@ -1,24 +1,6 @@
 //! Texts of the ranking: which system suits the façade.
 
 texts! {
-    // Figures that may be objectives.
-    const LIGHTING_ENERGY = "Lighting energy LENI" | "Beleuchtungsenergie LENI";
-    const USEFUL_LIGHT = "UDI-a, 300–3000 lx" | "UDI-a, 300–3000 lx";
-    const TOO_MUCH_LIGHT = "UDI-x, above 3000 lx" | "UDI-x, über 3000 lx";
-    const TOO_LITTLE_LIGHT = "UDI-n, below 100 lx" | "UDI-n, unter 100 lx";
-    const SOME_LIGHT = "UDI-s, 100–300 lx" | "UDI-s, 100–300 lx";
-    const CONTINUOUS_AUTONOMY = "Continuous daylight autonomy cDA300" | "Kontinuierliche Tageslichtautonomie cDA300";
-    const AUTONOMY_300 = "Daylight autonomy DA300" | "Tageslichtautonomie DA300";
-    const AUTONOMY_500 = "Daylight autonomy DA500" | "Tageslichtautonomie DA500";
-    const SPATIAL_AUTONOMY = "Spatial daylight autonomy sDA300/50%" | "Räumliche Tageslichtautonomie sDA300/50%";
-    const SUN_EXPOSURE = "Annual sunlight exposure ASE1000,250" | "Jährliche Besonnung ASE1000,250";
-    const SUN_HOURS = "Hours with 1000 lx of direct sun" | "Stunden mit 1000 lx direktem Sonnenlicht";
-    const MOVEMENTS = "State changes" | "Stellungswechsel";
-    const MEAN_LIGHT = "Mean illuminance" | "Mittlere Beleuchtungsstärke";
-    const SUMMER_SUN = "Solar energy transmitted in summer" | "Transmittierte Solarenergie im Sommer";
-    fn glare_of(eye) = "DGP > 0.40, observer {eye}" | "DGP > 0,40, Beobachter {eye}";
-    fn simple_glare_of(eye) = "DGPs > 0.40, observer {eye}" | "DGPs > 0,40, Beobachter {eye}";
-
     const CHOOSE = "Ranking" | "Rang";
     const CHOOSE_HELP = "Ranks the products of the catalogue for this façade by an annual simulation of this room, with objectives and weights." | "Bewertet die Produkte des Katalogs für diese Fassade durch eine Jahressimulation dieses Raums, mit Zielen und Gewichten.";
     const CHOOSE_ABOUT = "Products of the catalogue, ranked by an annual simulation of this room with objectives and weights. Scores that differ within the uncertainty share a rank. Changed weights and scale limits reorder known results; nothing is computed again.\nDiamond: Pareto-optimal. Double tilde: approximate figures. Roof: currently in the room.\nSource: weighted sum of objectives between scale limits, with intervals; Pareto front; IEA SHC Task 31 report (2005), figure 18." | "Produkte des Katalogs, bewertet durch eine Jahressimulation dieses Raums mit Zielen und Gewichten. Nutzwerte, die sich innerhalb der Unsicherheit unterscheiden, teilen einen Rang. Geänderte Gewichte und Skalengrenzen ordnen bekannte Ergebnisse neu; nichts wird erneut berechnet.\nRaute: Pareto-optimal. Doppelte Tilde: Kennwerte als Näherung. Dach: zurzeit im Raum.\nQuelle: gewichtete Summe der Ziele zwischen Skalengrenzen, mit Intervallen; Pareto-Front; Bericht IEA SHC Task 31 (2005), Bild 18.";

@@ -5,7 +5,7 @@ use cfs::compute::btdf::{Btdf, Dataset};
 use cfs::compute::estimate::{Estimate, Progress, Silent};
 use cfs::compute::rank::{Better, Objective};
 use cfs::study::rank::{Found, Group, Item, List, Parts, Row, Shard, Stage, groups, keys, lists_of, run};
-use cfs::study::year::{climate, figures, metrics, year_in};
+use cfs::study::year::{Need, climate, figures, metrics, year_in};
 use cfs::study::{Library, SceneFile, Session, StudyError};
 use std::path::Path;
 use std::sync::Mutex;
@@ -150,16 +150,17 @@ fn figures_of_occupied_hours_do_without_the_others() {
     let [all, occupied] = [true, false].map(|unoccupied| {
         climate.settings.unoccupied = unoccupied;
         let year = year_in(&climate, &file, base, &library, &Session::new(), &|_| true, &Silent).unwrap();
-        let own = metrics::metrics(&year, &figures(&year)[0], 20.0);
-        (year.light.dark, metrics::keys(&own), own)
+        let stated = metrics(&year, &figures(&year)).into_iter();
+        let own: Vec<(String, f64, bool)> = stated
+            .filter_map(|one| Some((one.key(), one.estimate()?.value, one.metric.needs.contains(&Need::Unoccupied))))
+            .collect();
+        (year.light.dark, own)
     });
     assert!(occupied.0 > all.0 + 800, "{} {}", occupied.0, all.0);
-    let keys: Vec<&String> = all.1.iter().filter(|key| !metrics::counts_unoccupied(key)).collect();
-    assert_eq!(keys, occupied.1.iter().collect::<Vec<_>>());
-    assert!(keys.len() > 20 && keys.len() + 10 < all.1.len(), "{keys:?}");
-    for key in keys {
-        let [a, b] = [&all.2, &occupied.2].map(|metrics| metrics::number(metrics, key).unwrap());
-        assert!((a - b).abs() <= 1e-9 * a.abs(), "{key}: {a} {b}");
+    let same: Vec<_> = all.1.iter().filter(|(.., unoccupied)| !unoccupied).collect();
+    assert!(same.len() > 20 && same.len() + 10 < all.1.len() && same.len() == occupied.1.len(), "{same:?}");
+    for ((key, a, _), (other, b, _)) in same.into_iter().zip(&occupied.1) {
+        assert!(key == other && (a - b).abs() <= 1e-9 * a.abs(), "{key}: {a}, {other}: {b}");
     }
 }
 

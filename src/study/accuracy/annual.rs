@@ -5,13 +5,12 @@
 //! separately, with nothing stored before, on all processors.
 
 use super::{Coverage, Errors};
-use crate::compute::estimate::{Cancelled, Progress};
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::study::error::StudyError;
 use crate::study::scene_file::SceneFile;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Step, Year, climate, figures, metrics, year_in};
-use serde_json::Value;
+use crate::study::year::{Climate, Entry, Step, Year, climate, figures, metrics, year_in};
 use std::path::Path;
 use std::time::Instant;
 
@@ -19,15 +18,11 @@ use std::time::Instant;
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 /// Share of the mean illuminance below which an hour at a sensor is left out.
 const DARK: f64 = 0.01;
-/// Keys of the compared figures.
-const FIGURES: [&str; 7] =
-    ["annual_mean_lx", "DA300", "UDI_a", "sDA300_50", "sDA300_50_LM83_12", "lighting.LENI_kWh_m2", "lighting.kWh_m2"];
-
 /// A figure at one effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearFigure {
     /// Key of the figure; of a list the mean is compared.
-    pub key: &'static str,
+    pub key: String,
     /// Value of the figure.
     pub value: f64,
     /// Uncertainty of the figure, as stated.
@@ -115,8 +110,7 @@ pub fn annual(
         years.push(timed(&climate, file, base, library, *target, wanted, &Inner(progress))?);
     }
     let Some((finest, _)) = years.last() else { return Err(Cancelled.into()) };
-    let area = file.room.width * file.room.depth;
-    let last = figures_with_uncertainty(finest, area);
+    let last = figures_with_uncertainty(finest);
     let rungs = years
         .iter()
         .zip(&targets)
@@ -128,7 +122,7 @@ pub fn annual(
             errors: if k + 1 == targets.len() { Vec::new() } else { errors(year, finest) },
             stated: year.light.errors.iter().sum::<f64>()
                 / year.light.values.iter().sum::<f64>().max(f64::MIN_POSITIVE),
-            figures: beside(figures_with_uncertainty(year, area), &last),
+            figures: beside(figures_with_uncertainty(year), &last),
         })
         .collect();
     let steps = [finest.chosen.len(), finest.chosen.len() - finest.light.dark];
@@ -180,16 +174,12 @@ fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
 }
 
 /// Returns the figures with their uncertainty by the errors of the hours.
-fn figures_with_uncertainty(year: &Year, area: f64) -> Vec<YearFigure> {
-    let all: [Value; 3] = figures(year).map(|one| metrics::metrics(year, &one, area));
-    let of = |key: &'static str| {
-        let [Some(value), Some(less), Some(more)] = all.each_ref().map(|one| metrics::number(one, key)) else {
-            return None;
-        };
-        let stated = (less - value).abs().max((more - value).abs());
-        Some(YearFigure { key, value, stated, real: 0.0 })
+fn figures_with_uncertainty(year: &Year) -> Vec<YearFigure> {
+    let of = |entry: &Entry| {
+        let Estimate { value, error } = entry.estimate()?;
+        Some(YearFigure { key: entry.key(), value, stated: error, real: 0.0 })
     };
-    FIGURES.into_iter().filter_map(of).collect()
+    metrics(year, &figures(year)).iter().filter(|entry| entry.metric.compared).filter_map(of).collect()
 }
 
 fn beside(mut own: Vec<YearFigure>, last: &[YearFigure]) -> Vec<YearFigure> {

@@ -10,8 +10,7 @@ use crate::study::error::StudyError;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{Climate, Dgp, Light, SHADE, Settings, Year, figures, metrics, year_in};
-use serde_json::Value;
+use crate::study::year::{Climate, Dgp, Entry, Light, SHADE, Settings, Year, figures, metric, metrics, year_in};
 
 /// Figures of a product: independent of weights and scale limits.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -86,7 +85,7 @@ impl Setting<'_> {
         if coarse {
             blur(&mut year);
         }
-        let all = three(&year, group.file.room.width * group.file.room.depth);
+        let all = metrics(&year, &figures(&year));
         for (key, objective) in group.figures.iter().zip(&group.objectives) {
             // Figures that blurred light does not determine may be anything between the scale limits.
             let between = || {
@@ -114,7 +113,7 @@ impl Setting<'_> {
     /// Returns an error that names the missing figure and the existing ones, or if cancelled.
     pub fn check(&self, first: &Product, progress: &dyn Progress) -> Result<(), StudyError> {
         let year = dark(self.climate);
-        let all = three(&year, self.group.file.room.width * self.group.file.room.depth);
+        let all = metrics(&year, &figures(&year));
         let Some(error) = self.group.figures.iter().find_map(|key| figure(&year, &all, key).err()) else {
             return Ok(());
         };
@@ -173,40 +172,17 @@ fn dark(climate: &Climate) -> Year {
     }
 }
 
-/// Returns the metrics of a year, with less and with more light.
-fn three(year: &Year, area: f64) -> [Value; 3] {
-    figures(year).map(|one| metrics::metrics(year, &one, area))
-}
-
-/// Returns a figure of a whole year; its error is the larger difference from those with less and with more light.
-fn figure(year: &Year, metrics: &[Value; 3], key: &str) -> Result<Estimate, StudyError> {
-    if let Some(figure) = read(metrics, key) {
+/// Returns a figure of a whole year.
+fn figure(year: &Year, metrics: &[Entry], key: &str) -> Result<Estimate, StudyError> {
+    if let Some(figure) = metrics.iter().find(|entry| entry.key() == key).and_then(Entry::estimate) {
         return Ok(figure);
     }
-    if let Some(figure) = nought(year, key) {
-        return Ok(figure);
+    if metric(key).is_some_and(|(metric, _)| metric.is_zero(year)) {
+        return Ok(Estimate::exact(0.0));
     }
-    let keys = metrics::keys(&metrics[0]).join(", ");
+    let stated = metrics.iter().filter(|entry| entry.estimate().is_some()).map(Entry::key);
+    let keys = stated.collect::<Vec<_>>().join(", ");
     Err(StudyError::key(NO_FIGURE, format!("the year has no figure \"{key}\"; it has: {keys}")))
-}
-
-/// Returns exactly zero for counts of movements or sun hours if nothing moves, or no sun is transmitted unscattered.
-fn nought(year: &Year, key: &str) -> Option<Estimate> {
-    let still = year.moving.is_empty();
-    let nought = match key {
-        "movements" => still,
-        "ASE1000_250" | "ASE_hours_1000" | "sun_hours_1000" => {
-            year.steps.whole && year.light.sun.is_none() && year.retracted_sun.is_none()
-        }
-        _ => false,
-    };
-    nought.then(|| Estimate::exact(0.0))
-}
-
-fn read(three: &[Value; 3], key: &str) -> Option<Estimate> {
-    let [own, less, more] = three.each_ref().map(|one| metrics::number(one, key));
-    let (own, less, more) = (own?, less?, more?);
-    Some(Estimate { value: own, error: (less - own).abs().max((more - own).abs()) })
 }
 
 /// Returns the reasons why figures are approximate beyond their errors.

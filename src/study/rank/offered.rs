@@ -1,9 +1,9 @@
 //! Figures that objectives can use, with their initial scale limits and direction; and the default objectives of a
 //! scene without any.
 
-use crate::study::rank_keys::{BetterKey, ObjectiveKeys};
+use crate::study::rank_keys::ObjectiveKeys;
+use crate::study::year::{Scale, metric, scales};
 use crate::study::year_keys::YearKeys;
-use crate::texts::{Text, choose as say};
 
 /// A figure that may be an objective.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,42 +14,13 @@ pub struct Offered {
     pub always: bool,
 }
 
-/// Approximate hours per year at full power of electric lighting without daylight. \[h\]
-const FULL_HOURS: f64 = 2500.0;
-
 /// Returns the figures that a scene with this year can use.
 pub fn offered(year: &YearKeys) -> Vec<Offered> {
-    let one = |figure: &str, better, worst, best, always| Offered {
-        keys: ObjectiveKeys { figure: figure.to_owned(), better, worst, best, weight: 1.0 },
+    let of = |(figure, Scale { better, worst, best, always }): (String, Scale)| Offered {
+        keys: ObjectiveKeys { figure, better, worst, best, weight: 1.0 },
         always,
     };
-    let (less, more) = (BetterKey::Less, BetterKey::More);
-    let mut list = Vec::new();
-    if let Some(lamps) = &year.lighting {
-        let worst = (lamps.power * FULL_HOURS / 1000.0).max(1.0);
-        list.push(one("lighting.LENI_kWh_m2", less, worst, 0.0, true));
-    }
-    list.extend([
-        one("UDI_a", more, 0.2, 0.9, true),
-        one("UDI_x", less, 0.4, 0.0, true),
-        one("UDI_n", less, 0.4, 0.0, true),
-        one("cDA300", more, 0.3, 0.95, true),
-        one("DA300", more, 0.2, 0.9, true),
-        one("DA500", more, 0.1, 0.8, true),
-        one("sDA300_50", more, 0.0, 1.0, true),
-        one("movements", less, 1500.0, 0.0, true),
-    ]);
-    for eye in 1..=year.eyes.len() {
-        list.push(one(&format!("glare.Ev_{eye}.share_above_0.40"), less, 0.3, 0.0, true));
-        if year.dgp {
-            list.push(one(&format!("glare.Ev_{eye}.DGP_share_above_0.40"), less, 0.3, 0.0, false));
-        }
-    }
-    list.extend([one("ASE1000_250", less, 0.5, 0.0, false), one("sun_hours_1000", less, 600.0, 0.0, false)]);
-    if year.solar {
-        list.push(one("solar.summer_kWh_m2", less, 200.0, 0.0, false));
-    }
-    list
+    scales(year).into_iter().map(of).collect()
 }
 
 /// Returns the default objectives of a scene without any: lighting energy, useful daylight, glare at the first observer
@@ -65,34 +36,7 @@ pub fn usual_objectives(year: &YearKeys) -> Vec<ObjectiveKeys> {
 
 /// Returns the label of a figure and its unit; `%` for shares of 0 … 1. An unknown figure is labelled by its key.
 pub fn figure_words(key: &str) -> (String, &'static str) {
-    let known = |text: Text, unit| (text.get().to_owned(), unit);
-    match key {
-        "lighting.LENI_kWh_m2" => known(say::LIGHTING_ENERGY, "kWh/m²"),
-        "UDI_a" => known(say::USEFUL_LIGHT, "%"),
-        "UDI_x" => known(say::TOO_MUCH_LIGHT, "%"),
-        "UDI_n" => known(say::TOO_LITTLE_LIGHT, "%"),
-        "UDI_s" => known(say::SOME_LIGHT, "%"),
-        "cDA300" => known(say::CONTINUOUS_AUTONOMY, "%"),
-        "DA300" => known(say::AUTONOMY_300, "%"),
-        "DA500" => known(say::AUTONOMY_500, "%"),
-        "sDA300_50" => known(say::SPATIAL_AUTONOMY, "%"),
-        "ASE1000_250" => known(say::SUN_EXPOSURE, "%"),
-        "sun_hours_1000" => known(say::SUN_HOURS, "h"),
-        "movements" => known(say::MOVEMENTS, ""),
-        "annual_mean_lx" => known(say::MEAN_LIGHT, "lx"),
-        "solar.summer_kWh_m2" => known(say::SUMMER_SUN, "kWh/m²"),
-        _ => eye_words(key).unwrap_or_else(|| (key.to_owned(), "")),
-    }
-}
-
-/// Returns label and unit of glare at an observer.
-fn eye_words(key: &str) -> Option<(String, &'static str)> {
-    let (eye, what) = key.strip_prefix("glare.Ev_")?.split_once('.')?;
-    match what {
-        "DGP_share_above_0.40" => Some((say::glare_of(eye), "%")),
-        "share_above_0.40" => Some((say::simple_glare_of(eye), "%")),
-        _ => None,
-    }
+    metric(key).map_or_else(|| (key.to_owned(), ""), |(metric, index)| (metric.name(index), metric.unit))
 }
 
 #[cfg(test)]

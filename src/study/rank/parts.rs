@@ -7,7 +7,7 @@ use crate::compute::year::lighting::Lamps;
 use crate::study::error::StudyError;
 use crate::study::scene_file::{SceneFile, SurfaceKey, SystemKeys};
 use crate::study::scene_places::{room, sensors};
-use crate::study::year::{Climate, Year};
+use crate::study::year::{Climate, SumOver, Year, metric};
 
 /// Names of the seasons, which are whole calendar months; on the southern hemisphere they are shifted by half a year.
 pub const SEASONS: [&str; 4] = ["winter", "spring", "summer", "autumn"];
@@ -41,8 +41,6 @@ pub struct Grouping {
     /// Index of the zone, by sensor.
     zones: Vec<usize>,
     names: Vec<String>,
-    /// Area of the floor. \[m²\]
-    area: f64,
 }
 
 impl Grouping {
@@ -71,22 +69,16 @@ impl Grouping {
         let places = sensors(&file.sensors, &box_room)?.0;
         let depths: Vec<f64> = places.iter().map(|sensor| sensor.position.y).collect();
         let (zones, names) = zones(&depths, box_room.size.y, climate.settings.lamps.as_ref());
-        Ok(Self { times, zones, names, area: file.room.width * file.room.depth })
+        Ok(Self { times, zones, names })
     }
 
     /// Returns the parts of a figure of a year; empty if it is not a sum over hours and sensors.
     pub fn parts(&self, year: &Year, key: &str) -> Parts {
-        match (key, year.settings.lamps.as_ref()) {
-            ("lighting.LENI_kWh_m2" | "lighting.kWh_m2", Some(lamps)) => self.lamps(year, lamps, 1.0),
-            ("lighting.kWh", Some(lamps)) => self.lamps(year, lamps, self.area),
-            ("annual_mean_lx", _) => self.places(year, false, |e| e),
-            ("DA300", _) => self.places(year, true, |e| one_if(e >= 300.0)),
-            ("DA500", _) => self.places(year, true, |e| one_if(e >= 500.0)),
-            ("cDA300", _) => self.places(year, true, |e| (e / 300.0).min(1.0)),
-            ("UDI_n", _) => self.places(year, true, |e| one_if(e < 100.0)),
-            ("UDI_s", _) => self.places(year, true, |e| one_if((100.0..300.0).contains(&e))),
-            ("UDI_a", _) => self.places(year, true, |e| one_if((300.0..=3000.0).contains(&e))),
-            ("UDI_x", _) => self.places(year, true, |e| one_if(e > 3000.0)),
+        match (metric(key).and_then(|(metric, _)| metric.sum), year.settings.lamps.as_ref()) {
+            (Some(SumOver::Lighting { floor }), Some(lamps)) => {
+                self.lamps(year, lamps, if floor { year.settings.floor } else { 1.0 })
+            }
+            (Some(SumOver::Sensors { occupied, of }), _) => self.places(year, occupied, of),
             _ => Parts::default(),
         }
     }
@@ -125,10 +117,6 @@ impl Grouping {
         }
         parts
     }
-}
-
-fn one_if(yes: bool) -> f64 {
-    f64::from(u8::from(yes))
 }
 
 /// Returns the zone of every sensor and the names of the zones: the lighting zones by their depth if there are several;

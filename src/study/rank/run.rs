@@ -11,10 +11,7 @@ use crate::study::goniophotometer::Withdrawn;
 use crate::study::scene_file::{Interpolation, SceneFile};
 use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
-use crate::study::year::{
-    Climate, climate,
-    metrics::{counts_direct_sun, counts_unoccupied},
-};
+use crate::study::year::{Climate, Metric, Need, climate, metric};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -72,12 +69,13 @@ pub fn run(
             progress.advance("weather", ready.len(), groups.len());
             let mut climate = climate(&group.file, &group.base)?;
             // Figures that no objective needs are not computed.
-            let asks = |word: &str| group.figures.iter().any(|figure| figure.contains(word));
-            climate.settings.keys.solar = asks("solar.");
-            climate.settings.keys.lm83 = asks("LM83") || asks("blinds_closed");
-            climate.settings.keys.dgp &= asks("DGP_");
-            climate.settings.direct_sun = group.figures.iter().any(|figure| counts_direct_sun(figure));
-            climate.settings.unoccupied = group.figures.iter().any(|figure| counts_unoccupied(figure));
+            let known: Vec<&Metric> = group.figures.iter().filter_map(|key| Some(metric(key)?.0)).collect();
+            let needed = |need| known.iter().any(|metric| metric.needs.contains(&need));
+            climate.settings.keys.solar = needed(Need::Solar);
+            climate.settings.keys.lm83 = needed(Need::Lm83);
+            climate.settings.keys.dgp &= needed(Need::Dgp);
+            climate.settings.direct_sun = needed(Need::DirectSun);
+            climate.settings.unoccupied = needed(Need::Unoccupied);
             let grouping = Grouping::of(&group.file, &climate)?;
             let mut by_cells = climate.clone();
             (by_cells.settings.keys.dgp, by_cells.settings.keys.lm83) = (false, false);

@@ -18,7 +18,8 @@
 //! | `eye_light` | luminance of an aperture as the observers see it, prepared for any sky |
 //! | `opening` | exposure to sunlight and view out, without light |
 //! | `figures` | annual figures with errors |
-//! | `metrics` | figures by key |
+//! | `metrics` | the annual metrics, one entry each |
+//! | `metric` | what an entry says, and metrics of a year by key |
 //! | `annual` | a year with its figures, and the part of the scene that it depends on |
 //! | `look` | view of a year: page and displayed quantity |
 //! | `maps` | hours of a year as a map |
@@ -40,7 +41,8 @@ mod light;
 mod lm83;
 mod look;
 mod maps;
-pub mod metrics;
+mod metric;
+mod metrics;
 mod opening;
 mod resume;
 mod settings;
@@ -59,12 +61,13 @@ pub use light::Light;
 pub use lm83::{Group, Lm83, SHADE};
 pub use look::{Look, Page, Shows};
 pub use maps::{choices, csv_column, error, map, title, weather_map};
+pub use metric::{Entry, Metric, Need, Quantity, Scale, Section, SumOver, estimate, metric, metrics, scales};
 pub use opening::{NOT_JUDGED, Opening, opening};
 pub use resume::{Kept, STORE_DELAY};
 pub use settings::{Settings, settings};
 pub use solar::{Solar, ThroughAperture};
 pub use steps::{Step, Steps};
-pub use table::{Row, Section, table};
+pub use table::{Row, table};
 
 use super::error::StudyError;
 use super::scene_file::SceneFile;

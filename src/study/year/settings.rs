@@ -12,6 +12,8 @@ use glam::DVec3;
 pub struct Settings {
     /// Keys of `[year]` as in the scene file.
     pub keys: YearKeys,
+    /// Area of the floor. \[m²\]
+    pub floor: f64,
     /// Number of the scene's sensors, without eyes.
     pub sensors: usize,
     /// Observers, as sensors.
@@ -87,7 +89,8 @@ pub fn settings(file: &SceneFile) -> Result<Settings, StudyError> {
         eyes.push(Sensor { position, normal });
     }
     let lamps = keys.lighting.as_ref().map(|lighting| lamps(lighting, sensors)).transpose()?;
-    Ok(Settings { keys: keys.clone(), sensors, eyes, lamps, unoccupied: true, direct_sun: true })
+    let floor = file.room.width * file.room.depth;
+    Ok(Settings { keys: keys.clone(), floor, sensors, eyes, lamps, unoccupied: true, direct_sun: true })
 }
 
 fn lamps(keys: &LightingKeys, sensors: usize) -> Result<Lamps, StudyError> {

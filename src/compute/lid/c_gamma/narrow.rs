@@ -14,7 +14,7 @@ const STEEP: f64 = 0.3;
 /// Share of the largest intensity up to which light never counts as narrow.
 const DIM: f64 = 0.02;
 /// Points per side of the tile, for a mean over it and over the node's cell.
-const POINTS: usize = 8;
+const POINTS: usize = 7;
 /// Maximum number of parts into which the regular step is divided where light is narrow.
 const FINER: usize = 3;
 
@@ -121,9 +121,10 @@ fn mean(cells: &Cells<'_>, node: usize, lid: &Lid, panel: &Panel) -> f64 {
     let mut sum = 0.0;
     for i in 0..POINTS {
         for j in 0..POINTS {
-            // Every row and column of the cell meets every row and column of the tile once.
+            // Every row and column of the cell meets every row and column of the tile, and each other, once: modulo a
+            // prime, the factors and their determinant have inverses.
             let beside = [(at(i) - 0.5) * part.size[0], (at(j) - 0.5) * part.size[1]];
-            let way = cells.aim.direction(inside(c, at(3 * i + 5 * j)), inside(gamma, at(5 * i + 3 * j + 1)));
+            let way = cells.aim.direction(inside(c, at(2 * i + 3 * j)), inside(gamma, at(3 * i + 2 * j)));
             sum += part.of_point(lid, beside, way.0.vector());
         }
     }

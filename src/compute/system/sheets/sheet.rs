@@ -180,10 +180,19 @@ impl Spread {
     fn on(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Vec<f64>, Vec<f64>), Cancelled> {
         let (incident, emergent) = (setting.incident, setting.emergent);
         let straight = Btdf { regular: Some(self.regular.clone()), scattered: None };
-        let rule = midpoints(RING);
+        let (rule, coarse) = (midpoints(RING), midpoints(RING / 2));
+        // The error of an average over a ring is below its difference from that with half the points.
+        let mut error = vec![1e-6; incident.len()];
+        let means = |basis: &RingBasis, share: &AngularTransmittance, error: &mut [f64]| {
+            let (fine, coarse) = (ring_means(basis, share, &rule), ring_means(basis, share, &coarse));
+            for ((error, fine), coarse) in error.iter_mut().zip(&fine).zip(coarse) {
+                *error += (fine - coarse).abs();
+            }
+            fine
+        };
         let mut values = matrix_on(&straight, incident, emergent).values().into_owned();
         if !self.diffuse.is_dark() {
-            let (from, to) = (ring_means(incident, &self.diffuse, &rule), ring_means(emergent, &self.diffuse, &rule));
+            let (from, to) = (means(incident, &self.diffuse, &mut error), ring_means(emergent, &self.diffuse, &rule));
             // The mean over exactly these cells, so that totals come out exactly.
             let mean = emergent.projected_solid_angles().iter().zip(&to).map(|(w, t)| w * t).sum::<f64>() / PI;
             for (row, from) in values.chunks_exact_mut(emergent.len()).zip(&from) {
@@ -192,12 +201,10 @@ impl Spread {
                 }
             }
         }
-        // Error of the averages over rings.
-        let mut error = vec![1e-6; incident.len()];
         if let Some(lobe) = &self.lobe {
             let weight = emergent.projected_solid_angles();
             let cells: Vec<Cell> = emergent.cells().collect();
-            let totals = ring_means(incident, lobe.share(), &rule);
+            let totals = means(incident, lobe.share(), &mut error);
             let rows: Vec<Vec<f64>> = incident
                 .cells()
                 .collect::<Vec<_>>()

@@ -56,7 +56,7 @@ impl Singles {
     ) -> ScatteredLight {
         let Passage { mut arrivals, left, .. } = follow(layers, name, side, 0.0);
         let faint = drop_faint(&mut arrivals);
-        let mut error = 0.0;
+        let mut error = faint;
         // q on the cells asked for, by through directions of light from `side`.
         let mut arising: Vec<(Place, Vec<f64>)> = Vec::new();
         let azimuth = cells.azimuth();
@@ -84,7 +84,6 @@ impl Singles {
         if arising.is_empty() && unfollowed <= NEGLECTED {
             return ScatteredLight { error: error + unfollowed, ..ScatteredLight::default() };
         }
-        error += faint;
         let flows = self.flows.get(|| Flows::new(layers));
         let emergent = Emergent::of(cells);
         let mut sources = Sources::dark(layers.len(), flows.cells.len());

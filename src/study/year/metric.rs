@@ -1,0 +1,412 @@
+//! An annual metric: its key, label, unit and limit, and how it is taken from the figures of a year. The table of all
+//! metrics is [`METRICS`]; programs, reports, rankings and accuracy series read it.
+
+use super::metrics::METRICS;
+use super::{Figures, Year};
+use crate::compute::estimate::Estimate;
+use crate::compute::year::provision::LEVELS;
+use crate::study::rank_keys::BetterKey;
+use crate::study::year_keys::YearKeys;
+use crate::texts::{Text, year as say};
+
+/// Section of the figures of a year.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Section {
+    /// Autonomy and useful illuminances.
+    Light,
+    /// Direct sun on the sensors.
+    Sun,
+    /// Daylight provision of EN 17037.
+    Provision,
+    /// Glare at the observers.
+    Glare,
+    /// Electric lighting.
+    Lighting,
+    /// Shading operation.
+    Control,
+}
+
+impl Section {
+    /// Returns the label of the section.
+    pub const fn words(self) -> Text {
+        match self {
+            Self::Light => say::SECTION_LIGHT,
+            Self::Sun => say::SECTION_SUN,
+            Self::Provision => say::SECTION_PROVISION,
+            Self::Glare => say::SECTION_GLARE,
+            Self::Lighting => say::SECTION_LIGHTING,
+            Self::Control => say::SECTION_CONTROL,
+        }
+    }
+}
+
+/// Subject that a metric is stated for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Subject {
+    /// The room: one value, or one list.
+    Room,
+    /// Each level of EN 17037, by its name in [`LEVELS`].
+    Level,
+    /// Each observer, counted from 1.
+    Observer,
+}
+
+impl Subject {
+    fn count(self, figures: &Figures) -> usize {
+        match self {
+            Self::Room => 1,
+            Self::Level => LEVELS.len(),
+            Self::Observer => figures.glare.len(),
+        }
+    }
+
+    /// Returns the word that stands for `#` in the key.
+    fn word(self, index: usize) -> String {
+        match self {
+            Self::Room => String::new(),
+            Self::Level => LEVELS[index].0.to_owned(),
+            Self::Observer => (index + 1).to_string(),
+        }
+    }
+
+    fn index(self, word: &str) -> Option<usize> {
+        match self {
+            Self::Room => None,
+            Self::Level => LEVELS.iter().position(|level| level.0 == word),
+            Self::Observer => word.parse::<usize>().ok()?.checked_sub(1),
+        }
+    }
+}
+
+/// Part of an annual simulation that a metric depends on, and that is left out unless a metric needs it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Need {
+    /// Direct sun alone at sensors and observers.
+    DirectSun,
+    /// Light in unoccupied hours.
+    Unoccupied,
+    /// Light with blinds operated by the rule of IES LM-83-12.
+    Lm83,
+    /// Daylight glare probability, from the luminance of the apertures.
+    Dgp,
+    /// Solar energy transmitted.
+    Solar,
+}
+
+/// Value of a metric. Shares are 0 … 1.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Quantity {
+    /// One number.
+    Number(f64),
+    /// One number for each sensor, month, hour of the day or group of blinds.
+    List(Vec<f64>),
+    /// One count for each moving aperture.
+    Counts(Vec<usize>),
+    /// Whether a requirement is met.
+    Met(bool),
+    /// Name of a class, or source of the data.
+    Word(&'static str),
+}
+
+impl Quantity {
+    /// Returns the value as a number: the mean of a list, 1 or 0 for a requirement. `None` for words and empty lists.
+    pub fn number(&self) -> Option<f64> {
+        let mean = |sum: f64, count: usize| (count > 0).then(|| sum / count as f64);
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::List(list) => mean(list.iter().sum(), list.len()),
+            Self::Counts(list) => mean(list.iter().map(|count| *count as f64).sum(), list.len()),
+            Self::Met(met) => Some(f64::from(u8::from(*met))),
+            Self::Word(_) => None,
+        }
+    }
+}
+
+/// What a metric is taken from: a year, and its figures or those with less or more light.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub year: &'a Year,
+    pub figures: &'a Figures,
+}
+
+/// Scale of a metric as an objective of a ranking.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// Direction in which the metric is better.
+    pub better: BetterKey,
+    /// Value with score 0.
+    pub worst: f64,
+    /// Value with score 1.
+    pub best: f64,
+    /// Whether every year has the metric at negligible cost, so that it is computed for every product.
+    pub always: bool,
+}
+
+impl Scale {
+    pub(super) fn less(worst: f64, best: f64) -> Self {
+        Self { better: BetterKey::Less, worst, best, always: true }
+    }
+
+    pub(super) fn more(worst: f64, best: f64) -> Self {
+        Self { better: BetterKey::More, ..Self::less(worst, best) }
+    }
+
+    pub(super) fn on_request(self) -> Self {
+        Self { always: false, ..self }
+    }
+}
+
+/// Sum over hours and places that a metric is, so that it can be split by season, sun and zone.
+#[derive(Debug, Clone, Copy)]
+pub enum SumOver {
+    /// Mean of a function of the illuminance \[lx\] over sensors and steps.
+    Sensors {
+        /// Whether occupied steps alone count.
+        occupied: bool,
+        /// Function of the illuminance.
+        of: fn(f64) -> f64,
+    },
+    /// Energy of the electric lighting over zones and steps, in kWh or in kWh per square metre of floor.
+    Lighting {
+        /// Whether the energy is that of the whole floor.
+        floor: bool,
+    },
+}
+
+/// Label of a metric.
+#[derive(Debug, Clone, Copy)]
+enum Label {
+    /// The key itself.
+    Key,
+    Fixed(Text),
+    /// With the index of the observer or level.
+    Numbered(fn(usize) -> String),
+}
+
+/// An annual metric.
+#[derive(Debug, Clone, Copy)]
+pub struct Metric {
+    /// Steps of the key, separated by `/`; `#` stands for the observer or level.
+    path: &'static str,
+    subject: Subject,
+    label: Label,
+    /// Unit; `%` for shares of 0 … 1.
+    pub unit: &'static str,
+    /// Section of the table of figures, and definition in one sentence with source; `None` if the table leaves it out.
+    pub row: Option<(Section, Text)>,
+    /// Parts of the simulation that the metric needs.
+    pub needs: &'static [Need],
+    /// Whether accuracy series compare it.
+    pub compared: bool,
+    /// Sum over hours and places that it is.
+    pub sum: Option<SumOver>,
+    value: fn(&Source<'_>, usize) -> Option<Quantity>,
+    compliance: Option<fn([f64; 3]) -> String>,
+    scale: Option<fn(&YearKeys) -> Option<Scale>>,
+    zero: Option<fn(&Year) -> bool>,
+}
+
+impl Metric {
+    pub(super) const fn new(
+        path: &'static str,
+        unit: &'static str,
+        value: fn(&Source<'_>, usize) -> Option<Quantity>,
+    ) -> Self {
+        Self {
+            path,
+            subject: Subject::Room,
+            label: Label::Key,
+            unit,
+            row: None,
+            needs: &[],
+            compared: false,
+            sum: None,
+            value,
+            compliance: None,
+            scale: None,
+            zero: None,
+        }
+    }
+
+    pub(super) const fn of_each(self, subject: Subject) -> Self {
+        Self { subject, ..self }
+    }
+
+    pub(super) const fn label(self, label: Text) -> Self {
+        Self { label: Label::Fixed(label), ..self }
+    }
+
+    pub(super) const fn numbered(self, label: fn(usize) -> String) -> Self {
+        Self { label: Label::Numbered(label), ..self }
+    }
+
+    pub(super) const fn row(self, section: Section, tip: Text) -> Self {
+        Self { row: Some((section, tip)), ..self }
+    }
+
+    pub(super) const fn needs(self, needs: &'static [Need]) -> Self {
+        Self { needs, ..self }
+    }
+
+    pub(super) const fn compared(self) -> Self {
+        Self { compared: true, ..self }
+    }
+
+    pub(super) const fn sum(self, sum: SumOver) -> Self {
+        Self { sum: Some(sum), ..self }
+    }
+
+    /// Adds the words for compliance with a limit, from the values as they are, with less and with more light.
+    pub(super) const fn compliance(self, words: fn([f64; 3]) -> String) -> Self {
+        Self { compliance: Some(words), ..self }
+    }
+
+    /// Offers the metric as an objective, in the scenes for which there is a scale.
+    pub(super) const fn objective(self, scale: fn(&YearKeys) -> Option<Scale>) -> Self {
+        Self { scale: Some(scale), ..self }
+    }
+
+    /// Says in which years the metric is exactly zero, where it is not stated.
+    pub(super) const fn zero_where(self, zero: fn(&Year) -> bool) -> Self {
+        Self { zero: Some(zero), ..self }
+    }
+
+    fn path(&self, index: usize) -> String {
+        self.path.replace('#', &self.subject.word(index))
+    }
+
+    fn key(&self, index: usize) -> String {
+        self.path(index).replace('/', ".")
+    }
+
+    /// Returns the label of the metric of an observer or level; its key if it has none.
+    pub fn name(&self, index: usize) -> String {
+        match self.label {
+            Label::Key => self.key(index),
+            Label::Fixed(text) => text.to_string(),
+            Label::Numbered(label) => label(index),
+        }
+    }
+
+    /// Whether the metric is exactly zero in a year that does not state it.
+    pub fn is_zero(&self, year: &Year) -> bool {
+        self.zero.is_some_and(|zero| zero(year))
+    }
+
+    fn index(&self, key: &str) -> Option<usize> {
+        let path = self.path.replace('/', ".");
+        match path.split_once('#') {
+            None => (path == key).then_some(0),
+            Some((before, after)) => self.subject.index(key.strip_prefix(before)?.strip_suffix(after)?),
+        }
+    }
+}
+
+/// Returns the metric of a key, and the index of its observer or level.
+pub fn metric(key: &str) -> Option<(&'static Metric, usize)> {
+    METRICS.iter().find_map(|metric| Some((metric, metric.index(key)?)))
+}
+
+/// Returns the keys and scales of the metrics that may be objectives in a scene with this year.
+pub fn scales(year: &YearKeys) -> Vec<(String, Scale)> {
+    let of = |metric: &'static Metric| {
+        let scale = metric.scale.and_then(|scale| scale(year));
+        let count = if metric.subject == Subject::Observer { year.eyes.len() } else { 1 };
+        scale.into_iter().flat_map(move |scale| (0..count).map(move |index| (metric.key(index), scale)))
+    };
+    METRICS.iter().flat_map(of).collect()
+}
+
+/// A metric of a year: its values as computed, with less and with more light.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The metric.
+    pub metric: &'static Metric,
+    /// Index of the observer or level.
+    pub index: usize,
+    /// Values as computed, with all light lower by its error, and with all light higher.
+    pub values: [Quantity; 3],
+}
+
+impl Entry {
+    /// Returns the steps of the key from the outermost to the innermost, as in JSON.
+    pub fn path(&self) -> Vec<String> {
+        self.metric.path(self.index).split('/').map(str::to_owned).collect()
+    }
+
+    /// Returns the key: its steps separated by dots.
+    pub fn key(&self) -> String {
+        self.metric.key(self.index)
+    }
+
+    /// Returns the three values as numbers; `None` for words and empty lists.
+    pub fn numbers(&self) -> Option<[f64; 3]> {
+        let [own, less, more] = self.values.each_ref().map(Quantity::number);
+        Some([own?, less?, more?])
+    }
+
+    /// Returns the value with its error, the larger difference from those with less and with more light.
+    pub fn estimate(&self) -> Option<Estimate> {
+        self.numbers().map(estimate)
+    }
+
+    /// Returns the words for compliance with limits; empty without limits.
+    pub fn compliance(&self) -> String {
+        self.metric.compliance.zip(self.numbers()).map_or_else(String::new, |(words, numbers)| words(numbers))
+    }
+}
+
+/// Returns the first of three values; its error is the larger difference from the two others.
+pub fn estimate([own, less, more]: [f64; 3]) -> Estimate {
+    Estimate { value: own, error: (less - own).abs().max((more - own).abs()) }
+}
+
+/// Returns all metrics of a year, in the order of [`METRICS`], one observer or level after the other. `figures`: as
+/// computed, with less and with more light.
+pub fn metrics(year: &Year, figures: &[Figures; 3]) -> Vec<Entry> {
+    let entry = |metric: &'static Metric, index: usize| {
+        let [own, less, more] = figures.each_ref().map(|figures| (metric.value)(&Source { year, figures }, index));
+        Some(Entry { metric, index, values: [own?, less?, more?] })
+    };
+    let mut list = Vec::new();
+    for group in METRICS.chunk_by(|a, b| a.subject == b.subject) {
+        for index in 0..group[0].subject.count(&figures[0]) {
+            list.extend(group.iter().filter_map(|metric| entry(metric, index)));
+        }
+    }
+    list
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn a_metric_is_found_by_its_key() {
+        let mut seen = BTreeSet::new();
+        for one in METRICS {
+            for index in if one.subject == Subject::Room { 0..1 } else { 0..3 } {
+                let key = one.key(index);
+                let found = metric(&key).map(|(found, index)| (found.path, index));
+                assert_eq!(found, Some((one.path, index)), "{key}");
+                assert!(seen.insert(key));
+            }
+        }
+        for wrong in ["", "DA", "DA3000", "DA300.", "glare", "glare.Ev_1", "glare.Ev_0.DGP_5pct", "glare.Ev_x.DGP_5pct"]
+        {
+            assert!(metric(wrong).is_none(), "{wrong}");
+        }
+        assert_eq!(metric("glare.Ev_12.share_above_0.40").unwrap().1, 11);
+        assert_eq!(metric("EN17037.high.met_by_point").unwrap().1, 2);
+    }
+
+    #[test]
+    fn numbers_of_lists_are_their_means() {
+        assert_eq!(Quantity::List(vec![0.5, 1.0]).number(), Some(0.75));
+        assert_eq!(Quantity::Counts(vec![3, 4]).number(), Some(3.5));
+        assert_eq!(Quantity::Met(true).number(), Some(1.0));
+        assert_eq!((Quantity::Word("x").number(), Quantity::List(Vec::new()).number()), (None, None));
+        assert_eq!(estimate([2.0, 1.5, 2.25]), Estimate { value: 2.0, error: 0.5 });
+    }
+}
