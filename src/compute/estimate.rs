@@ -51,7 +51,8 @@ impl Sum for Estimate {
     }
 }
 
-/// Share of the mean below which a place counts as dark: relative errors there have no meaning.
+/// Share of the mean below which a place counts as dark: relative errors there have no meaning. Chosen: affects
+/// reporting only.
 pub const DARK: f64 = 0.01;
 
 /// Returns the largest relative error of a set of values, each relative to its own value, without those that are dark

@@ -15,7 +15,7 @@
 #[derive(Debug, Clone)]
 pub struct Random(pub u64);
 
-/// Increment of the state of SplitMix64.
+/// Increment of the state of SplitMix64: 2⁶⁴/φ, φ the golden ratio (Steele, Lea and Flood 2014).
 const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
 
 impl Random {

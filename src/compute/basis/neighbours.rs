@@ -3,7 +3,8 @@
 use super::rings::RingBasis;
 use std::f64::consts::PI;
 
-/// Distance below which two borders count as the same. \[rad\]
+/// Distance below which two borders count as the same. \[rad\] Above the rounding of azimuths (2⁻⁵² · 2π ≈ 1e-15),
+/// below the narrowest sector of a basis (2π/7200 ≈ 9e-4).
 const SLACK: f64 = 1e-6;
 
 /// Lists of the cells that share a border, one list per cell.

@@ -17,12 +17,15 @@ pub struct AzimuthMap {
 }
 
 impl AzimuthMap {
-    /// Azimuth of the façade frame: counter-clockwise seen from outside, 0 = right.
+    /// Azimuth of the façade frame: counter-clockwise seen from outside, 0 = right. Definition of the frame, see
+    /// [`crate::compute::direction`].
     pub const FACADE: Self = Self { sign: 1.0, offset: 0.0 };
     /// Klems azimuth of the travelling light seen from the room (0 = right, 90 = up), for light from outside: the
-    /// through direction has φ_F = −φ_Klems.
+    /// through direction has φ_F = −φ_Klems. Convention of WINDOW and Radiance, whose BSDF frame has x to the right, y
+    /// up and z into the room.
     pub const KLEMS_FRONT: Self = Self { sign: -1.0, offset: 0.0 };
     /// Klems azimuth of the travelling light seen from the room, for light from inside: φ_F = 180° − φ_Klems.
+    /// Convention as for [`Self::KLEMS_FRONT`].
     pub const KLEMS_BACK: Self = Self { sign: -1.0, offset: PI };
 
     /// Returns the façade azimuth of an azimuth of the basis. \[rad\]
@@ -143,6 +146,8 @@ impl RingBasis {
             return Err(BasisError::Empty);
         };
         let outwards = first.theta_min <= last.theta_min;
+        // Overlap of two rings, or excess over 90°, that counts as rounding. [rad] Well above that of degrees converted
+        // to radians (2⁻⁵² · π/2 ≈ 3.5e-16), well below the digits of angles in files.
         const SLACK: f64 = 1e-9;
         let mut reached = 0.0;
         let order: Box<dyn Iterator<Item = usize>> =

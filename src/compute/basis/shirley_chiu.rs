@@ -14,7 +14,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-/// Maximum level of a grid: 2⁹ = 512 cells along a side.
+/// Maximum level of a grid: 2⁹ = 512 cells along a side. Chosen: limit of input; deeper trees are refused.
 pub const MAX_LEVEL: u32 = 9;
 
 /// Returns the point of the unit disk for a point of the unit square.
@@ -140,6 +140,8 @@ struct Share {
 /// Computes the shares of square cells in ring cells: by midpoints along the thickness of a square frame, exactly along
 /// its azimuth.
 fn shares(resolution: usize) -> Vec<Share> {
+    // Number of midpoints across the thickness of a frame. Chosen: cost; sums of rings and uniform values are exact
+    // with any number, because sectors and cells divide a frame along lines whose length grows linearly.
     const STEPS: usize = 8;
     let n = resolution / 2;
     let mut all = Vec::new();

@@ -24,7 +24,8 @@ pub struct Indicatrices {
     share: Vec<f64>,
 }
 
-/// Distance up to which directions of a lattice and of a file are the same. \[rad\]
+/// Distance up to which directions of a lattice and of a file are the same. \[rad\] Angles rounded to 0.1° are off by
+/// up to 0.05° in θ and in φ, together 1.2e-3.
 const SAME_DIRECTION: f64 = 2e-3;
 
 impl Indicatrices {

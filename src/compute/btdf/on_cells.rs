@@ -51,7 +51,8 @@ fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usi
     CellMatrix::new(incident.clone(), emergent.clone(), values).expect("a row was made for every incident cell")
 }
 
-/// Number of angles across a ring over which τ is averaged.
+/// Number of angles across a ring over which τ is averaged. Midpoints err by 1/(24 · 512²) ≈ 2e-7 of a smooth
+/// function's curvature over the ring.
 const ACROSS: usize = 512;
 
 /// Computes the mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of

@@ -15,7 +15,8 @@ pub(super) enum Rows {
     Compact(Arc<CompactRows>),
 }
 
-/// Number of values above which memory counts for more than the time that it takes to widen them: 64 MB.
+/// Number of values above which memory counts for more than the time that it takes to widen them: 64 MB. Chosen: cost
+/// only, no effect on results.
 const MANY: usize = 1 << 23;
 
 impl Rows {

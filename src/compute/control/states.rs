@@ -1,6 +1,7 @@
 //! Choice of one of a device's states for a demanded value.
 
-/// Difference below which two values count as equal. \[rad, or the state's own unit\]
+/// Difference below which two values count as equal. \[rad, or the state's own unit\] Above the rounding of degrees
+/// converted to radians, below any tilt that a device distinguishes.
 const SLACK: f64 = 1e-9;
 
 /// Returns the index of the state for a demanded value: the least closed one that reaches it, so that rounding never

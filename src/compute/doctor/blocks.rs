@@ -6,7 +6,8 @@ use crate::compute::direction::Dir;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Maximum number of cells on which functions are compared; finer functions are compared on Klems cells.
+/// Maximum number of cells on which functions are compared; finer functions are compared on Klems cells. Chosen: cost,
+/// which grows with its square. No test of its own.
 const MOST_CELLS: usize = 700;
 
 /// One function on the common cells: `q[i · n + o]`, incident cell i, emergent cell o (through direction).

@@ -9,18 +9,22 @@ use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, tau_max
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::DVec3;
 
-/// Direct-hemispherical sum up to which an excess over 1 is rounding.
+/// Direct-hemispherical sum up to which an excess over 1 is rounding. Chosen: rounding to three digits is at most half
+/// of it; affects the severity of findings only.
 const ROUNDING: f64 = 1.001;
 /// Direct-hemispherical sum up to which a function is usable: measured and simulated functions may exceed 1 by this
-/// much. The sum of two independent measurements may exceed 1 by twice as much.
+/// much. The sum of two independent measurements may exceed 1 by twice as much. Chosen; held from below by
+/// `tests/formats/doctor.rs::no_genuine_product_is_called_broken`, on makers' files.
 const PLAUSIBLE: f64 = 1.05;
-/// Direct-hemispherical sum above which the values are assumed to be in another unit.
+/// Direct-hemispherical sum above which the values are assumed to be in another unit. Chosen: ten times the excess of
+/// [`PLAUSIBLE`], and exceeded by a transmittance of 0.015 in percent or of 0.5 times π.
 const OTHER_UNIT: f64 = 1.5;
-/// Direct-hemispherical sum up to which a missing π or cosine explains the values as well as percent do.
+/// Direct-hemispherical sum up to which a missing π or cosine explains the values as well as percent do: above π ·
+/// [`PLAUSIBLE`] = 3.3.
 const OTHER_FACTOR: f64 = 4.0;
-/// Direct-hemispherical sum above which only percent explain the values: ten times the physical maximum.
+/// Direct-hemispherical sum above which only percent explain the values. Chosen: ten times the physical maximum.
 const SURELY_PERCENT: f64 = 10.0;
-/// Maximum direct-hemispherical sum of values in percent.
+/// Maximum direct-hemispherical sum of values in percent: [`OTHER_UNIT`] in percent.
 const MOST_PERCENT: f64 = 150.0;
 
 pub(super) fn check(at: &At) -> Vec<Diagnosis> {

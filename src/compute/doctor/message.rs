@@ -108,5 +108,5 @@ pub(super) fn diagnoses(verdict: &Verdict) -> Vec<Diagnosis> {
         .collect()
 }
 
-/// Maximum number of alternative explanations in a message.
+/// Maximum number of alternative explanations in a message. Chosen: affects wording only.
 const MOST_RIVALS: usize = 5;

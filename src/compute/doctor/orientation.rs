@@ -10,10 +10,12 @@ use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Incident};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// Difference from its own image up to which a measured function counts as symmetric. Weighted share.
+/// Difference from its own image up to which a measured function counts as symmetric. Weighted share. Chosen: affects
+/// reporting only.
 const UNEVEN: f64 = 0.02;
 
-/// Azimuth on either side of the sun in front at which the function is evaluated. \[rad\]
+/// Azimuth on either side of the sun in front at which the function is evaluated. \[rad\] Far above rounding, far below
+/// the width of cells.
 const ASIDE: f64 = 1e-3;
 
 /// Division of the transmitted light of one incident direction between up and down, right and left.

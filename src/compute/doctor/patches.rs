@@ -6,9 +6,11 @@ use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding};
 use crate::compute::direction::Dir;
 
-/// Ratio to the values beside it from which a value in the last 10° before grazing is a spike.
+/// Ratio to the values beside it from which a value in the last 10° before grazing is a spike. Chosen: affects
+/// reporting only.
 const SPIKE: f64 = 2.0;
-/// Polar angle from which incidence counts as grazing. \[rad\]
+/// Polar angle from which incidence counts as grazing: 79°. \[rad\] Chosen: holds the middle of the outermost Klems
+/// ring (82.5°), not of the one before; affects reporting only.
 const GRAZING: f64 = 1.38;
 
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {

@@ -3,9 +3,11 @@
 use super::Diagnosis;
 use crate::compute::btdf::{Dataset, Finding, Scattered};
 
-/// Cell width up to which the sun's lobe, and with it the luminance that causes glare, is resolved. \[rad\]
+/// Cell width up to which the sun's lobe, and with it the luminance that causes glare, is resolved: 1.5°, some three
+/// diameters of the sun. \[rad\] Chosen: affects wording only.
 const GLARE: f64 = 0.026;
-/// Cell width up to which patches of redirected sun are in their place, with soft edges. \[rad\]
+/// Cell width up to which patches of redirected sun are in their place, with soft edges: 4°. \[rad\] Chosen: affects
+/// wording only.
 const PATCHES: f64 = 0.07;
 
 pub(super) fn check(dataset: &Dataset) -> Option<Diagnosis> {

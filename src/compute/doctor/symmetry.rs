@@ -6,7 +6,7 @@ use super::diagnosis::Diagnosis;
 use super::repair::BandScope;
 use crate::compute::btdf::{Component, Finding, Scattered, TreeRank};
 
-/// Difference below which asymmetry is noise of measuring or sampling. Weighted share.
+/// Difference below which asymmetry is noise of measuring or sampling. Weighted share. Chosen: affects wording only.
 const NOISE: f64 = 0.05;
 
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {

@@ -5,7 +5,7 @@
 use crate::compute::room::direct::Sensor;
 use glam::{DVec2, DVec3};
 
-/// Maximum position index, returned for all places beyond it, where no data exist.
+/// Maximum position index, returned for all places beyond it, where no data exist: that of `evalglare`.
 const LARGEST: f64 = 16.0;
 
 /// Eye of an observer and its line of sight, in the room's axes.

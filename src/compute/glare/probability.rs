@@ -1,8 +1,9 @@
 //! Daylight glare probability from illuminance and glare sources, and its simplified form.
 
-/// Minimum vertical illuminance for which DGP was tested with people; the tests cover DGP from 0.2 to 0.8. \[lx\]
+/// Minimum vertical illuminance for which DGP was tested with people (Wienold & Christoffersen 2006); the tests cover
+/// DGP from 0.2 to 0.8. \[lx\]
 pub const LEAST_ILLUMINANCE: f64 = 380.0;
-/// Vertical illuminance below which the low-light correction reduces DGP. \[lx\]
+/// Vertical illuminance below which the low-light correction (Wienold 2012) reduces DGP. \[lx\]
 const LOW: f64 = 1000.0;
 
 /// Computes DGP = 5.87·10⁻⁵ E_v + 0.0918 lg(1 + Σ / E_v^1.87) + 0.16, Σ = Σ L² ω / P² (Wienold & Christoffersen 2006,

@@ -15,9 +15,11 @@ pub struct Grazing {
     straight: f64,
 }
 
-/// τ at 90°, extrapolated in a straight line, as a share of the border's, below which it fades to zero.
+/// τ at 90°, extrapolated in a straight line, as a share of the border's, below which it fades to zero. Chosen between
+/// a smooth surface and open slats: 1 − (1 − cosθ)⁵ with rows at 72° and 84° extrapolates to 0.51, a constant to 1.
 const FADES_BELOW: f64 = 0.65;
-/// τ at 90°, extrapolated in a straight line, as a share of the border's, above which it follows that line.
+/// τ at 90°, extrapolated in a straight line, as a share of the border's, above which it follows that line. Chosen in
+/// the same way as [`FADES_BELOW`]; `examples/incidence_errors` prints the errors beyond the last row.
 const CONTINUES_ABOVE: f64 = 0.8;
 
 impl Grazing {

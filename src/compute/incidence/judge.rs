@@ -4,7 +4,8 @@
 use super::grid::Grid;
 use super::superpose::sub_patches;
 
-/// Size of the cells on which flux is compared. \[°\]
+/// Size of the cells on which flux is compared. \[°\] Chosen: defines the figure, which other sizes would change;
+/// `tests/compute/incidence_schemes` compares with the truth on cells of this size.
 const CELLS: f64 = 7.5;
 
 /// Comparison of indicatrices that are given on the same cells.

@@ -15,14 +15,16 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Share of τ's mean below which a direction lets too little through to judge shapes by.
+/// Share of τ's mean below which a direction lets too little through to judge shapes by. Chosen: affects the report on
+/// accuracy only, no light.
 const DARK: f64 = 1e-4;
 /// Ratio of the stated to the expected error: single directions scatter about the expectation. With [`STATED_AT_LEAST`]
 /// it holds for eight of ten directions or more of every analytic system, as `tests/compute/incidence_schemes` prints.
 const STATED: f64 = 2.6;
 /// Minimum stated share of misplaced flux: moving a lobe across cells costs some thousandths.
 const STATED_AT_LEAST: f64 = 4.5e-3;
-/// Distance from the direction left out within which lobes are fitted again, in edges of the lattice.
+/// Distance from the direction left out within which lobes are fitted again, in edges of the lattice. All fluxes that
+/// enter the slopes on the edges around it lie within three edges; only responses at that distance lack neighbours.
 const REACH: usize = 3;
 /// Points per side of a cell at which a lobe is evaluated.
 const POINTS: usize = 2;

@@ -3,22 +3,28 @@
 use super::grid::{Grid, Opening};
 use glam::DVec3;
 
-/// Reach of the opening that finds the base. \[rad\]
+/// Reach of the opening that finds the base. \[rad\] Chosen with [`BLUR`]; both are held by the test
+/// `schemes_misplace_what_the_prototypes_did`: responses misplace less than 3 % of the flux of four analytic systems.
 const REACH: f64 = 15.0 * std::f64::consts::PI / 180.0;
-/// Blur of the opening that finds the base, as a standard deviation. \[rad\]
+/// Blur of the opening that finds the base, as a standard deviation. \[rad\] Chosen: half of [`REACH`], held by the
+/// same test.
 const BLUR: f64 = 7.5 * std::f64::consts::PI / 180.0;
 /// Share of the highest peak below which a peak is merged into its neighbour, and share of the lobes' flux below which
-/// a lobe is dropped.
+/// a lobe is dropped. Chosen; held by the same test as [`REACH`].
 const LEAST: f64 = 0.006;
-/// Maximum number of lobes of an indicatrix: what is more is noise, and following it would cost without end.
+/// Maximum number of lobes of an indicatrix: what is more is noise, and following it would cost without end. Chosen:
+/// cost; the analytic systems of the tests have two at most. The light of further ones stays in the base.
 const MOST: usize = 6;
-/// Minimum share of the luminance at a lobe's peak that is above the base.
+/// Minimum share of the luminance at a lobe's peak that is above the base. Chosen; held by the same test as [`REACH`].
 const STANDS_OUT: f64 = 0.4;
-/// Share of a lobe's peak below which cells belong to the base: they need not move.
+/// Share of a lobe's peak below which cells belong to the base: they need not move. A Gaussian lobe so ends at 3.5
+/// standard deviations, beyond which lies this share of its flux, 0.2 %.
 const EDGE: f64 = 2e-3;
-/// Number of steps of [`Lobe::sharpened`].
+/// Number of steps of [`Lobe::sharpened`]. Chosen: cost; held by the test
+/// `at_the_measured_directions_the_data_come_back`: less than 4.5 % of the flux is misplaced on cells of 8°.
 const SHARPENING: usize = 3;
-/// Share of the lower of two peaks that the saddle between them reaches when they are one lobe.
+/// Share of the lower of two peaks that the saddle between them reaches when they are one lobe. Chosen; held by the
+/// same test as [`REACH`], whose panel has two lobes that meet.
 const SADDLE: f64 = 0.9;
 
 /// One lobe: some cells of an indicatrix and what they hold above the base.
@@ -184,6 +190,7 @@ impl Splitter {
     }
 }
 
+/// Owner of a cell that belongs to no peak: larger than any number of a peak.
 const NONE: u32 = u32::MAX;
 
 /// Returns for every cell the peak that steepest ascent leads to; peaks without a real saddle between them are one.

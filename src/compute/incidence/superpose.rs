@@ -79,7 +79,7 @@ pub fn sub_patches(step: f64) -> RingBasis {
 }
 
 /// Number of sub-patches that one thread adds up at a time: fixed, so that the sum does not depend on the number of
-/// threads.
+/// threads. Chosen: cost; another number changes the last digits alone.
 const CHUNK: usize = 256;
 
 /// Computes the luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.

@@ -162,4 +162,5 @@ proptest! {
     }
 }
 
+/// Polar angle of grazing incidence, up to which directions are drawn. \[rad\]
 const FRAC: f64 = PI / 2.0;

@@ -81,9 +81,10 @@ pub struct StepError {
 }
 
 impl Step {
-    /// Step of 2.5°: 144 planes of 73 angles.
+    /// Step of 2.5°: 144 planes of 73 angles. Chosen; the mean over a cell flattens a cosine by less than Δ²/12 =
+    /// 1.6e-4.
     pub const NORMAL: Self = Self { per_quarter: 36 };
-    /// Step of 1°: 360 planes of 181 angles, the most that readers of EULUMDAT take.
+    /// Step of 1°, the finest that is accepted: 360 planes of 181 angles, the limit of some readers of EULUMDAT.
     pub const FINE: Self = Self { per_quarter: 90 };
 
     /// Creates a step of 1° to 15° that divides 90°.

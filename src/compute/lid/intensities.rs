@@ -15,7 +15,7 @@ impl Intensities {
     /// Returns the luminous intensity, linear between the nodes; 0 beyond the first and the last γ. \[cd\]
     pub fn at(&self, c: f64, gamma: f64) -> f64 {
         let (Some(first), Some(last)) = (self.gamma.first(), self.gamma.last()) else { return 0.0 };
-        // Rounding must not make the nadir dark.
+        /// Tolerance at the first and the last γ. \[rad\] Rounding must not make the nadir dark.
         const SLACK: f64 = 1e-9;
         if !(gamma >= first - SLACK && gamma <= last + SLACK) {
             return 0.0;

@@ -22,21 +22,24 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// Number of directions per side of a cell for its mean share.
+/// Number of directions per side of a cell for its mean share: one per degree in cells of 3°, as [`BANDS`].
 pub(super) const POINTS: usize = 3;
-/// Number of bands of the profile angle of incidence, 1° each.
+/// Number of bands of the profile angle of incidence, 1° each. Chosen: cost; the error is in [`CELL_ERROR`].
 const BANDS: usize = 181;
-/// Number of steps of the angle along a structure, to 90°.
+/// Number of steps of the angle along a structure, to 90°. Chosen: cost; held by the test
+/// `flux_is_that_of_the_measured_cells`: the flux of a laser-cut panel within 0.4 %.
 const ALONG: usize = 16;
-/// Width of the bins that gather redirected light by profile angle. \[rad\]
+/// Width of the bins that gather redirected light by profile angle. \[rad\] Chosen: cost; as wide as bands, and its
+/// error is [`BIN_ERROR`].
 const BIN: f64 = PI / 180.0;
-/// Angle within which directions may share what mirrors make of them: a twelfth of a cell. \[rad\]
+/// Angle within which directions may share what mirrors make of them: a twelfth of a cell. \[rad\] Chosen: cost; behind
+/// flat mirrors directions are off by this at most, a quarter of [`BIN`].
 const ABOUT: f64 = 0.25 * PI / 180.0;
-/// Share below which a redirected beam is dropped.
+/// Share below which a redirected beam is dropped. Chosen: cost; a hundred such beams are 0.1 % of the light.
 const FAINT: f64 = 1e-5;
-/// Distance below which two directions are the same. \[rad\]
+/// Distance below which two directions are the same. \[rad\] Far above the rounding of unit vectors, some 1e-16.
 const SAME: f64 = 1e-9;
-/// Relative accuracy of the illuminance through every patch.
+/// Relative accuracy of the illuminance through every patch. A twentieth of [`CELL_ERROR`].
 const PATCH: f64 = 1e-4;
 /// Relative error from the width of the cells and bands; seen against cells half as wide, in the tests below.
 pub(super) const CELL_ERROR: f64 = 2e-3;

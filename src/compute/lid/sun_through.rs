@@ -9,12 +9,13 @@ use crate::compute::system::measure::{OpticalModel, ProfileLight, ScatteredLight
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-/// Width of the cells for scattered sunlight. \[rad\]
+/// Width of the cells for scattered sunlight. \[rad\] Chosen: cost, 2300 cells; the error is [`CELL_ERROR`].
 const CELL: f64 = 3.0 * PI / 180.0;
 /// Relative error from the size of these cells of 3°, on planes across the room. Seen on matt slats against strips in
 /// closed form: 0.1 % there, up to 0.8 % where the opening is seen at grazing angles.
 const CELL_ERROR: f64 = 3e-3;
-/// Cosine of incidence below which the disc covers a range of profile angles that scatters unevenly.
+/// Cosine of incidence below which the disc covers a range of profile angles that scatters unevenly. At it the disc of
+/// 0.53° covers 0.53°/0.3 = 1.8° at most, two of the bands of 1°.
 const GRAZING: f64 = 0.3;
 
 /// Returns the cells for the light of described systems: the same for all systems, so that what sensors see of them is

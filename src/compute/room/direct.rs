@@ -67,7 +67,8 @@ impl std::ops::AddAssign for DirectLight {
     }
 }
 
-/// Relative error due to the width of the bands; found for matt slats against exact integrals along them.
+/// Relative error due to the width of the bands; found for matt slats against exact integrals along them. No test of
+/// its own.
 const BAND_ERROR: f64 = 1e-3;
 
 /// Computes the illuminance at a sensor from one aperture, sun included. `receptions`: one for every part of the
@@ -153,8 +154,8 @@ pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], 
 
 /// Whether a beam is seen as a whole disc through the opening, or not at all; `None` where an edge may cut it.
 fn clearly_seen(view: &View, to: DVec3) -> Option<bool> {
-    // On the opening's plane the disc's ellipse reaches no farther than this from its middle, a little more than
-    // exactly.
+    // Half angle of the sun's disc and 5 % for higher orders, which is enough up to 88.8° from the opening's normal. On
+    // the opening's plane the disc's ellipse reaches no farther than this from its middle.
     const REACH: f64 = 1.05 * SUN_HALF_ANGLE;
     let facing = view.normal.dot(to);
     if to.z <= 2.0 * REACH || facing.abs() <= REACH {

@@ -8,7 +8,8 @@ use crate::compute::direction::Dir;
 use crate::compute::quadrature::gauss_legendre;
 use glam::{DVec2, DVec3};
 
-/// Number of directions in which a patch of the room samples the places on an aperture that its light comes from.
+/// Number of directions in which a patch of the room samples the places on an aperture that its light comes from: a
+/// power of two, as [`through::spread`] needs. Chosen: cost. No test of its own.
 const DIRECTIONS: u32 = 256;
 
 /// Nodes of an aperture and the polynomials that are 1 at one of them and 0 at the others.

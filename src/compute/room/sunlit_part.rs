@@ -9,7 +9,8 @@ use crate::compute::surroundings::Surroundings;
 use glam::DVec3;
 use std::sync::OnceLock;
 
-/// Share of an aperture in the sun below which none of it counts as sunlit.
+/// Share of an aperture in the sun below which none of it counts as sunlit: rounding of areas that are cut, far below
+/// any stated error.
 const NOTHING: f64 = 1e-9;
 
 /// Sunlit part of an aperture, with quantities derived from it that are computed on first use.

@@ -37,7 +37,7 @@ impl Cover {
     }
 }
 
-/// Solar illuminance constant. \[lx\]
+/// Solar illuminance constant of IES RP-21 (1984). \[lx\]
 const EXTRATERRESTRIAL: f64 = 127_500.0;
 
 /// Returns the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane \[lx\] for the

@@ -7,7 +7,7 @@
 
 use super::perez::PerezState;
 
-/// Solar constant of Perez's model. \[W/m²\]
+/// Solar constant of Perez's model, by which its brightness is defined, as in Radiance's `gendaylit`. \[W/m²\]
 const SOLAR_CONSTANT: f64 = 1367.0;
 
 /// Returns the air mass along the sun's rays relative to that of the zenith at sea level. `altitude`: of the sun, from

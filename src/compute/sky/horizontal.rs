@@ -17,15 +17,18 @@ enum Rule {
     Fixed,
 }
 
-/// Rules of the inner and the outer integral, together well below 1e-8.
+/// Rules of the inner and the outer integral, together well below the 1e-8 to which luminances of patches are
+/// integrated.
 const EXACT: [Rule; 2] = [Rule::Adaptive(1e-11), Rule::Adaptive(1e-10)];
 /// Rules of both integrals for skies of which there are thousands.
 const QUICK: [Rule; 2] = [Rule::Fixed, Rule::Fixed];
-/// Number of Gauss points between knots.
+/// Number of Gauss points between knots. Chosen: cost; the error is [`QUICK_ERROR`].
 const POINTS: usize = 14;
-/// Maximum relative error of [`QUICK`] over Perez' skies.
+/// Maximum relative error of [`QUICK`] over Perez' skies: 1.4e-5 was measured over the hours of a year. Held by the
+/// test `quick_is_within_its_error_for_every_hour_of_a_year`.
 const QUICK_ERROR: f64 = 2e-5;
-/// Angle from the sun, a further knot, within which nearly all of the circumsolar part lies. \[rad\]
+/// Angle from the sun, a further knot, within which the circumsolar part is steep. \[rad\] Chosen: e^{dχ} with d from
+/// −8 to −2 has fallen to 1 … 30 % there; held by the test of [`QUICK_ERROR`].
 const AROUND_SUN: f64 = 0.6;
 
 impl Rule {
@@ -153,6 +156,8 @@ pub(super) fn gradation_zero(sky: &Gradated) -> Option<f64> {
 /// Returns the angles from the sun at which the indicatrix changes sign. \[rad\]
 pub(super) fn indicatrix_zeros(sky: &Gradated) -> Vec<f64> {
     let raw = |chi: f64| sky.base + sky.c * (sky.d * chi).exp() + sky.e * chi.cos().powi(2);
+    /// Number of intervals that are searched for a change of sign: one per degree. Zeros closer together enclose a part
+    /// of the sky that is too small and too faint to count.
     const STEPS: usize = 180;
     let at = |i: usize| PI * i as f64 / STEPS as f64;
     let mut zeros = Vec::new();

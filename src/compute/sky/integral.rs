@@ -50,7 +50,8 @@ fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f
     )
 }
 
-/// Distance from the pole below which a sun is small in θ and yet wide in φ. \[rad\]
+/// Distance from the pole below which a sun is small in θ and yet wide in φ. \[rad\] Chosen; held by
+/// `tests/compute/sky.rs::a_sun_near_the_zenith_is_not_missed`, with suns up to 4° (0.07 rad) from the pole.
 const NEAR_POLE: f64 = 0.1;
 
 /// Integrates the open sky over one strip of azimuths between knots. Around a pole near the sun the luminance changes
@@ -129,6 +130,8 @@ fn tip(
     if theta < 1e-9 {
         return None;
     }
+    /// Angle by which a tip may lie outside of a strip and still counts as on its border: rounding of angles is 1e-15.
+    /// \[rad\]
     const SLACK: f64 = 1e-9;
     let x = (phi - phi_min + SLACK).rem_euclid(2.0 * PI) - SLACK;
     if x > width + SLACK {
@@ -139,7 +142,8 @@ fn tip(
     (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
 }
 
-/// Relative error of the change by the surroundings.
+/// Relative error of the change by the surroundings. Held by the test
+/// `black_boxes_hide_the_projected_solid_angles_of_their_faces`, to twice as much.
 const CHANGED: f64 = 1e-5;
 
 /// Computes the change of a region's integral by the surroundings.

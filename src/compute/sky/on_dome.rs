@@ -11,7 +11,8 @@ use crate::compute::sweep::sweep;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Maximum distance from a region at which the zenith counts as in it. \[rad\]
+/// Maximum distance from a region at which the zenith counts as in it. \[rad\] Chosen: cost only; a region that does
+/// not quite reach it is then swept over all bearings.
 const AT_ZENITH: f64 = 1e-6;
 
 /// Integrates over a region the surroundings, and the sky and ground behind them, with the error of the cubature;

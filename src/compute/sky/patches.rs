@@ -4,9 +4,10 @@ use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Number of patches per row, lowest row first.
+/// Number of patches per row, lowest row first (Tregenza 1987).
 pub const ROWS: [usize; 8] = [30, 30, 24, 24, 18, 12, 6, 1];
-/// Height of a row: 12°. The last is a cap above 84°. \[rad\]
+/// Height of a row: 12° (Tregenza 1987), seven times and a half up to the zenith. The last row is a cap above 84°.
+/// \[rad\]
 pub const ROW_HEIGHT: f64 = 12.0 * PI / 180.0;
 
 /// One patch of the sky dome: a band cell.

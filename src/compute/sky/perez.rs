@@ -7,9 +7,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Solar constant at the sun's mean distance. \[W/m²\]
+/// Solar constant at the sun's mean distance: the value of the model, as in Radiance's `gendaylit`. \[W/m²\]
 pub const SOLAR_CONSTANT: f64 = 1367.0;
-/// Lower borders of the clearness bins 2 … 8.
+/// Lower borders of the clearness bins 2 … 8 (Perez et al. 1990, 1993).
 const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
 
 /// Water content of the air and distance to the sun, as far as they are known.
@@ -22,11 +22,11 @@ pub struct Air {
 }
 
 impl Air {
-    /// Air without a date and with unknown water content: 2 cm.
+    /// Air without a date and with unknown water content: 2 cm, by Radiance's dew point of 11 °C.
     pub const UNKNOWN: Self = Self { eccentricity: 1.0, water: 2.0 };
 }
 
-/// Luminance coefficients a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin.
+/// Luminance coefficients a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin (Perez et al. 1993).
 const LUMINANCE: [[[f64; 4]; 5]; 8] = [
     [
         [1.3525, -0.2576, -0.2690, -1.4366],
@@ -86,7 +86,7 @@ const LUMINANCE: [[[f64; 4]; 5]; 8] = [
     ],
 ];
 
-/// Luminous efficacy of the diffuse light per bin: a + b·W + c·cosZ + d·lnΔ. [lm/W]
+/// Luminous efficacy of the diffuse light per bin: a + b·W + c·cosZ + d·lnΔ (Perez et al. 1990). \[lm/W\]
 const DIFFUSE_EFFICACY: [[f64; 4]; 8] = [
     [97.24, -0.46, 12.00, -8.91],
     [107.22, 1.15, 0.59, -3.95],
@@ -98,7 +98,7 @@ const DIFFUSE_EFFICACY: [[f64; 4]; 8] = [
     [152.23, 0.35, -45.27, -7.98],
 ];
 
-/// Luminous efficacy of the beam per bin: max(0, a + b·W + c·e^{5.73Z−5} + d·Δ). [lm/W]
+/// Luminous efficacy of the beam per bin: max(0, a + b·W + c·e^{5.73Z−5} + d·Δ) (Perez et al. 1990). \[lm/W\]
 const DIRECT_EFFICACY: [[f64; 4]; 8] = [
     [57.20, -4.55, -2.98, 117.12],
     [98.99, -3.46, -1.21, 12.38],

@@ -8,7 +8,7 @@ use crate::compute::surroundings::face_light::FaceLight;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum number of parts that are kept: 64 MB.
+/// Maximum number of parts that are kept: 64 MB. Chosen: cost only, no effect on results.
 const KEPT: usize = 4_000_000;
 
 /// Part of a surface in a view: surface, coordinates there \[m\], projected solid angle \[sr\].

@@ -8,7 +8,8 @@ use crate::compute::surroundings::solid::{Face, Solid};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Cosine of incidence below which the sun does not light a face.
+/// Cosine of incidence below which the sun does not light a face. It leaves out a millionth of the sun's normal
+/// illuminance at most.
 const GRAZING: f64 = 1e-6;
 
 /// Surface property of a box.

@@ -3,7 +3,8 @@
 use crate::compute::direction::{Dir, World};
 use std::f64::consts::PI;
 
-/// Mean angular radius of the sun's disc: 0.2665°. \[rad\]
+/// Mean angular radius of the sun's disc: 0.2665°. \[rad\] Arc sine of the sun's radius, 695 700 km, over the
+/// astronomical unit, 149 597 871 km.
 pub const SUN_HALF_ANGLE: f64 = 0.2665 * PI / 180.0;
 
 /// The sun as a uniform disc of angular radius [`SUN_HALF_ANGLE`].

@@ -42,10 +42,12 @@ impl Edge {
     }
 }
 
-/// Extent, relative to the disc's radius, below which a part's area is computed from its own corner.
+/// Extent, relative to the disc's radius, below which a part's area is computed from its own corner. Its area is 1e-10
+/// of the disc's, in which the rounding of 2.2e-16 leaves six digits.
 const SPECK: f64 = 1e-5;
 
-/// Number of vertices of the polygon that represents a partly hidden disc.
+/// Number of vertices of the polygon that represents a partly hidden disc. A polygon of the disc's area lies within
+/// (2π/180)²/12 = 1e-4 of the radius from its rim: the error of [`share`].
 const CORNERS: usize = 180;
 
 /// Returns the illuminance of a receiver per normal illuminance of the whole sun: free share of the disc times the mean

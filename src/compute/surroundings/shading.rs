@@ -8,7 +8,8 @@ use glam::{DVec2, DVec3};
 
 /// Share of the rectangle below which pieces are negligible.
 const NOTHING: f64 = 1e-12;
-/// Distance below which a point lies in a plane. \[m\]
+/// Distance below which a point lies in a plane. \[m\] Rounding of coordinates of 10⁶ m, the largest allowed, is 1e-10
+/// m.
 const TOUCHING: f64 = 1e-9;
 
 /// Returns the convex shadow of a box on a plane in the plane's coordinates, counter-clockwise; fewer than three

@@ -67,6 +67,8 @@ impl Skyline {
     /// and steps of the skyline within the disc count. `radius` \[rad\]. Heights are counted vertically in the disc's
     /// plane, good to the square of its radius.
     pub fn free_share(&self, direction: DVec3, radius: f64) -> f64 {
+        /// Number of Gauss points between corners of the skyline. Chosen; held by the test
+        /// `a_disc_is_cut_by_every_corner_and_step`, which compares with segments of the disc to 2e-3.
         const POINTS: usize = 12;
         let sideways = DVec3::new(direction.y, -direction.x, 0.0).try_normalize().unwrap_or(DVec3::X);
         let middle = direction.x.atan2(direction.y);
@@ -107,6 +109,8 @@ impl Skyline {
     /// Returns the upward normal of the great circle that the skyline follows about a bearing: on the scale of the
     /// sun's disc the skyline is straight except at corners.
     pub fn plane(&self, bearing: f64) -> DVec3 {
+        /// Angle to both sides of the bearing over which the skyline counts as straight. \[rad\] Chosen: less than half
+        /// of the sun's radius of 0.2665°; held by the test `its_plane_parts_above_from_below`.
         const NEAR: f64 = 0.1 * PI / 180.0;
         let [a, b] = [-NEAR, NEAR].map(|by| direction(bearing + by, self.altitude(bearing + by)));
         let normal = b.cross(a).normalize_or_zero();

@@ -79,9 +79,11 @@ impl Face {
     }
 }
 
-/// Length within a box below which a ray only touches it. \[m\]
+/// Length within a box below which a ray only touches it. \[m\] Rounding of coordinates of 10⁶ m, the largest allowed,
+/// is 1e-10 m.
 const TOUCH: f64 = 1e-9;
-/// Distance to the exit from a box below which the box lies behind the ray's start. \[m\]
+/// Distance to the exit from a box below which the box lies behind the ray's start. \[m\] A ray that starts on a face
+/// may start inside by rounding, 1e-10 m at 10⁶ m, and leave at a grazing angle.
 const BEHIND: f64 = 1e-7;
 
 impl Solid {

@@ -62,7 +62,7 @@ pub trait Family {
     fn optical_model(&self, state: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError>;
 }
 
-/// Height of the piece of a plain sheet that is drawn. \[m\]
+/// Height of the piece of a plain sheet that is drawn. \[m\] Chosen: affects drawings only, no figure.
 pub(super) const PIECE: f64 = 0.1;
 
 /// Returns the rectangle between two corners.

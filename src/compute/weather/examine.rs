@@ -47,10 +47,11 @@ pub struct Summary {
 
 /// Direct irradiance from which the sun shines (WMO). \[W/m²\]
 const SUNSHINE: f64 = 120.0;
-/// Direct irradiance that a sun below the horizon never causes. \[W/m²\]
+/// Direct irradiance that a sun below the horizon never causes. \[W/m²\] Chosen: affects a warning only; two years with
+/// a wrong clock have 37 and 65 rows above it with the sun down.
 const BEAM_AT_NIGHT: f64 = 50.0;
 /// Number of rows per row with light at night that is tolerated: it may lie at the sunset of another year's day and is
-/// not evidence against the clock.
+/// not evidence against the clock. Chosen: affects a warning only; of the 8,760 rows of a year 8 are tolerated.
 const STRAY: usize = 1000;
 
 /// Whether a number of days is that of whole years, with their leap days or without.

@@ -44,7 +44,7 @@ pub struct SunPath {
     nodes: [Node; 4],
 }
 
-/// Ratio of the earth's axes.
+/// Ratio of the earth's axes: 1 − 1/298.257, as in the Solar Position Algorithm (Reda & Andreas, NREL).
 const FLATTENING: f64 = 0.996_647_19;
 
 impl SunPath {

@@ -9,9 +9,9 @@ use super::autonomy::Autonomy;
 use super::hours::{Light, Step};
 use crate::compute::estimate::Estimate;
 
-/// Illuminance by direct sun from which a point counts. \[lx\]
+/// Illuminance by direct sun from which a point counts. \[lx\] Source: IES LM-83-12, § 2.2.6.
 pub const DIRECT_SUN: f64 = 1000.0;
-/// Maximum share of the points that may have [`DIRECT_SUN`].
+/// Maximum share of the points that may have [`DIRECT_SUN`]. Source: IES LM-83-12, § 2.2.6.
 pub const SHARE: f64 = 0.02;
 
 /// Direct sun at the analysis points through one group of apertures \[lx\], while it is open and while it is closed.

@@ -7,9 +7,9 @@
 use super::hours::{Light, Step, share};
 use crate::compute::glare::dgps;
 
-/// Limits of the classes of EN 17037: DGP that is exceeded in at most 5 % of the usage time.
+/// Limits of the classes of EN 17037, Annex E: DGP that is exceeded in at most 5 % of the usage time.
 pub const LIMITS: [f64; 3] = [0.35, 0.40, 0.45];
-/// Share of the time in which a limit may be exceeded.
+/// Share of the time in which a limit may be exceeded. Source: EN 17037, Annex E.
 const EXCEEDED: f64 = 0.05;
 
 /// Annual glare figures of one observer.

@@ -4,9 +4,9 @@
 use super::glare::LIMITS;
 use super::hours::share;
 
-/// Classes of EN 17037 in the order of the rising [`LIMITS`].
+/// Classes of EN 17037, Annex E, in the order of the rising [`LIMITS`].
 pub const CLASSES: [&str; 3] = ["high", "medium", "minimum"];
-/// Share of the usage time in which a class's limit may be exceeded.
+/// Share of the usage time in which a class's limit may be exceeded. Source: EN 17037, Annex E.
 const EXCEEDED: f64 = 0.05;
 
 /// Annual DGP figures of one observer.

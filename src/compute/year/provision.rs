@@ -8,13 +8,13 @@
 
 use super::hours::{Light, Step, share};
 
-/// Name, target and minimum illuminance \[lx\] of the levels.
+/// Name, target and minimum illuminance \[lx\] of the levels. Source: EN 17037, Annex A.
 pub const LEVELS: [(&str, f64, f64); 3] = [("minimum", 300.0, 100.0), ("medium", 500.0, 300.0), ("high", 750.0, 500.0)];
-/// Share of the plane that has to reach the target.
+/// Share of the plane that has to reach the target. Source: EN 17037, Annex A.
 const TARGET_AREA: f64 = 0.5;
-/// Share of the plane that has to reach the minimum.
+/// Share of the plane that has to reach the minimum. Source: EN 17037, Annex A.
 const MINIMUM_AREA: f64 = 0.95;
-/// Share of the daylight hours that is required, by point and by hour.
+/// Share of the daylight hours that is required, by point and by hour. Source: EN 17037, Annex A.
 const HALF: f64 = 0.5;
 
 /// Shares of places and hours in which an illuminance is reached.

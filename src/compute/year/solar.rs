@@ -23,7 +23,7 @@ pub struct Transmitted {
     pub hours: [f64; 24],
 }
 
-/// Months of the summer half-year, April to September, counted from 0.
+/// Months of the summer half-year, April to September, counted from 0: from equinox to equinox in whole months.
 const SUMMER: std::ops::Range<usize> = 3..9;
 
 impl Transmitted {

@@ -122,7 +122,7 @@ impl Quantity {
     }
 }
 
-/// What a metric is taken from: a year, and its figures or those with less or more light.
+/// Year and figures that the value of a metric is taken from: as computed, with less or with more light.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub year: &'a Year,
@@ -179,7 +179,7 @@ enum Label {
     /// The key itself.
     Key,
     Fixed(Text),
-    /// With the index of the observer or level.
+    /// Function of the index of the observer or level.
     Numbered(fn(usize) -> String),
 }
 

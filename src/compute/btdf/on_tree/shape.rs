@@ -4,9 +4,11 @@ use crate::compute::basis::SquareGrid;
 use crate::compute::btdf::tensor_tree::{TensorTree, TreeError, TreeRank};
 use crate::compute::btdf::{Btdf, Scattered};
 
-/// Level of the finest tree of rank 4: 2⁶ steps per coordinate, 16.8 million boxes before pruning.
+/// Level of the finest tree of rank 4: 2⁶ steps per coordinate, 16.8 million boxes before pruning. Chosen: limit of
+/// memory (134 MB); finer ones are refused.
 pub const MOST_LEVEL_4: u32 = 6;
-/// Level of the finest tree of rank 3: 2⁸ steps per coordinate, 16.8 million boxes before pruning.
+/// Level of the finest tree of rank 3: 2⁸ steps per coordinate, 16.8 million boxes before pruning. Chosen: limit of
+/// memory (134 MB); finer ones are refused.
 pub const MOST_LEVEL_3: u32 = 8;
 
 /// Requested shape of a tree.

@@ -9,12 +9,14 @@ use crate::compute::btdf::Indicatrices;
 use crate::compute::direction::{Dir, Incident};
 use std::sync::Arc;
 
+/// Kernel with the shape of every patch, on lobes alone: the filter without gaps and overlaps.
 const PATCH: Filter = Filter { kernel: Kernel::Patch, sharp_only: true };
 
 /// The report's 529 directions as cells: rows at every 6° of altitude above the aperture's plane, on even rows twice as
 /// many as Tregenza has, between them as on the row with fewer. The report gives the count and the step; the layout is
 /// the one halving of Tregenza's that has this count. The lowest row reaches down to the plane.
 fn report_grid() -> RingBasis {
+    /// Number of cells per row, from the lowest row up.
     const SECTORS: [usize; 15] = [60, 60, 60, 48, 48, 48, 48, 36, 36, 24, 24, 12, 12, 12, 1];
     let theta = |altitude: f64| (90.0 - altitude).to_radians();
     let rings = SECTORS.iter().enumerate().map(|(row, &sectors)| {

@@ -23,7 +23,8 @@ pub(super) struct Blend {
     pieces: Vec<Piece>,
 }
 
-/// Rotation below which a piece stays where it is. \[rad, about\]
+/// Rotation below which a piece stays where it is. \[rad, about\] Rounding of unit vectors that should be equal rotates
+/// by some 2⁻⁵² ≈ 2.2e-16.
 const STILL: f64 = 1e-12;
 
 impl Piece {

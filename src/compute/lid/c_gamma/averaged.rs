@@ -268,7 +268,9 @@ impl Grid {
     }
 }
 
+/// Gauss–Legendre points on −1 … 1 and weights of sum 1: ±1/√3, exact for polynomials up to degree 3.
 const GAUSS_2: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 0.5), (0.577_350_269_189_625_8, 0.5)];
+/// Gauss–Legendre points on −1 … 1 and weights of sum 1: 0 and ±√(3/5), exact for polynomials up to degree 5.
 const GAUSS_3: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 18.0), (0.0, 4.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 18.0)];
 

@@ -7,6 +7,7 @@ use glam::DVec3;
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
+/// Width, depth and height of the room. \[m\]
 const ROOM: DVec3 = DVec3::new(4.0, 6.0, 3.0);
 
 fn lid(panel: &Panel, parts: Vec<EmergentLuminance>, beams: Vec<SunBeam>) -> Lid {

@@ -11,14 +11,18 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::quadrature::gauss_legendre;
 use rayon::prelude::*;
 
-/// Correlation lengths that are tried, in radians; 0 stands for an infinite one.
+/// Correlation lengths that are tried, in radians; 0 stands for an infinite one. About halved from the range of the
+/// angles, π, down to the width of Klems cells, 10° to 15°, below which means show nothing.
 const LENGTHS: [f64; 6] = [0.0, 3.0, 1.5, 0.75, 0.4, 0.2];
 /// Starting points of the search for lengths: one profile angle, the other, θ, and mixtures. Indices of [`LENGTHS`].
+/// Chosen: cost; the search continues to neighbours as long as these are more likely. Held with [`VARIANCES`] by
+/// `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`.
 const STARTS: [[usize; 3]; 7] = [[3, 0, 0], [0, 3, 0], [0, 0, 2], [3, 3, 0], [3, 0, 2], [0, 3, 2], [2, 1, 2]];
-/// Variances of the function itself that are tried.
+/// Variances of the function itself that are tried: half decades up to 3, since strengths and transmittances are shares
+/// of 1.
 const VARIANCES: [f64; 7] = [3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0];
 /// Points across and along a cell for its mean; more in cells wider than this, over which profile angles go far.
-/// \[rad\]
+/// \[rad\] Chosen: cost; what few points miss is stated in the second error of `NOISE`.
 const POINTS: [([usize; 2], f64); 3] = [([4, 8], 0.45), ([3, 5], 0.3), ([2, 3], 0.0)];
 
 /// Weighted direction with its profile angles and θ.

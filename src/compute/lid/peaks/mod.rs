@@ -19,30 +19,36 @@ use separation::{Path, Reached, Separation};
 /// Ratio to its surroundings above which a cell stands out, as in Radiance.
 const STANDS_OUT: f64 = 1.5;
 /// Largest flux that the cells around the peaks hold above their own surroundings, as a share of the flux in the peaks;
-/// with more the light is a wide lobe and not a beam.
+/// with more the light is a wide lobe and not a beam. At this share the stated uncertainty, twice the share, is all of
+/// the beam.
 const LOBE: f64 = 0.5;
 /// Errors of a beam's flux in a cell: digits of the data, a share of the strongest flux (for what few points in a cell
-/// miss), a share of its own flux, and a share of the subtracted background.
+/// miss), a share of its own flux, and a share of the subtracted background. Chosen with [`DARK`], [`ROUGH`] and
+/// [`LEAST`]; held by `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`, which
+/// counts 95 % of the sensors within the stated uncertainty, and that at most six times the error.
 const NOISE: [f64; 4] = [2e-4, 2e-3, 0.01, 0.3];
 /// Limits of a dark beam cell: flux up to which it counts as none beside the subtracted background, largest background
-/// with which it may, and error of a point that is then known to be dark, as a share of the strongest flux.
+/// with which it may, and error of a point that is then known to be dark, as a share of the strongest flux. Chosen; see
+/// [`NOISE`].
 const DARK: [f64; 3] = [3e-4, 0.02, 1e-3];
-/// Relative error of the light beside beams, per incident cell.
+/// Relative error of the light beside beams, per incident cell. Chosen; see [`NOISE`].
 const ROUGH: f64 = 0.02;
 /// Number of standard errors that are stated for a strength or a transmittance; with the other uncertainties more than
 /// 95 % of sensors are covered, as `tests/scenes/beams_in_cells` counts.
 const ERRORS: f64 = 1.6;
 /// Share of the strongest strength below which a strength may be a rounded-off cut-off; seen on flat and curved slats.
 const CUT_OFF: f64 = 0.03;
-/// Share of the sum of two beams that either may be wrong by where the data hold them in one cell.
+/// Share of the sum of two beams that either may be wrong by where the data hold them in one cell: each lies between 0
+/// and the sum, half of it to either side of the middle.
 const MIXED: f64 = 0.5;
-/// Minimum relative uncertainty of anything that is extracted from cells.
+/// Minimum relative uncertainty of anything that is extracted from cells. Chosen; see [`NOISE`].
 const LEAST: f64 = 0.01;
 /// Maximum number of incident cells in which beams are looked for, the nearest to the sun: finer cells need no farther
-/// ones.
+/// ones. Chosen: cost, which grows with the cube; the 145 cells of Klems and of Tregenza are all used.
 pub const MOST_CELLS: usize = 200;
 /// Strength of a beam that is nothing but uncertain, since an uncertainty is a share of the strength.
 const NOTHING: f64 = 1e-9;
+/// Note on a beam that is not extracted.
 const LEFT: &str = "sun: the beam is left on the data's cells";
 
 /// Direct sun through patch-averaged data: beams, the rest on cells, and a note on the method.

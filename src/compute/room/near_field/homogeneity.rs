@@ -6,7 +6,8 @@
 //! lie as often above as below their mean. Where the first line lies half a period off (a slat just at the sill), the
 //! aperture is as if moved by that much, which no distance heals.
 
-/// Number of periods of distance beyond which the deviation of centred lines is below 1 %.
+/// Number of periods of distance beyond which the deviation of centred lines is below 1 % by [`deviation`]; held by the
+/// test `below_one_per_cent_from_the_stated_distance_on`.
 const PERIODS: f64 = 3.0;
 
 /// Returns the distance from the aperture beyond which its structure of this period may be neglected. \[m\]

@@ -16,8 +16,8 @@ use crate::compute::sequence::{Random, mixed};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Solid angle \[sr\] below which its closed form loses digits. Points are then drawn uniformly over the area, which
-/// from such a distance is equivalent.
+/// Solid angle \[sr\] below which its closed form loses digits: a sum of angles that rounds to 2⁻⁵² · 2π ≈ 1e-15, 1e-8
+/// of it. Points are then drawn uniformly over the area, which from such a distance is equivalent.
 const SMALL: f64 = 1e-7;
 
 /// Returns a seed that differs by sensor and aperture and is the same on every run and for any number of threads.

@@ -164,6 +164,7 @@ mod tests {
         index * DVec3::new(theta.sin() * phi.cos(), theta.sin() * phi.sin(), -theta.cos())
     }
 
+    /// Outward normal of the surfaces of the tests.
     const UP: DVec3 = DVec3::Z;
 
     #[test]

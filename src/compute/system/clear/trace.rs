@@ -45,14 +45,17 @@ impl Emission {
 }
 
 /// Factor on the maximum number of surfaces of [`Effort`] up to which the beams of one direction are followed
-/// separately.
+/// separately. Chosen: cost; beyond it one beam represents all without bias, so that results change within their stated
+/// error. Held by `tests/compute/goniophotometer_glass.rs::less_effort_means_more_noise_but_no_bias`.
 const SURFACE_FACTOR: u32 = 10;
-/// Number of surfaces after which light is given up.
+/// Number of surfaces after which light is given up. Chosen: cost; the light given up is part of the stated error. Held
+/// by `tests/compute/goniophotometer_glass.rs::light_in_steep_grooves_ends`: on average at most 2 % in steep grooves.
 const MOST_SURFACES: u32 = 2000;
 /// Flux below which a beam counts as absorbed: caught between total reflections in absorbing material, all of it is
-/// absorbed in the end.
+/// absorbed in the end. Chosen: some 50 roundings of f64 (2⁻⁵² ≈ 2.2e-16) of the incident flux, which is 1.
 const FAINT: f64 = 1e-14;
-/// Fraction of the least divided share below which a part is followed only at random, with more flux then.
+/// Fraction of the least divided share below which a part is followed only at random, with more flux then. Chosen:
+/// cost; both parts keep their mean flux, so that results change within their stated error.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// Returns a random number in 0 … 1, from all 64 bits: stored results depend on these exact numbers.

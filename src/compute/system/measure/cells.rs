@@ -3,7 +3,7 @@
 use crate::compute::basis::RingBasis;
 use std::f64::consts::PI;
 
-/// Number of slots of the table over sin²θ.
+/// Number of slots of the table over sin²θ. Chosen: cost only, no effect on results.
 const SLOTS: usize = 4096;
 
 /// Table of the cells of a basis by lateral direction cosines.

@@ -12,7 +12,8 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Width of the parts into which a fan is divided, each in one cell. \[rad\]
+/// Width of the parts into which a fan is divided, each in one cell. \[rad\] Chosen: cost; 1/90 of a Klems cell of 10°,
+/// of which half a part at most falls on the wrong side of a border.
 const PIECE: f64 = 0.002;
 
 /// Computes q of every emergent cell for light of the given through directions from a side; beams count in the cells

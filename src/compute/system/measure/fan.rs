@@ -4,7 +4,8 @@ use super::parallel::Beam;
 use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 
-/// Difference below which direction cosines are equal.
+/// Difference below which direction cosines are equal: above all rounding of f64 (2⁻⁵² ≈ 2.2e-16 per operation), and
+/// 0.0002″ as an angle.
 const EQUAL: f64 = 1e-9;
 
 /// Divides a fan into equal parts, none wider than `step` \[rad\]; a parallel beam stays one part.

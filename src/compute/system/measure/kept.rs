@@ -7,7 +7,8 @@
 use crate::compute::basis::RingBasis;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Maximum number of bases whose results are cached; the oldest is dropped first.
+/// Maximum number of bases whose results are cached; the oldest is dropped first. Chosen: memory only, no effect on
+/// results.
 const MOST: usize = 8;
 
 /// Result that is computed once.

@@ -2,7 +2,8 @@
 
 use super::parallel::Beam;
 
-/// Difference up to which direction cosines are the same.
+/// Difference up to which direction cosines are the same: above all rounding of f64 (2⁻⁵² ≈ 2.2e-16 per operation), and
+/// 0.0002″ as an angle.
 pub const SAME: f64 = 1e-9;
 
 /// Merges beams of equal directions, their shares summed. The order depends on the directions only.

@@ -32,10 +32,12 @@ pub enum Layer {
     Coated(CoatedPane),
 }
 
-/// Coefficients of cos⁰ … cos⁴ of clear panes: transmittance, and the sum of transmittance and reflectance.
+/// Coefficients of cos⁰ … cos⁴ of clear panes: transmittance, and the sum of transmittance and reflectance. Source:
+/// LBNL report LBL-33943 (WINDOW 4).
 const CLEAR: [[f64; 5]; 2] = [[-0.0015, 3.355, -3.840, 1.460, 0.0288], [0.999, -0.563, 2.043, -2.532, 1.054]];
+/// Coefficients of cos⁰ … cos⁴ of bronze panes, in the order of [`CLEAR`]. Source: report LBL-33943 (WINDOW 4).
 const BRONZE: [[f64; 5]; 2] = [[-0.002, 2.813, -2.341, -0.05725, 0.599], [0.997, -1.868, 6.513, -7.862, 3.225]];
-/// Transmittance at normal incidence up to which a pane follows the bronze one.
+/// Transmittance at normal incidence up to which a pane follows the bronze one. Source: report LBL-33943 (WINDOW 4).
 const BRONZE_UP_TO: f64 = 0.645;
 
 /// Returns a polynomial divided by its value at 1, limited to 0 … 1.

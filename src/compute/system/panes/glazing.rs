@@ -106,6 +106,7 @@ pub fn behind(outer: Share, inner: Share) -> Share {
 mod tests {
     use super::*;
 
+    /// Clear pane with the usual index and thickness of float glass, to which the expected figures belong.
     const CLEAR: Pane = Pane { index: 1.52, thickness: 0.004, absorption: 0.0 };
 
     #[test]

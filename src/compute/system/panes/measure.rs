@@ -22,9 +22,11 @@ pub struct Panes {
     pub layers: Vec<Layer>,
 }
 
-/// Orders of the quadrature over θ: for the values, and for the estimate of their error.
+/// Orders of the quadrature over θ: for the values, and for the estimate of their error. Gauss–Legendre rules of n
+/// points integrate polynomials of degree 2n − 1 exactly; uncoated panes are smooth enough for both to agree to 1e-14.
 const ORDERS: [usize; 2] = [64, 40];
-/// Number of steps of the tables over θ: half a degree each.
+/// Number of steps of the tables over θ: half a degree each. Chosen: cost; the cubics between them give uncoated panes
+/// to 2e-6 up to 85°, to 1e-3 within the last half degree, which receives 8e-5 of uniform light.
 const STEPS: usize = 180;
 
 impl Panes {

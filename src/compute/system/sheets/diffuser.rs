@@ -51,7 +51,7 @@ impl Family for Diffuser {
     }
 
     fn drawing(&self, _: &str) -> Polygons {
-        // The description has no thickness.
+        /// Thickness as drawn; the description has none. \[m\] Chosen: affects drawings only, no figure.
         const SHEET: f64 = 0.004;
         vec![rectangle([-SHEET, 0.0], [0.0, PIECE])]
     }

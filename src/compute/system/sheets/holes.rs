@@ -12,6 +12,8 @@ use faer::Mat;
 use std::f64::consts::PI;
 
 /// Numbers of patches through the thickness for single directions; the difference between the two gives the error.
+/// Chosen: cost; results change within their stated error. Held below 0.01 by the test
+/// `single_directions_have_the_mean_that_is_measured_and_lose_nothing`.
 const DEPTH: [usize; 2] = [4, 8];
 
 /// Perforated sheet with cached results on its walls.

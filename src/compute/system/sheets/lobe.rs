@@ -20,15 +20,19 @@ pub struct Lobe {
 /// Point of the lobe: direction cosines, and the factor d.
 type Point = ([f64; 2], f64);
 
-/// Distance of points in a cell where both ends are averaged, in standard deviations of the lobe.
+/// Distance of points in a cell where both ends are averaged, in standard deviations of the lobe. Chosen; held to 0.015
+/// of the light by the test `single_directions_have_their_shares_and_the_measured_mean` of `sheet`.
 const STEP: f64 = 0.8;
-/// Maximum number of points along either side of a cell, and of Gauss' nodes.
+/// Maximum number of points along either side of a cell, and of Gauss' nodes. Chosen: cost; on Klems cells, 0.52 wide
+/// at most, the first limits lobes narrower than 0.52/(24 · 0.8) = 0.027, and the second no lobe that is allowed (above
+/// 0.01).
 const MOST: [usize; 2] = [24, 100];
 /// Number of Gauss' nodes along the side of a cell: a minimum, and a number per standard deviation of its length. In
-/// the middle of long sides they are 1.3 standard deviations apart.
+/// the middle of long sides they are 1.3 standard deviations apart. Chosen; held to 2e-4 of the light by the test
+/// `a_lobe_of_one_direction_is_cut_by_cells_where_the_gaussian_is` of `sheet`.
 const NODES: (f64, f64) = (2.0, 1.2);
 
-/// Exponent x from which exp(−x) counts as 0.
+/// Exponent x from which exp(−x) counts as 0: e⁻³⁰ ≈ 9e-14.
 const MOST_EXPONENT: f64 = 30.0;
 
 impl Lobe {

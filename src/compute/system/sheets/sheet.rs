@@ -133,11 +133,14 @@ impl Sheet {
 }
 
 /// Error of the totals of single directions: they are scaled to the tables, which reproduce their source to this error.
+/// Chosen: above the largest error of the cubics between half degrees, 1.2e-5 for a surface of index 1.49 (at 89.8°).
 const TOTALS: f64 = 1e-4;
 
-/// Number of angles across a ring over which functions of θ are averaged.
+/// Number of angles across a ring over which functions of θ are averaged. Chosen: cost; midpoints in sin²θ give the
+/// transmittance of a surface to 6e-5 on the outermost Klems ring, where it is steepest, to 5e-7 on the others.
 const RING: usize = 128;
 /// Number of angles across a ring over which the shape of the light of single directions is averaged, on narrow rings.
+/// Chosen: cost; Gauss' nodes in sin²θ give the transmittance of a surface to 3e-4 on the outermost Klems ring.
 const NARROW: usize = 8;
 
 /// Returns the means over the cells of a function of θ; `rule`: nodes and weights across every ring.

@@ -20,15 +20,20 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Number of corners of the polygon that represents a circle of the same area.
+/// Number of corners of the polygon that represents a circle of the same area. Chosen: cost; from the circle its border
+/// departs by 0.6 % of the radius, its undeviated share by 2e-4 of the hole's area.
 const CIRCLE: usize = 24;
-/// Minimum number of patches around a hole.
+/// Minimum number of patches around a hole. Chosen; held by the test
+/// `a_deep_hole_with_white_walls_is_a_pipe_that_loses_nothing`, which compares with Clausing's probability.
 const AROUND: usize = 24;
-/// Numbers of patches through the thickness: the coarsest and the finest.
+/// Numbers of patches through the thickness: the coarsest and the finest. Chosen: cost; results change within their
+/// stated error, which is the change from the next coarser number.
 const DEPTH: [usize; 2] = [3, 12];
-/// Number of rays per patch for the exchange between patches.
+/// Number of rays per patch for the exchange between patches. Chosen: cost; independent rays would leave 1/√2048 ≈ 2 %
+/// of a patch's exchange, a lattice less. Held by the tests of [`AROUND`] and `balance_and_reciprocity_of_every_shape`.
 const RAYS: usize = 2048;
-/// Number of rounds of scaling that make the exchange reciprocal.
+/// Number of rounds of scaling that make the exchange reciprocal. Each round halves the deficit: 2⁻⁵⁰ ≈ 1e-15 of it,
+/// the rounding of f64, is left.
 const ROUNDS: usize = 50;
 
 /// Computes the means over the cells of a setting, with the walls cut finer until its error is met.

@@ -14,7 +14,7 @@ use crate::compute::system::family::{Family, OpticalModelError, Polygons};
 use crate::compute::system::measure::{Beam, Measured, OpticalModel, Quality, ScatteredLight, Setting, Side};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Pitch of the yarns as drawn; the description has none. \[m\]
+/// Pitch of the yarns as drawn; the description has none. \[m\] Chosen: affects drawings only, no figure.
 const YARN_PITCH: f64 = 0.001;
 
 /// Fabric described by its openness.
@@ -74,6 +74,7 @@ impl Family for Woven {
 
     /// Returns a yarn of a plain weave: with the pitch p its threads of width d leave (1 − d/p)² open.
     fn drawing(&self, _: &str) -> Polygons {
+        /// Number of corners of a yarn's section as drawn. Chosen: affects drawings only, no figure.
         const CORNERS: usize = 32;
         let radius = 0.5 * YARN_PITCH * (1.0 - self.openness.max(0.0).sqrt());
         let corner = |k: usize| {

@@ -13,13 +13,16 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::f64::consts::PI;
 
-/// Number of bins of x, of equal width in its angle.
+/// Number of bins of x, of equal width in its angle: 1.5°. Chosen; held to 2e-3 by the test
+/// `kernels_keep_energy_and_are_those_of_the_sphere`.
 pub(super) const BINS: usize = 120;
-/// Maximum number of kernels.
+/// Maximum number of kernels. Chosen: memory and cost; between kernels the variance is interpolated. Held to 0.03 of
+/// the mean direction by the test `a_rough_sheet_scatters_by_steps_on_spheres` of `rough`.
 const LEVELS: i32 = 8;
-/// Variance from which nothing is left of the original direction. \[rad²\]
+/// Variance from which nothing is left of the original direction. \[rad²\] The term that decays most slowly, U₁, is
+/// then e^(−3·8/2) ≈ 6e-6.
 const ALL: f64 = 8.0;
-/// Variance below which the spread is finer than the bins. \[rad²\]
+/// Variance below which the spread is finer than the bins. \[rad²\] A standard deviation of 0.3°, a fifth of a bin.
 const NONE: f64 = 3e-5;
 
 /// Kernels between bins, by rising variance.

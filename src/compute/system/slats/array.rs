@@ -51,7 +51,7 @@ pub struct SlatArray {
     lower: Surface,
 }
 
-/// Maximum number of points of a described profile.
+/// Maximum number of points of a described profile. Chosen: limit of input; larger values are refused.
 const MOST_POINTS: usize = 400;
 
 fn check(key: &'static str, value: f64, right: bool, allowed: impl Into<String>) -> Result<(), SlatError> {

@@ -18,7 +18,8 @@ pub(super) struct Direct {
     knots: Vec<f64>,
 }
 
-/// Number of pieces of an arc's outline where thickness turns it into a polygon.
+/// Number of pieces of an arc's outline where thickness turns it into a polygon. Chosen: cost; the pieces miss the arc
+/// by 1/256² ≈ 1.5e-5 of its rise (2e-5 for half a circle).
 const OUTLINE: usize = 256;
 
 impl SlatArray {
@@ -75,6 +76,8 @@ impl Direct {
         slopes.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
         let mut knots = slopes.clone();
         let closed = |psi: f64| self.profile.clearance(self.tilt, self.pitch, psi) < 0.0;
+        /// Number of steps between two slopes in which the share is searched for zeros, at most 2.8° wide. Chosen; held
+        /// by `tests/compute/goniophotometer_slats.rs::the_direct_share_is_exact_in_every_cell` (1e-5).
         const SCAN: usize = 64;
         for pair in slopes.windows(2) {
             let step = (pair[1] - pair[0]) / SCAN as f64;

@@ -16,12 +16,16 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use rayon::prelude::*;
 
-/// Numbers of coarse strips per slat: at the start, and at most.
+/// Numbers of coarse strips per slat: at the start, and at most. Chosen: cost; they are doubled until a tenth of the
+/// allowed error is met, and the error that remains is stated. At ρ = 0.95, before extrapolation, 20 strips leave 6e-4
+/// in τ, 40 leave 1e-4.
 const PARTS: [usize; 2] = [16, 128];
 /// Minimum number of coarse strips where mirrors are curved: strips are chords, and light that passes a chord misses
-/// the arc.
+/// the arc, by 1/32² ≈ 0.1 % of its rise. Chosen; held by
+/// `tests/compute/goniophotometer_slats.rs::limits_of_shapes_meet` (2e-3).
 const CURVED: usize = 32;
-/// Number of coarse strips for light of one direction.
+/// Number of coarse strips for light of one direction. Chosen; held by the test
+/// `single_directions_keep_the_balance_of_profile_angles` of `model` (2e-3 for matt slats).
 pub(super) const PARTS_BY_DIRECTION: usize = 32;
 
 /// Returns the step of the profile angle. \[rad\]
@@ -68,6 +72,7 @@ impl SlatArray {
 }
 
 fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+    /// Key of the stage in reports of progress.
     const STAGE: &str = "slats";
     progress.advance(STAGE, 0, 4);
     let grid = ProfileGrid::new(step(array, setting));

@@ -58,11 +58,13 @@ pub(super) struct Group {
     pub(super) radius: f64,
 }
 
-/// Number of facets in a group.
+/// Number of facets in a group. Chosen: cost only, no effect on results.
 const GROUP: usize = 6;
 
 impl Group {
     fn of(facets: &[Facet], range: std::ops::Range<usize>) -> Self {
+        /// Number of chords of an arc whose ends are bounded; `bulge` covers the rest. Chosen: cost only, no effect on
+        /// results.
         const ALONG: usize = 64;
         let on_arc = |circle: &Circle| (0..=ALONG).map(|k| circle.at(k as f64 / ALONG as f64)).collect();
         let of = |facet: &Facet| facet.circle.as_ref().map_or_else(|| vec![facet.a, facet.b], on_arc);

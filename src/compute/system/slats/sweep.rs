@@ -48,9 +48,10 @@ struct StripView {
     along: Option<usize>,
 }
 
-/// Width below which a bundle is rounding. In pitches.
+/// Width below which a bundle is rounding. In pitches. Some 450 roundings of f64 (2⁻⁵² ≈ 2.2e-16) of one pitch.
 const NARROW: f64 = 1e-13;
-/// Distance along a line below which sheets lie in one another; the lower slat then is the inner one. In pitches.
+/// Distance along a line below which sheets lie in one another; the lower slat then is the inner one. In pitches. Above
+/// all rounding of f64, and 0.1 nm at a pitch of 0.1 m.
 const TOUCHING: f64 = 1e-9;
 
 /// Returns the distance of a point to the left of the direction (cos, sin), and along it.

@@ -14,7 +14,8 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Maximum share of light that is neglected in all, each for arrivals of little light at the layers and for beams too
-/// many to be followed; it counts as absorbed.
+/// many to be followed; it counts as absorbed. Chosen: cost; small beside the error of 0.01 that the layers are
+/// allowed.
 const NEGLECTED: f64 = 1e-4;
 
 /// Cache of results for all directions.

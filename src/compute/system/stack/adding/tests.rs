@@ -10,6 +10,7 @@ use crate::compute::system::panes::{Panes, coated, glazing};
 use crate::compute::system::sheets::diffuser;
 use crate::compute::system::slats::{SlatArray, SlatModel, SlatProfile, Surface};
 
+/// Pane that absorbs a little, with the usual index and thickness of float glass; its closed form is compared.
 const CLEAR: glazing::Pane = glazing::Pane { index: 1.52, thickness: 0.004, absorption: 10.0 };
 
 /// A layer known by its data alone.
