@@ -16,7 +16,8 @@ const STEEP: f64 = 0.3;
 /// Share of the largest intensity up to which light never counts as narrow. Chosen: cost; light that dim is left as it
 /// is.
 const DIM: f64 = 0.02;
-/// Points per side of the tile, for a mean over it and over the node's cell. Chosen: cost; a prime, see [`mean`]; else as [`STEEP`].
+/// Points per side of the tile, for a mean over it and over the node's cell. Chosen: cost, see [`STEEP`]; a prime, see
+/// [`mean`].
 const POINTS: usize = 7;
 /// Maximum number of parts into which the regular step is divided where light is narrow. Chosen: size of the files; see
 /// [`STEEP`].
