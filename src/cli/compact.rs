@@ -67,8 +67,8 @@ pub(super) fn criterion(by: By, threshold: &str) -> anyhow::Result<Criterion> {
     let made = match (by, threshold) {
         (By::Misplaced, "archive") => Criterion::ARCHIVE,
         (By::Misplaced, "normal") => Criterion::NORMAL,
-        (_, "archive") => bail!("--threshold archive is a limit of misplaced flux; give a percentage with --by"),
-        (_, "normal") => bail!("--threshold normal is a limit of misplaced flux; give a percentage with --by"),
+        (_, "archive") => bail!("--threshold archive belongs to --by misplaced; give a percentage, as --threshold 1 %"),
+        (_, "normal") => bail!("--threshold normal belongs to --by misplaced; give a percentage, as --threshold 1 %"),
         (by, text) => {
             let number: f64 = text.trim_end_matches('%').trim().parse().map_err(|_| {
                 anyhow!("--threshold {text}: not a number; expected a percentage, `archive` or `normal`")

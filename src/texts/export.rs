@@ -42,7 +42,7 @@ texts! {
     const OUTSIDE = "outside" | "außen";
     const INSIDE = "inside" | "innen";
     fn scale_bar(length) = "{length} mm" | "{length} mm";
-    fn scale_bar_above(length) = "{length} mm, seen from above" | "{length} mm, von oben gesehen";
+    fn scale_bar_above(length) = "scale {length} mm, seen from above" | "Maßstab {length} mm, von oben gesehen";
     const ZENITH_ANGLE = "zenith angle" | "Zenitwinkel";
     const SKY = "sky" | "Himmel";
     const SUN = "sun" | "Sonne";
@@ -163,7 +163,7 @@ texts! {
     fn accuracy_reached(reached, data) = "Largest stated relative uncertainty, without dark points (below 1 % of the mean): {reached} %. Uncertainty from the data: {data} % of the light." | "Größte angegebene relative Unsicherheit, ohne dunkle Punkte (unter 1 % des Mittels): {reached} %. Unsicherheit durch die Daten: {data} % des Lichts.";
     fn accuracy_asked(target) = " Target: {target} %." | " Zielwert: {target} %.";
     const STAGE = "stage" | "Schritt";
-    const WHAT_WAS_DONE = "computation" | "Rechnung";
+    const WHAT_WAS_DONE = "computation" | "Berechnung";
     fn stage_computed(reason) = "computed: {reason}" | "berechnet: {reason}";
     fn stage_left_out(reason) = "skipped: {reason}" | "ausgelassen: {reason}";
     fn beam_of_window(number) = "direct sunlight, aperture {number}" | "direktes Sonnenlicht, Öffnung {number}";

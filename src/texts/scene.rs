@@ -97,7 +97,7 @@ texts! {
     const TO_Z = "To z" | "Bis z";
     const GROUND_HEIGHT = "Ground height" | "Höhe des Bodens";
     const BOX_TURN = "Rotation" | "Drehung";
-    const SELF_LUMINOUS = "Set luminance" | "Leuchtdichte festlegen";
+    const SELF_LUMINOUS = "Fixed luminance" | "Feste Leuchtdichte";
     const SELF_LUMINOUS_TIP = "Gives all faces the same luminance, whatever light falls on them; if off, sky, sun and ground light them" | "Gibt allen Flächen dieselbe Leuchtdichte, unabhängig vom Licht darauf; sonst beleuchten sie Himmel, Sonne und Boden";
     const LUMINANCE = "Luminance" | "Leuchtdichte";
     const REFLECTANCE = "Reflectance" | "Reflexionsgrad";

@@ -164,7 +164,7 @@ texts! {
     const LUMINAIRE_FILES = "Luminaire files" | "Leuchtendateien";
     const TABLE_OR_DIAGRAM = "Table or diagram" | "Tabelle oder Diagramm";
     fn export_titled(tile) = "Export {tile}" | "{tile} exportieren";
-    const NUMBERS = "Numbers" | "Zahlen";
+    const NUMBERS = "Table of values (CSV)" | "Wertetabelle (CSV)";
     const PACKAGE_OF_ALL = "Package of all states" | "Paket aller Stellungen";
     const BTDF_TEXT = "BTDF text" | "BTDF-Text";
     const BSDF = "BSDF" | "BSDF";

@@ -134,7 +134,7 @@ texts! {
     const STAGE_DIRECT = "direct" | "direkt";
     const STAGE_RECEPTIONS = "light at points" | "Licht an den Punkten";
     const STAGE_ROOM_FACTORS = "room factors" | "Raumfaktoren";
-    const STAGE_UNSEEN_CELLS = "unseen patches" | "ungesehene Felder";
+    const STAGE_UNSEEN_CELLS = "directions that reach no sensor" | "Richtungen, die keinen Punkt treffen";
     const BEAM_NONE = "none" | "keines";
     const BEAM_DESCRIBED = "from description" | "aus Beschreibung";
     const BEAM_EXTRACTED = "extracted" | "extrahiert";
@@ -155,7 +155,7 @@ texts! {
     const BUILDING_UNNAMED = "no [building] specified: of the building only the obstruction boxes shade the ground" | "kein [building] angegeben: Vom Gebäude beschatten nur die Quader den Boden";
     fn past_outside(number) = "aperture {number}: all calculation points see the sky through it past the obstructions" | "Öffnung {number}: Alle Berechnungspunkte sehen durch sie an den Verbauungen vorbei";
     fn outside_alike(number, change) = "aperture {number}: not subdivided, its points see the same obstructions (light changes by {change} %)" | "Öffnung {number}: nicht unterteilt, ihre Punkte sehen dieselben Verbauungen (das Licht ändert sich um {change} %)";
-    fn outside_one_part(number, change) = "aperture {number}: subdivided into one part with its own view of the obstructions; within it light changes smoothly by up to {change} %" | "Öffnung {number}: ein Teil mit eigener Sicht auf die Verbauungen; in ihm ändert sich das Licht stetig um bis zu {change} %";
+    fn outside_one_part(number, change) = "aperture {number}: subdivided into one part with its own view of the obstructions; within it light changes smoothly by up to {change} %" | "Öffnung {number}: ungeteilt, mit einer Sicht auf die Verbauungen; in ihr ändert sich das Licht stetig um bis zu {change} %";
     fn outside_parts(number, parts, change) = "aperture {number}: subdivided into {parts} parts, each with its own view of the obstructions; within a part light changes smoothly by up to {change} %" | "Öffnung {number}: in {parts} Teile mit je eigener Sicht auf die Verbauungen unterteilt; in einem Teil ändert sich das Licht stetig um bis zu {change} %";
     fn sun_on_all(number) = "aperture {number}: fully sunlit" | "Öffnung {number}: ganz besonnt";
     fn sun_on_none(number) = "aperture {number}: fully shaded by obstructions" | "Öffnung {number}: ganz von Verbauungen beschattet";
@@ -180,7 +180,7 @@ texts! {
     const AXIS_REFERENCE = "error to reference" | "Abweichung vom Bezug";
     fn finest_direct(target, stated, rms, max) = "Reference of the direct illuminance: finest run of the default method, error target {target}, states {stated}; the second finest differs from it by {rms} RMS, {max} at most. This does not show what the method or the data neglect." | "Bezug der direkten Beleuchtungsstärke: der feinste Lauf des Vorgabeverfahrens, Zielwert der Unsicherheit {target}, gibt {stated} an; der zweitfeinste weicht um {rms} RMS ab, höchstens {max}. Was Verfahren oder Daten vernachlässigen, zeigt sich so nicht.";
     fn finest_total(target, stated, rms, max) = "Reference of the total illuminance: finest run of the default method, error target {target}, states {stated}; the second finest differs from it by {rms} RMS, {max} at most. This does not show what the method or the data neglect." | "Bezug der gesamten Beleuchtungsstärke: der feinste Lauf des Vorgabeverfahrens, Zielwert der Unsicherheit {target}, gibt {stated} an; der zweitfeinste weicht um {rms} RMS ab, höchstens {max}. Was Verfahren oder Daten vernachlässigen, zeigt sich so nicht.";
-    fn given_direct(name, stated) = "Reference of the direct illuminance: {name}, with a stated uncertainty of {stated} or better." | "Bezug der direkten Beleuchtungsstärke: {name}, mit einer angegebenen Unsicherheit von {stated} oder besser.";
+    fn given_direct(name, stated) = "Reference of the direct illuminance: {name}, with a stated uncertainty of {stated} or better." | "Referenz der direkten Beleuchtungsstärke: {name}, mit einer angegebenen Unsicherheit von {stated} oder besser.";
     fn given_total(name, stated) = "Reference of the total illuminance: {name}, with a stated uncertainty of {stated} or better." | "Bezug der gesamten Beleuchtungsstärke: {name}, mit einer angegebenen Unsicherheit von {stated} oder besser.";
     fn undetermined_finest(open, stated, difference) = "no error reported: the finest run hardly refines this one (it states {open}, this one {stated}, they differ by {difference})" | "keine Abweichung angegeben: Der feinste Lauf verfeinert diesen kaum (er gibt {open} an, dieser {stated}, sie weichen um {difference} voneinander ab)";
     fn undetermined_given(name, open, stated, difference) = "no error reported: {name} itself is uncertain by {open}, this run states {stated}, they differ by {difference}" | "keine Abweichung angegeben: {name} ist selbst um {open} unsicher, dieser Lauf gibt {stated} an, sie weichen um {difference} voneinander ab";

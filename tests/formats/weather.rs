@@ -250,7 +250,7 @@ fn tables_keep_what_light_needs() {
         ("13,700.5", "25,700.5", "value 1 (hour): \"25\""),
         ("13,700.5,100", "13,9999,100", "value 2 (direct normal irradiance): \"9999\""),
         ("2005-06-21", "2005-06-31", "day: \"31\""),
-        ("\n2005-06-21", "", "before its hours"),
+        ("\n2005-06-21", "", "before those of its hours"),
         ("latitude = 48.5\n", "", "latitude: missing"),
         ("clock = -30", "clock = -300", "clock: \"-300\""),
         ("region", "regoin", "a key and its value"),

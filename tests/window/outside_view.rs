@@ -248,7 +248,7 @@ fn boxes_are_added_typed_doubled_and_taken_away_in_the_panel() {
     assert_eq!(solid(&harness, 0).turn, 30.0);
     enter(&mut harness, "Reflectance", "0.65");
     assert_eq!(scene(&harness).outside[0].reflectance, Some(0.65));
-    harness.get_by_label("Set luminance").click();
+    harness.get_by_label("Fixed luminance").click();
     settle(&mut harness);
     let keys = &scene(&harness).outside[0];
     assert!(keys.reflectance.is_none() && keys.luminance.is_some_and(|luminance| luminance > 0.0));

@@ -103,7 +103,7 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
         } else if let Some(first) = records.len().checked_sub(24) {
             hour(&fields, &mut records[first..], &mut changed)?;
         } else {
-            return Err(fields[0].wrong("a day (YYYY-MM-DD) before its hours"));
+            return Err(fields[0].wrong("a row with the day (YYYY-MM-DD) before those of its hours"));
         }
         if records.len() > limits::WEATHER_RECORDS {
             break;
