@@ -85,7 +85,12 @@ pub fn read(path: &Path, set: Option<&str>) -> Result<LuminaireAperture, StudyEr
     let list = || names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
     let chosen = match (set, names.as_slice()) {
         (None, [only]) => only.clone(),
-        (None, _) => return Err(wrong(path, format!("a series of {} sets; select one as set = \"…\"; it has {}", names.len(), list()))),
+        (None, _) => {
+            return Err(wrong(
+                path,
+                format!("a series of {} sets; select one as set = \"…\"; it has {}", names.len(), list()),
+            ));
+        }
         (Some(set), names) if names.iter().any(|name| name == set) => set.to_owned(),
         (Some(set), _) => return Err(wrong(path, format!("no set \"{set}\"; it has {}", list()))),
     };

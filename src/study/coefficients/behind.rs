@@ -10,6 +10,7 @@ use super::views::Opening;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, Surface};
+use crate::compute::dot::wide;
 use crate::compute::lid::Facing;
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::room::aperture::{Aperture, View};
@@ -26,7 +27,7 @@ use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::seen::{bands_of, check, inside, keeps, within_budget};
 use crate::study::session::sky_year::SkyYear;
-use faer::Mat;
+use faer::{ColMut, Mat};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -39,8 +40,8 @@ const CELL_SEEN: usize = 128;
 const NODES: usize = 3;
 /// Number of sensors whose weights are computed together.
 const TOGETHER: usize = 16;
-/// Number of luminances that are summed before they are stored. Chosen: memory only, no effect on results.
-const LUMINANCES: usize = 256;
+/// Number of sensors whose interreflected light is summed together. Chosen: memory only, no effect on results.
+const BLOCK: usize = 32;
 
 /// Obstructions in front of all apertures of a scene.
 pub(super) struct Behind {
@@ -123,20 +124,28 @@ impl Behind {
             seen.iter().for_each(|(place, counts)| by_luminance[*place as usize].push((number as u32, *counts)));
         }
         // One luminance after the other: its sums stay in the processor's cache.
-        let summed = |seen: &Counts| {
-            let mut sums = vec![0.0_f32; 3 * sensors];
-            for (number, counts) in seen {
-                let (node, p) = (*number as usize / columns.len(), *number as usize % columns.len());
-                for (sums, row) in sums.chunks_exact_mut(sensors).zip(columns[p].light.chunks_exact(places)) {
-                    sums.iter_mut().zip(&row[node * sensors..]).for_each(|(sum, e)| *sum += counts * *e as f32);
+        for first in (0..sensors).step_by(BLOCK) {
+            let block = BLOCK.min(sensors - first);
+            let mut light = Vec::with_capacity(by_node.len() * columns.len() * 3 * block);
+            for node in 0..by_node.len() {
+                let rows = columns.iter().flat_map(|column| column.light.chunks_exact(places));
+                rows.for_each(|row| light.extend(row[node * sensors + first..][..block].iter().map(|e| *e as f32)));
+            }
+            let summed = |(seen, table): (&Counts, ColMut<'_, f32>)| {
+                let mut sums = [0.0_f32; 3 * BLOCK];
+                let sums = &mut sums[..3 * block];
+                wide(|| {
+                    for (number, counts) in seen {
+                        let light = &light[*number as usize * 3 * block..][..3 * block];
+                        sums.iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
+                    }
+                });
+                let table = table.try_as_col_major_mut().expect("columns of a matrix lie in one piece");
+                for (table, sums) in table.as_slice_mut().chunks_exact_mut(sensors).zip(sums.chunks_exact(block)) {
+                    table[first..][..block].copy_from_slice(sums);
                 }
-            }
-            sums
-        };
-        for (first, some) in by_luminance.chunks(LUMINANCES).enumerate() {
-            for (k, sums) in some.par_iter().map(summed).collect::<Vec<_>>().iter().enumerate() {
-                tables.col_as_slice_mut(first * LUMINANCES + k).copy_from_slice(sums);
-            }
+            };
+            by_luminance.par_iter().zip(tables.par_col_iter_mut()).for_each(summed);
         }
         let reflected = |column: &Column| {
             column.light.get(places..2 * places).unwrap_or_default().iter().map(|e| *e as f32).collect()
@@ -229,9 +238,11 @@ impl Past {
                 // By value, so that the lanes are added at once.
                 let light = light[point];
                 let seen = if light.iter().any(|e| *e != 0.0) { seen.as_slice() } else { &[] };
-                for (place, counts) in seen {
-                    sums[*place as usize].iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
-                }
+                wide(|| {
+                    for (place, counts) in seen {
+                        sums[*place as usize].iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
+                    }
+                });
             }
         }
         sums

@@ -56,6 +56,28 @@ pub(super) struct Question<'a> {
 /// Number of blocks into which few steps are divided among threads.
 const PIECES: usize = 16;
 
+/// Progress that counts the steps of all sets and blocks together.
+pub(super) struct Counted<'a> {
+    pub inner: &'a dyn Progress,
+    /// Number of steps finished before.
+    pub before: usize,
+    /// Number of all steps.
+    pub all: usize,
+}
+
+impl Progress for Counted<'_> {
+    fn advance(&self, stage: &'static str, done: usize, total: usize) {
+        match stage {
+            "hours" => self.inner.advance(stage, self.before + done, self.all),
+            _ => self.inner.advance(stage, done, total),
+        }
+    }
+
+    fn cancelled(&self) -> bool {
+        self.inner.cancelled()
+    }
+}
+
 /// Computes the illuminances of the chosen steps, given the states of all steps.
 ///
 /// # Errors
@@ -82,23 +104,13 @@ pub(super) fn light(
         sets: groups.len(),
         dark: chosen.len() - lit,
     };
-    let done = AtomicUsize::new(0);
+    let mut done = 0;
     for (set, rows) in groups {
-        let scene = prepared(question, set)?;
-        let engine = Engine::new(question, scene, rows.len(), progress)?;
-        let block = |rows: &[usize]| {
-            if progress.cancelled() {
-                return Err(StudyError::from(Cancelled));
-            }
-            let hour = |&row: &usize| Ok((chosen[row], question.steps.outside(chosen[row])?));
-            let found = engine.all(&rows.iter().map(hour).collect::<Result<Vec<_>, StudyError>>()?);
-            progress.advance("hours", done.fetch_add(rows.len(), Ordering::Relaxed) + rows.len(), lit);
-            Ok(rows.iter().copied().zip(found).collect::<Vec<_>>())
-        };
-        let together = rows.len().div_ceil(PIECES).min(TOGETHER);
-        let found: Vec<Vec<(usize, Found)>> =
-            rows.par_chunks(together).map(block).collect::<Result<_, StudyError>>()?;
-        for (row, found) in found.into_iter().flatten() {
+        let engine = Engine::new(question, prepared(question, set)?, rows.len(), progress)?;
+        let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
+        let found = engine.steps(question, &steps, &Counted { inner: progress, before: done, all: lit })?;
+        done += rows.len();
+        for (row, found) in rows.into_iter().zip(found) {
             let at = row * places;
             for (place, e) in found.light.into_iter().enumerate() {
                 light.values[at + place] = e.value;
@@ -156,7 +168,8 @@ pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, 
 pub(super) struct Found {
     /// Illuminance by all light at the places. \[lx\]
     pub light: Vec<Estimate>,
-    sun: Option<Vec<f64>>,
+    /// Illuminance by direct sun alone, if it is requested and transmitted. \[lx\]
+    pub sun: Option<Vec<f64>>,
 }
 
 /// Index of a step of the year, with its outside and sun.
@@ -203,6 +216,31 @@ impl Engine {
     /// Computes one step of the year.
     pub fn at(&self, hour: usize, outside: (Outside, Option<Sun>)) -> Found {
         self.all(&[(hour, outside)]).swap_remove(0)
+    }
+
+    /// Computes steps of the year in parallel, in their order.
+    ///
+    /// # Errors
+    /// Returns an error if the weather of a step is wrong, or if cancelled.
+    pub fn steps(
+        &self,
+        question: &Question<'_>,
+        steps: &[usize],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Found>, StudyError> {
+        let done = AtomicUsize::new(0);
+        let block = |block: &[usize]| {
+            if progress.cancelled() {
+                return Err(StudyError::from(Cancelled));
+            }
+            let hour = |&step: &usize| Ok((step, question.steps.outside(step)?));
+            let found = self.all(&block.iter().map(hour).collect::<Result<Vec<_>, StudyError>>()?);
+            progress.advance("hours", done.fetch_add(block.len(), Ordering::Relaxed) + block.len(), steps.len());
+            Ok(found)
+        };
+        let together = steps.len().div_ceil(PIECES).clamp(1, TOGETHER);
+        let found: Vec<Vec<Found>> = steps.par_chunks(together).map(block).collect::<Result<_, StudyError>>()?;
+        Ok(found.into_iter().flatten().collect())
     }
 
     /// Computes several steps of the year.

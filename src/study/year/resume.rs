@@ -5,7 +5,7 @@
 //! longer than [`STORE_DELAY`], and removed when the table is complete. A line that was incomplete when the run ended
 //! is written again. Results from the hours (glare, solar energy, figures) are not stored.
 
-use super::light::{self, Light, Question};
+use super::light::{Counted, Engine, Found, Light, Question, prepared};
 use crate::compute::estimate::Progress;
 use crate::study::error::StudyError;
 use std::collections::BTreeMap;
@@ -208,27 +208,7 @@ fn locked(file: &File, path: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Progress that counts the hours of all blocks together.
-struct Counted<'a> {
-    inner: &'a dyn Progress,
-    before: usize,
-    all: usize,
-}
-
-impl Progress for Counted<'_> {
-    fn advance(&self, stage: &'static str, done: usize, total: usize) {
-        match stage {
-            "hours" => self.inner.advance(stage, self.before + done, self.all),
-            _ => self.inner.advance(stage, done, total),
-        }
-    }
-
-    fn cancelled(&self) -> bool {
-        self.inner.cancelled()
-    }
-}
-
-/// Computes the illuminances of all hours like [`light::light`], but reads finished hours from the file and appends new
+/// Computes the illuminances of all hours like [`super::light::light`], but reads finished hours from the file and appends new
 /// ones to it.
 pub(super) fn light(
     question: &Question<'_>,
@@ -242,20 +222,22 @@ pub(super) fn light(
     for &k in chosen.iter().filter(|&&k| question.settings.asks(&question.steps.list[k])) {
         sets.entry(&states[k]).or_default().push(k);
     }
-    let all: usize = sets.values().map(Vec::len).sum();
+    let (count, all) = (sets.len(), sets.values().map(Vec::len).sum());
     let mut done = chosen.iter().filter(|k| kept.hours.contains_key(*k)).count();
-    for steps in sets.values() {
+    for (set, steps) in sets {
         let missing: Vec<usize> = steps.iter().copied().filter(|k| !kept.hours.contains_key(k)).collect();
+        if missing.is_empty() {
+            continue;
+        }
+        let engine = Engine::new(question, prepared(question, set)?, steps.len(), progress)?;
         let (mut at, mut block) = (0, FIRST);
         while at < missing.len() {
             let part = &missing[at..(at + block).min(missing.len())];
             let clock = Instant::now();
-            let found = light::light(question, states, part, &Counted { inner: progress, before: done, all })?;
-            for (row, &k) in part.iter().enumerate() {
-                let own = |all: &[f64]| all[row * places..][..places].to_vec();
-                let hour =
-                    Hour { values: own(&found.values), errors: own(&found.errors), sun: found.sun.as_deref().map(own) };
-                kept.keep(k, hour);
+            let found = engine.steps(question, part, &Counted { inner: progress, before: done, all })?;
+            for (&k, Found { light, sun }) in part.iter().zip(found) {
+                let (values, errors) = light.iter().map(|e| (e.value, e.error)).unzip();
+                kept.keep(k, Hour { values, errors, sun });
             }
             kept.write()?;
             (at, done) = (at + part.len(), done + part.len());
@@ -268,7 +250,7 @@ pub(super) fn light(
         values: vec![0.0; places * chosen.len()],
         errors: vec![0.0; places * chosen.len()],
         sun: None,
-        sets: sets.len(),
+        sets: count,
         dark: chosen.len() - all,
     };
     for (row, k) in chosen.iter().enumerate() {
