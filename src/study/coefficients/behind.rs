@@ -22,6 +22,7 @@ use crate::compute::room::through;
 use crate::compute::sky::{Counts, Frame, Outside, Prepared, SparseSum, Sun};
 use crate::compute::surroundings::Surroundings;
 use crate::compute::system::measure::ProfileLight;
+use crate::study::cache::Cache;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
@@ -96,7 +97,8 @@ impl Behind {
     }
 
     /// Prepares an aperture and returns its columns by luminance, with rows of all sensors as in
-    /// [`super::part::Sums`]. `columns`: interreflected light of every patch, node by node.
+    /// [`super::part::Sums`]. `columns`: interreflected light of every patch, node by node. `direct`: cache of direct
+    /// light by aperture, while the room's meshes become finer.
     ///
     /// # Errors
     /// Returns an error if there are more sensors than fit, or if cancelled.
@@ -107,6 +109,7 @@ impl Behind {
         (patches, columns): (&RingBasis, &[Column]),
         sent: Option<Sent>,
         regular: Option<&AngularTransmittance>,
+        direct: &Cache<Mat<f32>>,
     ) -> Result<(Past, Mat<f32>), StudyError> {
         let (scene, sensors) = (opening.scene, opening.scene.sensors.len());
         let aperture = scene.apertures[opening.index].aperture;
@@ -117,31 +120,31 @@ impl Behind {
         let mut tables: Mat<f32> = Mat::zeros(3 * sensors, self.prepared.count());
         // Interreflected light.
         let places = sensors * nodes.count();
-        let by_node = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
-        let by_node = if columns.is_empty() { Arc::default() } else { by_node() };
-        let mut by_luminance: Vec<Counts> = vec![Counts::new(); self.prepared.count()];
-        for (number, seen) in by_node.iter().flatten().enumerate() {
-            seen.iter().for_each(|(place, counts)| by_luminance[*place as usize].push((number as u32, *counts)));
-        }
-        // One luminance after the other: its sums stay in the processor's cache.
+        let by_luminance = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
+        let by_luminance = if columns.is_empty() { Arc::default() } else { by_luminance() };
+        // The columns hold interreflected light and its uncertainty; all light is the same as interreflected light. One
+        // luminance after the other: its sums stay in the processor's cache.
         for first in (0..sensors).step_by(BLOCK) {
             let block = BLOCK.min(sensors - first);
-            let mut light = Vec::with_capacity(by_node.len() * columns.len() * 3 * block);
-            for node in 0..by_node.len() {
-                let rows = columns.iter().flat_map(|column| column.light.chunks_exact(places));
+            let mut light = Vec::with_capacity(nodes.count() * columns.len() * 2 * block);
+            for node in 0..nodes.count() {
+                let rows = columns.iter().flat_map(|column| column.light.chunks_exact(places).skip(1));
                 rows.for_each(|row| light.extend(row[node * sensors + first..][..block].iter().map(|e| *e as f32)));
             }
-            let summed = |(seen, table): (&Counts, ColMut<'_, f32>)| {
-                let mut sums = [0.0_f32; 3 * BLOCK];
-                let sums = &mut sums[..3 * block];
+            let summed = |(seen, table): (&Vec<Counts>, ColMut<'_, f32>)| {
+                let mut sums = [0.0_f32; 2 * BLOCK];
+                let sums = &mut sums[..2 * block];
                 wide(|| {
-                    for (number, counts) in seen {
-                        let light = &light[*number as usize * 3 * block..][..3 * block];
-                        sums.iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
+                    for (node, seen) in seen.iter().enumerate() {
+                        for (p, counts) in seen {
+                            let light = &light[(node * columns.len() + *p as usize) * 2 * block..][..2 * block];
+                            sums.iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
+                        }
                     }
                 });
                 let table = table.try_as_col_major_mut().expect("columns of a matrix lie in one piece");
-                for (table, sums) in table.as_slice_mut().chunks_exact_mut(sensors).zip(sums.chunks_exact(block)) {
+                let rows = table.as_slice_mut().chunks_exact_mut(sensors);
+                for (table, sums) in rows.zip([0, 0, 1].map(|row| &sums[row * block..][..block])) {
                     table[first..][..block].copy_from_slice(sums);
                 }
             };
@@ -165,16 +168,32 @@ impl Behind {
             reflected: columns.iter().map(reflected).collect(),
             sent,
         };
-        // Direct light.
+        let direct = direct.get(vec![opening.index as u64], || self.direct(opening, &past, &by_point, regular))?;
+        for (to, light) in tables.col_iter_mut().zip(direct.col_iter()) {
+            to.subrows_mut(0, sensors).iter_mut().zip(light.iter()).for_each(|(to, e): (&mut f32, &f32)| *to += e);
+        }
+        Ok((past, tables))
+    }
+
+    /// Returns the weights of luminances in direct light: rows of sensors, columns of luminances. \[sr\]
+    fn direct(
+        &self,
+        opening: &Opening<'_>,
+        past: &Past,
+        by_point: &[Vec<Counts>],
+        regular: Option<&AngularTransmittance>,
+    ) -> Result<Mat<f32>, StudyError> {
+        let sensors = past.sensors.len();
+        let mut tables = Mat::zeros(sensors, self.prepared.count());
         let scattered = |first: usize| {
             check(opening.progress)?;
-            Ok((first, past.scattered(first, &by_point, self.prepared.count())))
+            Ok((first, past.scattered(first, by_point, self.prepared.count())))
         };
         let blocks = (0..sensors).into_par_iter().step_by(TOGETHER).map(scattered);
         for (first, weights) in blocks.collect::<Result<Vec<_>, StudyError>>()? {
             for (place, weights) in weights.iter().enumerate() {
-                let to = &mut tables.col_as_slice_mut(place)[first..sensors];
-                to.iter_mut().zip(weights).for_each(|(to, counts)| *to += counts);
+                let to: &mut [f32] = &mut tables.col_as_slice_mut(place)[first..];
+                to.iter_mut().zip(weights).for_each(|(to, counts)| *to = *counts);
             }
         }
         if let Some(tau) = regular {
@@ -187,7 +206,7 @@ impl Behind {
                 row.iter().for_each(|(place, counts)| tables[(s, *place as usize)] += counts);
             }
         }
-        Ok((past, tables))
+        Ok(tables)
     }
 
     /// Returns the weights of luminances at a sensor that it sees through a regular transmittance. \[sr\]
@@ -380,7 +399,7 @@ pub(crate) fn seen_by_points(
     session.seen_patches((prepared, 0), &eyes, patches, find)
 }
 
-/// Returns weights of luminances by patch at nodes, from those at the points of a grid, computed or kept. \[sr\]
+/// Returns weights of patches by luminance and node, from those at the points of a grid, computed or kept. \[sr\]
 fn seen_by_nodes(
     opening: &Opening<'_>,
     prepared: &Prepared,
@@ -399,7 +418,16 @@ fn seen_by_nodes(
         };
         (0..patches.len()).map(of_patch).collect()
     };
-    let find = || nodes.of_grid(grid).par_iter().map(of_node).collect();
+    let find = || {
+        let by_node: Vec<Vec<Counts>> = nodes.of_grid(grid).par_iter().map(of_node).collect();
+        let mut by_luminance = vec![vec![Counts::new(); nodes.count()]; prepared.count()];
+        for (node, by_patch) in by_node.iter().enumerate() {
+            for (p, seen) in by_patch.iter().enumerate() {
+                seen.iter().for_each(|(k, counts)| by_luminance[*k as usize][node].push((p as u32, *counts)));
+            }
+        }
+        by_luminance
+    };
     opening.session.seen_patches((prepared, nodes.count() as u64), &eyes, patches, find)
 }
 

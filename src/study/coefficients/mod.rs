@@ -30,6 +30,7 @@ mod sun_way;
 mod transport;
 mod views;
 
+use super::cache::Cache;
 use super::error::StudyError;
 use super::scene::Scene;
 use super::scene_file::ORDINARY_TARGET;
@@ -47,6 +48,7 @@ use crate::compute::sky::perez::PerezState;
 use crate::compute::sky::{Distribution, Outside, Prepared, Sun};
 use behind::Behind;
 pub(super) use behind::seen_by_points;
+use faer::Mat;
 pub(super) use part::TOGETHER;
 use part::{AperturePart, Sums, Way};
 pub(super) use sent::Sent;
@@ -133,8 +135,9 @@ impl Coefficients {
             || scene.room.walls > 0.0
             || scene.room.ceiling > 0.0
             || scene.apertures.iter().any(|a| a.reflectance > 0.0);
+        let direct = Cache::new(scene.apertures.len());
         if !(scene.interreflection && reflects) {
-            let mut coefficients = Self::with(session, scene, prepared, None, progress)?;
+            let mut coefficients = Self::with(session, scene, prepared, None, &direct, progress)?;
             coefficients.add_data_uncertainty(session, progress)?;
             return Ok(coefficients);
         }
@@ -144,7 +147,7 @@ impl Coefficients {
         loop {
             progress.advance("coefficients", turn, turns);
             let room = session.responses(scene, PATCHES[turn], progress)?;
-            let mut coefficients = Self::with(session, scene, prepared, Some(room), progress)?;
+            let mut coefficients = Self::with(session, scene, prepared, Some(room), &direct, progress)?;
             turn += 1;
             let light = coefficients.sky_estimate(&scene.outside);
             let mean = light.iter().map(|e| e.value).sum::<f64>() / light.len().max(1) as f64;
@@ -160,6 +163,7 @@ impl Coefficients {
         scene: &Scene,
         prepared: Option<&Arc<Prepared>>,
         room: Option<Responses>,
+        direct: &Cache<Mat<f32>>,
         progress: &dyn Progress,
     ) -> Result<Self, StudyError> {
         let behind = prepared.map(|prepared| Behind::new(Arc::clone(prepared)));
@@ -168,7 +172,7 @@ impl Coefficients {
                 let btdf = scene.apertures[index].transmission();
                 let btdf = btdf.expect("a resolved scene has only systems with transmission data");
                 let opening = Opening { session, scene, index, room: room.as_ref(), nodes: None, progress };
-                AperturePart::new(&opening, btdf, behind.as_ref())
+                AperturePart::new(&opening, btdf, behind.as_ref().map(|behind| (behind, direct)))
             })
             .collect::<Result<Vec<_>, _>>()?;
         let unit_beams = match &room {

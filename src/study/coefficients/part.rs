@@ -18,6 +18,7 @@ use crate::compute::quadrature::gauss_legendre;
 use crate::compute::room::sunlit_part::SunlitPart;
 use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::compute::system::measure::Side;
+use crate::study::cache::Cache;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
@@ -114,7 +115,12 @@ impl Sums {
 }
 
 impl AperturePart {
-    pub fn new(opening: &Opening<'_>, btdf: &Btdf, behind: Option<&Behind>) -> Result<Self, StudyError> {
+    /// Prepares an aperture. `behind`: obstructions, and a cache of direct light by aperture.
+    pub fn new(
+        opening: &Opening<'_>,
+        btdf: &Btdf,
+        behind: Option<(&Behind, &Cache<Mat<f32>>)>,
+    ) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, .. } = *opening;
         let model = scene.apertures[index].system.model.as_ref().filter(|_| scene.beams);
         let described = model.map(|model| described_views(opening, model)).transpose()?;
@@ -139,7 +145,7 @@ impl AperturePart {
         let sun = SunWay::new(opening, btdf, model)?;
         let regular = btdf.regular.as_ref();
         let (sky, tables, gap) = match behind {
-            Some(behind) => {
+            Some((behind, direct)) => {
                 let through = described_through(session, scene, index);
                 let nodes = nodes(&scene.apertures[index].aperture);
                 let reflecting = Opening { nodes: Some(&nodes), ..*opening };
@@ -155,7 +161,7 @@ impl AperturePart {
                     Some((_, through)) => Some(Sent::described(&through.1)),
                     None => Sent::of_data(session, btdf, scene.interpolation, &patches),
                 };
-                let (past, tables) = behind.past(opening, nodes, (&patches, &columns), sent, regular)?;
+                let (past, tables) = behind.past(opening, nodes, (&patches, &columns), sent, regular, direct)?;
                 (Seen::Behind(Arc::clone(&behind.prepared), Box::new(past)), tables, gap)
             }
             None => {
